@@ -16,6 +16,7 @@
 #include "bundle/manifest_json.h"
 #include "bundle/read_file.h"
 #include "bundle/record_fields.h"
+#include "bundle/record_names.h"
 #include "bundle/write_file.h"
 #include "scene/system/diagnostics.h"
 
@@ -209,6 +210,7 @@ void write_manifest(const std::filesystem::path& bundle, const Manifest& manifes
   json["materials_checksum"] = fmt::format("{:016x}", checksum(materials));
   json["lights_checksum"] = fmt::format("{:016x}", checksum(lights));
   json.update(manifest_to_json(manifest));
+  if (Json names = names_to_json(manifest); !names.empty()) json["names"] = std::move(names);
   write_checked_json(file, json);
 }
 
@@ -223,6 +225,7 @@ Manifest read_manifest(const std::filesystem::path& bundle) {
     decode_materials(read_records(materials, materials_magic, json.at("materials_checksum")), materials,
                      manifest);
     decode_lights(read_records(lights, lights_magic, json.at("lights_checksum")), lights, manifest);
+    if (json.contains("names")) take_names(json.at("names"), manifest);
     check_manifest(manifest, file);
     return manifest;
   } catch (const Json::exception& e) {

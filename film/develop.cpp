@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "film/group_mix.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {
@@ -93,6 +94,7 @@ Picture develop(const Film& film) {
     else
       add_ids(film, layer, picture.layers);
   }
+  for (PictureChannel& channel : group_channels(film)) picture.layers.push_back(std::move(channel));
   constexpr std::uint64_t most_int = 0x7fffffff;
   picture.samples_per_pixel = static_cast<int>(std::min(most_samples, most_int));
   picture.origin = {.software = to_string(film.key().renderer),

@@ -14,6 +14,7 @@ struct PictureOrigin {
   std::string glazing;    // in which state it was set; empty: as the scene says
   std::string sampling;   // options that say how; empty: as usual
   std::string denoiser;   // with its version; empty: the noise is the render's
+  std::string groups;     // weights of groups of lights; empty: all 1
   int least_samples = 0;  // of a pixel
   // 16 numbers each, row by row, of matrices that take columns; empty where unknown.
   std::vector<float> world_to_camera, world_to_ndc;

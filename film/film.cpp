@@ -59,9 +59,10 @@ std::uint64_t pixels_of(const FilmSettings& s) {
 
 }  // namespace
 
-std::uint64_t film_bytes(const FilmSettings& settings, bool splats) {
+std::uint64_t film_bytes(const FilmSettings& settings, const FilmKey& key) {
   const std::uint64_t planes = plane_count + static_cast<std::uint64_t>(settings.spectrum.count) +
-                               sum_planes(settings.layers) + (splats ? sample_groups : 0);
+                               sum_planes(settings.layers) + planes_a_group * key.groups.names.size() +
+                               (key.splats ? sample_groups : 0);
   return pixels_of(settings) * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
                                 id_planes(settings.layers) * sizeof(std::int64_t));
 }
@@ -117,17 +118,39 @@ void Film::add(std::size_t plane, std::uint32_t pixel, const WideSum& quanta, co
                    wide_sum(value * w));
 }
 
-bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value, const Footprint* spread) {
+bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value, const Footprint* spread,
+                   std::span<const GroupLight> parts) {
+  assert(parts.empty() != key_.groups.any());
   const double x = std::abs(value.x), y = std::abs(value.y), z = std::abs(value.z);
   if (!accepts(x + y + z, std::max({x, y, z}))) return false;
   const std::uint64_t bits = dice(place(pixel), sample, value.x, value.y, value.z);
   const double quanta = power_of_two(-exponent_);
-  add(x_plane, pixel, rounded(quanta * value.x, bits), spread);
-  add(z_plane, pixel, rounded(quanta * value.z, bits >> 21), spread);
+  const WideSum in_x = rounded(quanta * value.x, bits), in_z = rounded(quanta * value.z, bits >> 21);
+  add(x_plane, pixel, in_x, spread);
+  add(z_plane, pixel, in_z, spread);
   const WideSum light = rounded(quanta * value.y, bits >> 42);
   add(y_planes + group(sample), pixel, light, spread);
+  if (!parts.empty()) [[unlikely]]
+    add_to_groups(pixel, sample, {in_x, light, in_z}, parts, spread);
   if (key_.photons.photons > 0) add_shared(sums_[first_batch() + batch_of(sample)], light);
   return true;
+}
+
+// `quanta`: X, Y, Z of the whole deposit.
+void Film::add_to_groups(std::uint32_t pixel, std::uint32_t sample, std::array<WideSum, 3> quanta,
+                         std::span<const GroupLight> parts, const Footprint* spread) {
+  const double a_quantum = power_of_two(-exponent_);
+  for (const GroupLight& part : parts.first(parts.size() - 1)) {
+    const std::array<double, 3> values{part.value.x, part.value.y, part.value.z};
+    const std::uint64_t bits = dice(place(pixel), sample, values[0], values[1], values[2]);
+    for (std::size_t c = 0; c < planes_a_group; ++c) {
+      const WideSum share = rounded(a_quantum * values[c], bits >> 21 * c);
+      add(first_group() + planes_a_group * part.group + c, pixel, share, spread);
+      quanta[c] = wide_sum(value_of(quanta[c]) - value_of(share));
+    }
+  }
+  for (std::size_t c = 0; c < planes_a_group; ++c)
+    add(first_group() + planes_a_group * parts.back().group + c, pixel, quanta[c], spread);
 }
 
 double Film::clamp(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) {
@@ -155,9 +178,11 @@ std::size_t Film::first_plane(Layer layer) const {
          sum_planes(settings_.layers, static_cast<std::size_t>(layer));
 }
 
-std::size_t Film::first_weights() const {
+std::size_t Film::first_group() const {
   return bin_planes + static_cast<std::size_t>(settings_.spectrum.count) + sum_planes(settings_.layers);
 }
+
+std::size_t Film::first_weights() const { return first_group() + planes_a_group * key_.groups.names.size(); }
 
 int Film::exponent_of(Layer layer) const {
   return kind_of(layer).is_length ? length_exponent_ : default_exponent;

@@ -11,6 +11,7 @@
 
 #include "film/film_key.h"
 #include "film/footprint.h"
+#include "film/light_groups.h"
 #include "film/sample_groups.h"
 #include "film/untouched.h"
 #include "film/wide_sum.h"
@@ -47,7 +48,13 @@ inline constexpr int least_exponent = -900, greatest_exponent = 900;  // so that
 
 // Memory of a film's sums, counts and ids, before there is one. Throws Error where there cannot be such a
 // film: of more than 2³² − 1 pixels, or of a picture that is too large.
-std::uint64_t film_bytes(const FilmSettings& settings, bool splats = false);
+std::uint64_t film_bytes(const FilmSettings& settings, const FilmKey& key = {});
+
+// What lights of one group add to a deposit.
+struct GroupLight {
+  std::size_t group = 0;
+  XYZ value;
+};
 
 // Width × height of the crop; planes row-major from the top left.
 class Film {
@@ -76,9 +83,11 @@ class Film {
   // once to a whole number of quanta, up or down with the probabilities that make the mean exact, by a hash
   // of pixel, sample and value: light below the quantum is not lost. Returns false, and adds and counts in
   // `refused` what it is, if the value is not finite or too large. `spread`: where the film splats, and
-  // nowhere else, the sample's pixels, of which those outside the crop get nothing.
-  bool deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value,
-               const Footprint* spread = nullptr);
+  // nowhere else, the sample's pixels, of which those outside the crop get nothing. `parts`: where the film
+  // keeps groups of lights, and nowhere else, what of `value` is of which; the last gets what is left of the
+  // deposit's quanta.
+  bool deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value, const Footprint* spread = nullptr,
+               std::span<const GroupLight> parts = {});
   // Adds to a bin of a pixel's spectrum, as above: radiance over (pdf of its wavelength · width of the bin).
   bool deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bin, double value,
                    const Footprint* spread = nullptr);
@@ -104,6 +113,8 @@ class Film {
   double mean_of_bin(std::uint32_t pixel, std::size_t bin) const;
   // Mean of a plane of a layer of sums over all samples of a pixel; those that see nothing count as 0.
   double mean_of_layer(std::uint32_t pixel, Layer layer, std::size_t plane) const;
+  // Mean of the light of a group, as `mean`.
+  XYZ mean_of_group(std::uint32_t pixel, std::size_t group) const;
   // Of a layer of ids: 1 + the id; 0 where no sample has one.
   std::uint32_t id(std::uint32_t pixel, Layer layer) const;
   // Variance of the mean's Y, from the scatter of the groups; 0 where one has no samples, or all are one
@@ -127,9 +138,9 @@ class Film {
   std::uint64_t hash() const;
 
   // The raw planes, for exchange between ranks: X, Z, Y of each group, then one a spectral bin and those of
-  // layers, each width·height; where the film splats the weights of each group; of photon mapping the Y, then
-  // the samples, of all pixels in each batch; and, where there is a clamp, the Y that it took of all pixels;
-  // the samples of each group; and what was refused.
+  // layers and X, Y, Z of each group of lights, each width·height; where the film splats the weights of each
+  // group; of photon mapping the Y, then the samples, of all pixels in each batch; and, where there is a
+  // clamp, the Y that it took of all pixels; the samples of each group; and what was refused.
   std::span<WideSum> sums() { return sums_; }
   std::span<const WideSum> sums() const { return sums_; }
   std::span<std::uint32_t> counts() { return counts_; }
@@ -146,8 +157,11 @@ class Film {
   std::uint32_t place(std::uint32_t pixel) const;
   bool accepts(double size, double largest);
   void add(std::size_t plane, std::uint32_t pixel, const WideSum& quanta, const Footprint* spread);
+  void add_to_groups(std::uint32_t pixel, std::uint32_t sample, std::array<WideSum, 3> quanta,
+                     std::span<const GroupLight> parts, const Footprint* spread);
   double weight(std::size_t group, std::uint32_t pixel) const;  // of its samples
   double weight(std::uint32_t pixel) const;
+  std::size_t first_group() const;
   std::size_t first_weights() const;
   double value(std::size_t plane, std::uint32_t pixel) const;
   std::size_t first_plane(Layer layer) const;

@@ -29,8 +29,8 @@ static_assert(std::endian::native == std::endian::little, "files are written as 
 namespace {
 
 constexpr char film_magic[8] = {'v', 'i', 't', 'f', 'i', 'l', 'm', '\n'};
-// Of the last, what photons its samples gathered follows the header.
-constexpr std::uint32_t film_version = 4, adaptive_version = 5, photon_version = 7;
+// Of the last two, what photons its samples gathered, or which lights it keeps apart, follows the header.
+constexpr std::uint32_t film_version = 4, adaptive_version = 5, photon_version = 7, groups_version = 8;
 
 // What a film was rendered with, in Header::options.
 constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, option_camera_space = 4,
@@ -38,7 +38,8 @@ constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, opti
                         option_one_sequence = 64;
 constexpr std::uint32_t threshold_bits = 0xffff0000;  // the upper half of a float
 constexpr std::uint32_t options_of(std::uint32_t version) {
-  return threshold_bits | option_splats | option_one_sequence | (version == adaptive_version ? 31 : 7);
+  const bool may_be_adaptive = version == adaptive_version || version == groups_version;
+  return threshold_bits | option_splats | option_one_sequence | (may_be_adaptive ? 31 : 7);
 }
 
 struct Header {
@@ -65,6 +66,13 @@ struct Header {
   std::uint64_t checksum;  // of all before it
 };
 static_assert(sizeof(Header) == 184);
+
+// Of a film that keeps groups of lights: followed by their names, each with a zero behind it.
+struct GroupsHeader {
+  std::uint64_t lights;
+  std::uint32_t groups, text_bytes;
+};
+constexpr std::uint32_t most_text_bytes = 1 << 20;
 
 std::uint64_t checksum(const Header& h) { return XXH3_64bits(&h, offsetof(Header, checksum)); }
 
@@ -137,7 +145,8 @@ Header read_header(Reader& in) {
   if (in.size() < sizeof h) in.fail("this is not a film file: it is too short");
   in.read(&h, sizeof h);
   if (std::memcmp(h.magic, film_magic, sizeof film_magic) != 0) in.fail("this is not a film file");
-  if (h.version != film_version && h.version != adaptive_version && h.version != photon_version)
+  if (h.version != film_version && h.version != adaptive_version && h.version != photon_version &&
+      h.version != groups_version)
     in.fail(
         fmt::format("film file of version {}, but this program ({}) reads version {}: it was made by "
                     "another one, and can be developed by that alone",
@@ -148,19 +157,54 @@ Header read_header(Reader& in) {
   return h;
 }
 
+// None where the film has none.
+LightGroups read_groups(Reader& in, const Header& h) {
+  if (h.version != groups_version) return {};
+  std::vector<GroupsHeader> header;
+  in.read_array(header, 1, "light groups");
+  const auto& [lights, groups, text_bytes] = header[0];
+  if (groups == 0 || groups > most_light_groups || text_bytes > most_text_bytes)
+    in.fail("the film file is corrupt: its light groups make no sense");
+  std::vector<char> text;
+  in.read_array(text, text_bytes, "light groups");
+  LightGroups read{{}, lights};
+  for (auto at = text.begin(); at != text.end();) {
+    const auto end = std::find(at, text.end(), '\0');
+    if (end == text.end()) break;
+    read.names.emplace_back(at, end);
+    at = end + 1;
+  }
+  if (read.names.size() != groups) in.fail("the film file is corrupt: its light groups make no sense");
+  return read;
+}
+
+std::vector<char> text_of(const LightGroups& groups) {
+  std::vector<char> text;
+  for (const std::string& name : groups.names)
+    text.insert(text.end(), name.c_str(), name.c_str() + name.size() + 1);
+  return text;
+}
+
+std::uint64_t bytes_in_file(const LightGroups& groups) {
+  return groups.any() ? sizeof(GroupsHeader) + text_of(groups).size() + 2 * 8 : 0;
+}
+
 // What a header says of the arrays behind it.
 struct Arrays {
-  explicit Arrays(const Header& h)
+  Arrays(const Header& h, const LightGroups& groups)
       : pixels(static_cast<std::uint64_t>(h.x1 - h.x0) * static_cast<std::uint64_t>(h.y1 - h.y0)),
         layers{h.layers, (h.options & option_camera_space) != 0},
         open_round((h.options & option_open_round) != 0),
+        group_bytes(bytes_in_file(groups)),
         planes(2 + sample_groups + static_cast<std::uint64_t>(h.bins) + sum_planes(layers) +
+               planes_a_group * groups.names.size() +
                ((h.options & option_splats) != 0 ? sample_groups : 0)) {}
 
   std::uint64_t pixels;
   FilmLayers layers;
   bool open_round;
-  std::uint64_t planes;  // of sums
+  std::uint64_t group_bytes;  // of the light groups' names
+  std::uint64_t planes;       // of sums
 };
 
 // Throws unless the file has as many bytes as its header says.
@@ -169,7 +213,7 @@ void check_size(const Reader& in, const Header& h, const Arrays& arrays) {
       arrays.pixels * (arrays.planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
                        id_planes(arrays.layers) * sizeof(std::int64_t)) +
       h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 6 * 8 +
-      (h.clamp > 0 ? sizeof(WideSum) : 0) +
+      (h.clamp > 0 ? sizeof(WideSum) : 0) + arrays.group_bytes +
       (h.version == photon_version ? sizeof(PhotonKey) + 8 + 2 * photon_batches * sizeof(WideSum) : 0) +
       (arrays.open_round ? arrays.pixels * sizeof(std::uint32_t) + 8 : 0);
   const std::uint64_t bytes = in.size() - sizeof h;
@@ -205,7 +249,7 @@ FilmProgress read_progress(Reader& in, const Header& h) {
   return read;
 }
 
-FilmKey key_of(const Header& h, const PhotonKey& photons) {
+FilmKey key_of(const Header& h, const PhotonKey& photons, const LightGroups& groups) {
   return {h.scene_hash,
           h.seed,
           h.max_depth,
@@ -216,7 +260,8 @@ FilmKey key_of(const Header& h, const PhotonKey& photons) {
           std::bit_cast<float>(h.options & threshold_bits),
           photons,
           (h.options & option_splats) != 0,
-          (h.options & option_one_sequence) != 0};
+          (h.options & option_one_sequence) != 0,
+          groups};
 }
 
 }  // namespace
@@ -231,7 +276,11 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   Header h{};
   std::memcpy(h.magic, film_magic, sizeof film_magic);
   const bool photons = film.key_.photons.photons > 0;
-  h.version = progress.adaptive ? adaptive_version : photons ? photon_version : film_version;
+  const LightGroups& groups = film.key_.groups;
+  h.version = groups.any()        ? groups_version
+              : progress.adaptive ? adaptive_version
+              : photons           ? photon_version
+                                  : film_version;
   h.full_width = film.settings_.width, h.full_height = film.settings_.height;
   h.x0 = film.settings_.crop.x0, h.x1 = film.settings_.crop.x1, h.y0 = film.settings_.crop.y0,
   h.y1 = film.settings_.crop.y1;
@@ -261,6 +310,12 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   AtomicFile out(file);
   out.write(std::as_bytes(std::span(&h, 1)));
   if (photons) write_array(out, std::array{key.photons});
+  if (groups.any()) {
+    const std::vector<char> text = text_of(groups);
+    write_array(out, std::array{GroupsHeader{groups.lights, static_cast<std::uint32_t>(groups.names.size()),
+                                             static_cast<std::uint32_t>(text.size())}});
+    write_array(out, text);
+  }
   write_array(out, progress.earlier_ends);
   write_array(out, progress.about);
   write_array(out, progress.done);
@@ -274,7 +329,8 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
 Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   Reader in(file);
   const Header h = read_header(in);
-  const Arrays arrays(h);
+  const LightGroups groups = read_groups(in, h);
+  const Arrays arrays(h, groups);
   check_size(in, h, arrays);
   const PhotonKey photons = read_photons(in, h);
   FilmProgress read = read_progress(in, h);
@@ -284,7 +340,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   film.settings_.imaging_ratio = h.imaging_ratio;
   film.settings_.spectrum = {h.bins, h.bins_min_nm, h.bins_max_nm};
   film.settings_.layers = arrays.layers;
-  film.key_ = key_of(h, photons);
+  film.key_ = key_of(h, photons, groups);
   film.exponent_ = h.exponent, film.length_exponent_ = h.length_exponent;
   film.refused_ = {h.nonfinite, h.too_large};
   in.read_array(film.sums_, arrays.planes * arrays.pixels + single_sums(film.key_), "sums");

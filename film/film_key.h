@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "film/light_groups.h"
 #include "film/renderer_version.h"
 
 namespace vitrail {
@@ -31,6 +32,7 @@ struct FilmKey {
   PhotonKey photons = {};
   bool splats = false;        // samples add to several pixels
   bool one_sequence = false;  // a pixel's samples are stratified together: their groups tell no variance
+  LightGroups groups = {};
   bool operator==(const FilmKey&) const = default;
 };
 

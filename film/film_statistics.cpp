@@ -25,6 +25,14 @@ XYZ Film::mean(std::uint32_t pixel) const {
           each * value(z_plane, pixel)};
 }
 
+XYZ Film::mean_of_group(std::uint32_t pixel, std::size_t group) const {
+  const double n = weight(pixel);
+  if (!(n > 0)) return {};
+  const double each = settings_.imaging_ratio / n;
+  const std::size_t plane = first_group() + planes_a_group * group;
+  return {each * value(plane, pixel), each * value(plane + 1, pixel), each * value(plane + 2, pixel)};
+}
+
 double Film::clamped_share() const {
   if (!(key_.clamp > 0)) return 0;
   WideSum all = sums_.back();

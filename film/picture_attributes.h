@@ -20,7 +20,8 @@ inline constexpr OriginText origin_texts[] = {
     {"Software", &PictureOrigin::software},    {"scene", &PictureOrigin::scene},
     {"sceneHash", &PictureOrigin::scene_hash}, {"glazing", &PictureOrigin::glazing},
     {"sampling", &PictureOrigin::sampling},    {"seed", &PictureOrigin::seeds},
-    {"filmHash", &PictureOrigin::film_hash},   {"denoiser", &PictureOrigin::denoiser}};
+    {"filmHash", &PictureOrigin::film_hash},   {"denoiser", &PictureOrigin::denoiser},
+    {"lightGroups", &PictureOrigin::groups}};
 
 struct OriginMatrix {
   const char* name;

@@ -17,6 +17,10 @@ std::string words(const PhotonKey& p) {
 }
 std::string words(const RendererVersion& renderer) { return to_string(renderer); }
 std::string words(const FilmLayers& layers) { return layers.any() ? names_of(layers) : "none"; }
+std::string words(const LightGroups& groups) {
+  if (!groups.any()) return "none";
+  return fmt::format("{} (lights {:016x})", fmt::join(groups.names, ","), groups.lights);
+}
 std::string words(bool with) { return with ? "yes" : "no"; }
 std::string words(const auto& number) { return fmt::format("{}", number); }
 
@@ -45,6 +49,7 @@ std::vector<PictureField> picture_fields(const FilmKey& key, const FilmSettings&
            words(key.splats), hidden},
           {"--one-sequence", "samples of one are one sequence a pixel, those of the other two",
            words(key.one_sequence), hidden},
+          {"light groups", "their light groups differ", words(key.groups)},
           {"number, radius or alpha of photons", "their photons differ", words(key.photons)},
           {"clamp", "their clamps differ", words(key.clamp)},
           {"spectral bins", "their spectral bins differ", words(film.spectrum)},

@@ -46,7 +46,10 @@ GlazingSetting parse_setting(const std::string& text) {
   if (dot == text.npos || dot == 0) refuse("it has to be NAME.QUANTITY=VALUE, as in window.state=0.6");
   const std::string quantity = text.substr(dot + 1, equals - dot - 1), number = text.substr(equals + 1);
   const auto* kind = std::ranges::find(kinds, quantity, &QuantityKind::name);
-  if (kind == std::end(kinds)) refuse("what can be set is state, temperature, uv or seconds");
+  if (kind == std::end(kinds))
+    refuse(
+        "what can be set is scale, sun or turbidity of lights, color or roughness of materials, and state, "
+        "temperature, uv or seconds of glass that switches");
   GlazingSetting setting{text.substr(0, dot), kind->quantity};
   const char* end = number.data() + number.size();
   const auto parsed = std::from_chars(number.data(), end, setting.value);

@@ -14,6 +14,7 @@
 #include "cli/develop/exposed_films.h"
 #include "denoise/denoise_picture.h"
 #include "film/false_color.h"
+#include "film/group_mix.h"
 #include "film/image_io.h"
 #include "film/layer_picture.h"
 #include "film/picture_extent.h"
@@ -82,7 +83,12 @@ Picture measured_picture(const Exposed& sum, const DevelopArguments& a) {
         100 * sum.film.clamped_share());
   if (a.with_variance && sum.film.key().one_sequence)
     throw Error("the film knows no variance: it was rendered with --one-sequence", {sum.file.string()});
-  return picture_of(sum);
+  Picture picture = picture_of(sum);
+  if (a.groups.empty()) return picture;
+  picture.rgb = mixed_groups(sum.film, parse_group_weights(a.groups));
+  std::erase_if(picture.layers, [](const PictureChannel& c) { return c.name.starts_with("Light."); });
+  picture.origin.groups = a.groups;
+  return picture;
 }
 
 void require_parts(const Picture& picture, const DevelopArguments& a) {
@@ -123,6 +129,7 @@ void say_what_is_written(const Picture& picture, const DevelopArguments& a, doub
                                   picture.rgb.height, a.bits > 0 ? a.bits : usual_bits(a.output));
   if (picture.samples_per_pixel > 0) words += fmt::format(", {} samples each", picture.samples_per_pixel);
   if (!a.layer.empty()) words += ", layer " + a.layer;
+  if (!a.groups.empty()) words += ", light " + a.groups;
   if (ev != 0) words += fmt::format(", exposure {:+.2f}", ev);
   if (a.tone != "none") words += ", tone " + a.tone;
   if (!picture.origin.denoiser.empty()) words += ", denoised by " + picture.origin.denoiser;

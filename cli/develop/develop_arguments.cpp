@@ -26,6 +26,9 @@ void declare(CLI::App& app, DevelopArguments& a) {
                  "to WIDTHxHEIGHT in pixels, to a WIDTH and the height in proportion, or to PERCENT%");
   app.add_option("--layer", a.layer,
                  "show this layer of the first surfaces, as render --aov names it, in place of the colours");
+  app.add_option("--groups,--group", a.groups,
+                 "NAME=WEIGHT,…: weigh the light of these groups of a film of render --light-groups, by a "
+                 "number or red:green:blue each; * is all groups, and a group that is not named has 1");
   app.add_option("--exposure", a.exposure,
                  "brighten by this many stops; auto: the log-average of the luminances becomes 0.18")
       ->capture_default_str();
@@ -92,6 +95,11 @@ void require_agreement(const DevelopArguments& a) {
   if (!a.layer.empty() &&
       (is_exposed || a.denoised || a.with_variance || a.spectral || !a.false_color.empty()))
     throw UsageError("--layer shows numbers as they are: only --crop, --resize and --bits go with it");
+  if (!a.groups.empty() && (a.with_variance || a.spectral || !a.layer.empty() || a.writes(".csv") ||
+                            a.writes(".film") || a.reads_picture()))
+    throw UsageError(
+        "--groups weighs the colours that a film keeps: not with --variance, --spectral or --layer, not as "
+        ".csv or .film, and not of pictures");
   if (a.reads_picture() && a.films.size() > 1)
     throw UsageError("pictures do not merge as films do: give one");
   if (a.reads_picture() && (a.writes(".csv") || a.writes(".film") || !a.false_color.empty()))

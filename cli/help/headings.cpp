@@ -14,15 +14,15 @@ constexpr Heading meshes{"What becomes of its meshes",
 const std::vector<Heading> of_render{
     {"What to render",
      "input=SCENE|BUNDLE width=PIXELS height=PIXELS scale=FACTOR crop=X0,X1,Y0,Y1 max-depth integrator "
-     "sensors=FILE set=NAME.state=X"},
+     "look-at=X,Y,Z,X,Y,Z fov=DEGREES frames=FILE sensors=FILE set=NAME.PROPERTY=VALUE"},
     {"How good", "quality spp target-error=ERROR adaptive seed clamp=RADIANCE denoise find-denoiser"},
     {"How long",
      "time=SECONDS dry-run checkpoint-every=SECONDS resume force restarts=TIMES launcher=COMMAND"},
     {"On how many", "threads distribution homes=FILE patience=SECONDS"},
     {"In how much memory", "memory=SIZE"},
     {"What to write",
-     "output=FILE film=FILE preview=FILE display-server=HOST:PORT aov=LAYERS aov-space spectral=BINS "
-     "stats=FILE profile=FILE trace=FILE "
+     "output=FILE film=FILE preview=FILE display-server=HOST:PORT aov=LAYERS aov-space light-groups "
+     "light-group=NAME=LIGHTS spectral=BINS stats=FILE profile=FILE trace=FILE "
      "progress quiet"},
     {"How to sample",
      "filter=NAME[:RADIUS] splat one-sequence texture-filter roulette wavelengths light-sampling "
@@ -58,7 +58,8 @@ const std::vector<Heading> of_compare{
 const std::vector<Heading> of_develop{
     {"What to develop", "FILM=FILM layer=NAME crop=X0,X1,Y0,Y1 resize=SIZE strict"},
     {"How it looks",
-     "exposure=STOPS white-balance=KELVIN tone false-color=MAXIMUM log denoise find-denoiser"},
+     "groups=NAME=WEIGHT,… exposure=STOPS white-balance=KELVIN tone false-color=MAXIMUM log denoise "
+     "find-denoiser"},
     {"What to write", "output=FILE bits variance spectral quiet"},
 };
 

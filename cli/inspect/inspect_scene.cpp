@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "bundle/census.h"
+#include "bundle/light_names.h"
 #include "cli/common/quadric_counts.h"
 #include "cli/inspect/inspect.h"
 #include "film/film_progress.h"
@@ -42,7 +43,10 @@ Report describe(const Material& material, std::size_t number) {
     if ((spectrum = std::get_if<Spectrum>(&diffuse->reflectance))) of = "reflectance";
   if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model))
     spectrum = &dielectric->eta, of = "index";
-  Report row{{"number", number}, {"kind", kind_of(material.model)}, {"spectrum_of", of}};
+  Report row{{"number", number},
+             {"name", material.name.empty() ? Report(nullptr) : Report(material.name)},
+             {"kind", kind_of(material.model)},
+             {"spectrum_of", of}};
   row.update(values_of(spectrum));
   return row;
 }
@@ -89,12 +93,14 @@ struct LightDescriber {
 Report describe_lights(const Manifest& m) {
   Report lights = Report::array();
   const std::vector<double> areas = emitting_areas(m);
+  const LightNames names = light_names(m);
   for (std::size_t i = 0; i < areas.size(); ++i) {
     const AreaLight& l = m.area_lights[i];
     const Report y = luminance_of(l.radiance);
     const double sides = l.two_sided ? 2 : 1;
     lights.push_back(
         {{"number", lights.size() + 1},
+         {"name", names.area_lights[i]},
          {"kind", !l.sampled    ? "glow"
                   : l.two_sided ? "area, both sides"
                                 : "area"},
@@ -103,7 +109,9 @@ Report describe_lights(const Manifest& m) {
          {"power", y.is_null() ? y : Report(std::numbers::pi * areas[i] * y.get<double>() * sides)}});
   }
   for (const Light& light : m.lights) {
-    Report described{{"number", lights.size() + 1}, {"kind", kind_of(light.model)}};
+    Report described{{"number", lights.size() + 1},
+                     {"name", names.lights[lights.size() - areas.size()]},
+                     {"kind", kind_of(light.model)}};
     described.update(std::visit(LightDescriber{}, light.model));
     lights.push_back(std::move(described));
   }
@@ -302,6 +310,7 @@ Report inspect_film(const std::filesystem::path& file) {
           {"clamped_share", film.clamped_share()},
           {"spectral_bins", film.bins().count},
           {"layers", names_of(film.layers())},
+          {"light_groups", film.key().groups.names},
           {"layers_in_camera_space", film.layers().in_camera_space},
           {"imaging_ratio", film.imaging_ratio()},
           {"quantum_exponent", film.exponent()},

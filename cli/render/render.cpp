@@ -13,7 +13,9 @@
 #include "cli/common/main_guard.h"
 #include "cli/common/run_program.h"
 #include "cli/common/switching_glazing.h"
+#include "cli/help/describe.h"
 #include "cli/render/display_server.h"
+#include "cli/render/frames.h"
 #include "cli/render/job_limits.h"
 #include "cli/render/picture_output.h"
 #include "cli/render/preview.h"
@@ -40,7 +42,7 @@ namespace fs = std::filesystem;
 
 void set_glazing(RenderArguments& a) {
   const fs::path& bundle = a.options.bundle;
-  a.options.picture.sheets = sheets_under(parse_settings(a.settings), bundle, read_manifest(bundle));
+  a.options.picture.sheets = sheets_under(parse_settings(a.glazing), bundle, read_manifest(bundle));
 }
 
 int number_of(Ending ending) {
@@ -83,7 +85,7 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   std::optional<TemporaryBundle> temporary;
   if (!a.is_bundle()) temporary.emplace(transport, a.input, beside_the_film, partition_arguments(a));
   agree(transport, [&] {
-    if (first && !a.settings.empty()) set_glazing(a);
+    if (first && !a.glazing.empty()) set_glazing(a);
   });
   share_from_root(transport, a.options.picture.sheets);
   agree(transport, [] {
@@ -159,12 +161,54 @@ std::string typed_command(int argc, char** argv) {
   return line;
 }
 
+bool is_there(Transport& transport, const fs::path& picture) {
+  std::uint64_t there[] = {transport.rank() == 0 && fs::exists(picture)};
+  transport.broadcast_from_root(std::span(there));
+  return there[0] != 0;
+}
+
+// A job for each frame that is missing.
+int render_frames(Transport& transport, const RenderArguments& all, std::span<char* const> typed) {
+  if (!all.is_bundle())
+    throw UsageError(
+        "--frames takes a bundle: vitrail partition makes one of the scene, once for all frames");
+  if (!all.film.empty())
+    throw UsageError(
+        "--frames has a film for each picture: leave out --film, or let --output end in %04d.film");
+  const std::vector<Frame> frames = read_frames(all.frames);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const fs::path output = numbered(all.output, i + 1);
+    const bool stays = !all.options.outputs.force && is_there(transport, output);
+    if (transport.rank() == 0 && !all.quiet)
+      say("vitrail: frame {} of {}: {}{}\n", i + 1, frames.size(), output.string(), stays ? " is there" : "");
+    if (stays) continue;
+    RenderArguments a;
+    CLI::App app("a frame", "vitrail render");
+    declare(app, a);
+    let_the_last_count(app);
+    std::vector<std::string> words(typed.begin() + 1, typed.end());
+    words.insert(words.end(), frames[i].words.begin(), frames[i].words.end());
+    words.insert(words.end(), {"-o", output.string()});
+    a.options.outputs.command = fmt::format("vitrail render {}", fmt::join(words, " "));
+    std::ranges::reverse(words);
+    try {
+      app.parse(words);
+    } catch (const CLI::ParseError& e) {
+      throw Error(e.what(), {all.frames.string(), static_cast<int>(frames[i].line), 1});
+    }
+    if (const int status = guarded_job(app, transport, a); status != exit_done) return status;
+  }
+  return exit_done;
+}
+
 int supervise_job(RenderArguments& a, int argc, char** argv) {
   if (launched_by_mpi())
     throw UsageError(
         "a rank cannot start the job again: vitrail render --restarts N --launcher 'mpirun …' can");
   if (a.options.outputs.force && a.restarts > 0)
     throw UsageError("--force would begin anew at each restart: remove what is to be replaced instead");
+  if (!a.frames.empty())
+    throw UsageError("--frames goes on at the first picture that is missing: no --restarts");
   a.name_outputs();
   return supervise(supervised_command(argc, argv, a.launcher), a.options.outputs.film, a.restarts,
                    a.options.resources.patience_s);
@@ -187,7 +231,10 @@ int main(int argc, char** argv) {
     if (launched_by_mpi()) watchdog.expect_reports();
     const auto transport = make_transport(&argc, &argv);
     Patience patience(*transport, watchdog, patience_s);
-    const int end = run_guarded([&] { return guarded_job(app, *transport, arguments); });
+    const int end = run_guarded([&] {
+      if (arguments.frames.empty()) return guarded_job(app, *transport, arguments);
+      return render_frames(*transport, arguments, std::span(argv, static_cast<std::size_t>(argc)));
+    });
     patience.leave(/*failed=*/end == exit_usage || end == exit_bad_input || end == exit_machine);
     return end;
   });

@@ -83,9 +83,17 @@ void declare_picture(CLI::App& app, RenderArguments& a) {
                  "for caustics; default: as the scene says")
       ->check(CLI::IsMember({"path", "direct", "photon"}));
   declare_sample_options(app, a.samples);
+  app.add_option("--look-at", a.look_at,
+                 "x,y,z of the eye, x,y,z of what it looks at and, unless it stays as it was, x,y,z of the "
+                 "direction that is up: a camera that stands still there, without partitioning again");
+  app.add_option("--fov", o.picture.view.fov_deg,
+                 "degrees that a perspective camera sees along the shorter side of the picture")
+      ->check(CLI::Range(0.001, 179.999));
   app.add_option("--set", a.settings,
-                 "NAME.state=0.6: glass that switches in another state, without partitioning again; also "
-                 "NAME.temperature (°C), NAME.uv (W/m²), NAME.seconds; may repeat")
+                 "change the scene without partitioning it again; may repeat. Of lights, by the names that "
+                 "inspect lists: NAME.scale=2, of a sky NAME.sun=X:Y:Z (towards it) and NAME.turbidity=3; of "
+                 "materials NAME.color=R:G:B, NAME.roughness=0.2; of glass that switches NAME.state=0.6, "
+                 "NAME.temperature (°C), NAME.uv (W/m²), NAME.seconds")
       ->allow_extra_args(false);
   app.add_option("--threshold", o.picture.threshold,
                  "of --integrator direct: end a path that brings less than this share of what it sees, e.g. "
@@ -138,6 +146,14 @@ void declare_film(CLI::App& app, RenderArguments& a) {
   app.add_option("--aov-space", a.aov_space,
                  "world or camera: of positions and normals of --aov; default: as the scene says, else world")
       ->check(CLI::IsMember({"world", "camera"}));
+  app.add_flag("--light-groups", o.picture.light_groups.each,
+               "keep the light of each lamp apart in the film, by the names that inspect lists; develop "
+               "--groups weighs them; takes 48 bytes a pixel each");
+  app.add_option(
+         "--light-group", a.light_groups,
+         "NAME=LIGHT,LIGHT…: keep the light of these apart, together under this name; * stands for any "
+         "characters; lights in no group are \"others\"; may repeat")
+      ->allow_extra_args(false);
 }
 
 // How long the job takes, and how it ends and goes on.
@@ -180,6 +196,10 @@ void declare_outputs(CLI::App& app, RenderArguments& a) {
       "--sensors", o.picture.sensors,
       "measure irradiance instead of a picture: a text of x y z nx ny nz lines, or plane O U V NXxNY; "
       "each sensor gets 16 times --spp samples; develop writes the .csv");
+  app.add_option(
+      "--frames", a.frames,
+      "a text with a line of --look-at, --fov, --set, --seed or --spp for each picture of a bundle; "
+      "--output has %04d for its number, from 1. Pictures that are there stay, unless --force");
   app.add_option(
       "--preview", a.preview,
       "a picture of what is done, .png or another: at once, after twice the time and so on, and where "
@@ -324,6 +344,8 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   if (a.bins > 0) o.picture.bins = SpectralBins{a.bins};
   if (!a.aov.empty()) o.picture.layers = parse_layers(a.aov).bits;
   if (a.denoised && a.aov.empty()) o.picture.more_layers = guiding_layers();
+  for (const std::string& text : a.light_groups)
+    o.picture.light_groups.groups.push_back(parse_light_group(text));
   if (!a.aov_space.empty()) o.picture.layers_in_camera_space = a.aov_space == "camera";
   if (app.count("--max-depth") > 0) o.picture.max_depth = a.max_depth < 0 ? unlimited_depth : a.max_depth;
   if (!a.integrator.empty())
@@ -336,7 +358,13 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   o.outputs.progress = progress_mode(a);
   o.outputs.quiet = a.quiet;
   if (o.outputs.dry_run) prepare_dry_run(o);
-  parse_settings(a.settings);
+  for (const std::string& text : a.settings)
+    if (is_scene_edit(text))
+      o.picture.edits.push_back(parse_scene_edit(text));
+    else
+      a.glazing.push_back(text);
+  parse_settings(a.glazing);
+  if (!a.look_at.empty()) o.picture.view.look_at = parse_look_at(a.look_at);
   if (!a.display_server.empty()) parse_display_address(a.display_server);
   o.picture.glazing = fmt::format("{}", fmt::join(a.settings, " "));
   o.outputs.scene_name = a.input.string();

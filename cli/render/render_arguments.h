@@ -12,10 +12,12 @@
 namespace vitrail {
 
 struct RenderArguments {
-  std::filesystem::path input, output, film;
+  std::filesystem::path input, output, film, frames;
   int bins = 0, max_depth = 0;
-  std::string memory, crop, integrator, aov, aov_space, target_error, quality, progress = "auto";
-  std::vector<std::string> settings;  // of --set
+  std::string memory, crop, integrator, aov, aov_space, look_at, target_error, quality, progress = "auto";
+  std::vector<std::string> settings;      // of --set
+  std::vector<std::string> glazing;       // those of them that are of glass that switches
+  std::vector<std::string> light_groups;  // of --light-group
   bool quiet = false, strict = false, denoised = false, cached = true;
   ImportArguments imports;
   std::string rgb = usual_rgb;

@@ -13,14 +13,14 @@ Job set_up(const RenderOptions& options, const Place& place) {
   Job job;
   job.scene = std::make_unique<RenderScene>(std::move(read.manifest), options.bundle, textures,
                                             options.picture.seed, options.picture.samples.sampling);
+  job.scene->groups = group_lights(options.picture.light_groups, job.scene->manifest).table;
   job.scene->replaced_camera = read.replaced_camera;
   const Manifest& m = job.scene->manifest;
   job.plan = plan_job(m, options, place, {resident_bytes(), peak_resident_bytes(), textures});
   job.film = Film(m.film, job.plan.key, film_exponent(*job.scene),
                   m.film.layers.any() ? length_exponent(*job.scene) : default_exponent);
   if (place.rank == 0 && !options.outputs.dry_run)
-    job.keeper =
-        std::make_unique<FilmKeeper>(options.outputs.film, film_file_bytes(m.film, job.plan.key.splats));
+    job.keeper = std::make_unique<FilmKeeper>(options.outputs.film, film_file_bytes(m.film, job.plan.key));
   return job;
 }
 

@@ -40,9 +40,9 @@ Point3d place_of(const Camera& camera) {
 // In the place of the camera, whose own is returned. They belong to what the film is of.
 Point3d put_sensors(Manifest& m, const PictureSettings& picture) {
   if (picture.width || picture.height || picture.scale != 1 || picture.crop || picture.bins ||
-      picture.layers || picture.more_layers || picture.samples.filter)
+      picture.layers || picture.more_layers || picture.samples.filter || picture.light_groups.any())
     throw UsageError(
-        "--sensors has no picture whose size, crop, filter, spectrum or channels could be given");
+        "--sensors has no picture whose size, crop, filter, spectrum, channels or lights could be given");
   if (picture.clamp > 0)
     throw UsageError("--clamp is of pictures: it would take light from what --sensors measures");
   SensorCamera camera{translate(-m.offset), read_sensors(picture.sensors)};
@@ -136,6 +136,8 @@ JobManifest read_job_manifest(const RenderOptions& options) {
   Manifest& m = read.manifest;
   if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
   set_sheets(options.picture.sheets, options.bundle, m);
+  edit_scene(options.picture.edits, m);
+  edit_view(options.picture.view, m);
   override_settings(m, options);
   if (!options.picture.sensors.empty()) read.replaced_camera = put_sensors(m, options.picture);
   static_assert(no_limit_of_depth == max_path_depth);
@@ -183,6 +185,10 @@ FilmKey key_of(const Manifest& m, const PictureSettings& picture) {
   key.splats = picture.samples.sampling.splat;
   key.one_sequence = picture.samples.sampling.one_sequence;
   key.photons = photons_of(picture, m);
+  key.groups = group_lights(picture.light_groups, m).groups;
+  if (key.groups.any() && key.photons.photons > 0)
+    throw UsageError(
+        "photons do not tell whose light they are, which --light-groups asks for: --integrator path");
   return key;
 }
 

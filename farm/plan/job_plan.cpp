@@ -27,7 +27,7 @@ std::uint64_t map_bytes(const PixelRect& crop) {
 
 std::uint64_t base_bytes(const Manifest& m, const RenderOptions& options, const JobPlan& plan, int ranks) {
   const WorkPlan work = make_work_plan(m.film.crop, plan.goal.samples, {}, plan.goal.one_by_one);
-  return plan.scene.resident + film_bytes(m.film, plan.key.splats) +
+  return plan.scene.resident + film_bytes(m.film, plan.key) +
          (plan.goal.adaptive ? map_bytes(m.film.crop) : 0) + list_bytes(work, ranks) +
          table_bytes(m.domains.size(), plan.threads) + connection_bytes(ranks) +
          (options.outputs.trace.empty() ? 0 : Timeline::most_bytes(ranks));
@@ -77,9 +77,9 @@ std::uint64_t texture_budget(const Manifest& m, std::uint64_t memory_bytes) {
   return memory_bytes == 0 ? all : std::min(all, memory_bytes / 4);
 }
 
-std::uint64_t film_file_bytes(const FilmSettings& film, bool splats) {
+std::uint64_t film_file_bytes(const FilmSettings& film, const FilmKey& key) {
   constexpr std::uint64_t header_and_words = 16 << 10;
-  const std::uint64_t sums = film_bytes(film, splats);
+  const std::uint64_t sums = film_bytes(film, key);
   return sums + sums / 32 + header_and_words;
 }
 

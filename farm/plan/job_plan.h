@@ -46,6 +46,6 @@ JobPlan plan_job(const Manifest& manifest, const RenderOptions& options, const P
                  const SceneMemory& scene);
 
 // Of the file of such a film: its sums, and what it says of itself.
-std::uint64_t film_file_bytes(const FilmSettings& film, bool splats);
+std::uint64_t film_file_bytes(const FilmSettings& film, const FilmKey& key);
 
 }  // namespace vitrail

@@ -6,8 +6,11 @@
 #include <functional>
 #include <optional>
 
+#include "farm/plan/grouping.h"
 #include "farm/plan/sample_choices.h"
+#include "farm/plan/scene_edits.h"
 #include "farm/plan/set_sheets.h"
+#include "farm/plan/view_edit.h"
 #include "farm/scheduler/residency.h"
 #include "scene/records/scene.h"
 
@@ -33,10 +36,12 @@ struct PictureSettings {
   std::optional<int> samples_per_pixel;
   std::optional<int> max_depth;
   std::optional<Integrator> integrator;
-  PhotonSettings photons;            // what of them is given; refused where no photons are traced
-  double threshold = 0;              // FilmKey::threshold, where only direct light is asked for
-  std::vector<SetSheet> sheets;      // in place of the bundle's; of all ranks the same
-  std::string glazing;               // how they were asked for: "window.state=0.6"; empty: not at all
+  PhotonSettings photons;        // what of them is given; refused where no photons are traced
+  double threshold = 0;          // FilmKey::threshold, where only direct light is asked for
+  std::vector<SetSheet> sheets;  // in place of the bundle's; of all ranks the same
+  std::vector<SceneEdit> edits;  // of lights and materials
+  ViewEdit view;                 // of the camera
+  std::string glazing;           // how sheets and edits were asked for: "window.state=0.6"; empty: not at all
   std::optional<int> width, height;  // one of them alone: in the scene's proportions
   double scale = 1;                  // of both, where neither is given
   std::filesystem::path
@@ -47,6 +52,7 @@ struct PictureSettings {
   std::optional<std::uint32_t> layers;  // bits of FilmLayers
   std::uint32_t more_layers = 0;        // the same, kept beside those
   std::optional<bool> layers_in_camera_space;
+  LightGrouping light_groups;
   std::uint64_t seed = 0;
   SampleChoices samples;
   bool adaptive = false;                    // samples go where the picture is noisy

@@ -47,7 +47,7 @@ Checkpointing::Checkpointing(Transport& transport, RankState& state, const Rende
 
 void Checkpointing::expect_ending(double gather_s) {
   if (!keeper_ || options_.resources.time_limit_s <= 0) return;
-  const std::uint64_t bytes = film_bytes(state_.scene.manifest.film, state_.film.key().splats);
+  const std::uint64_t bytes = film_bytes(state_.scene.manifest.film, state_.film.key());
   const std::chrono::duration<double> gone = state_.begun - limit_start_;
   ending_s_ = std::min((options_.resources.time_limit_s - gone.count()) / 2,
                        ending_time_s(options_, bytes, transport_.size(), write_s_, gather_s));

@@ -88,7 +88,7 @@ std::string differences_of_scenes(const std::string& about, const std::string& a
                           x.empty() ? where_not_told : x, y.empty() ? where_not_told : y);
     return x != y;
   };
-  compare(held, asked, "glazing", "state of the glass (--set)", "as the scene says");
+  compare(held, asked, "glazing", "what was set (--set)", "nothing");
   const bool sampled_otherwise = compare(held, asked, "sampling", "way to sample", "as usual");
   compare(held, asked, "sensors", "sensors");
   const Ordered none = Ordered::object();

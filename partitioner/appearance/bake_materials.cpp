@@ -185,6 +185,7 @@ Id<ScatteringTable> TableBaker::bake(const TabulatedMaterial& material) {
 BakedMaterial bake_material(const Material& material, const std::vector<std::int32_t>& ids,
                             TextureBaker& textures, TableBaker& tables) {
   BakedMaterial result;
+  result.material.name = material.name;
   result.material.two_sided = material.two_sided;
   result.material.bump_shadowing = material.bump_shadowing;
   result.material.model = std::visit(MaterialBaker(ids, textures, tables, result), material.model);

@@ -32,6 +32,7 @@ struct Environment {
   DirectionTable table;
   double mean_luminance = 0;  // over all directions, all factors included
   double sun_luminance = 0;   // of its disc's middle
+  std::uint32_t light = 0;    // index into LightScene::lights
 };
 
 Environment make_environment(const EnvironmentLight& light, std::shared_ptr<const LightImage> image);

@@ -20,6 +20,7 @@
 #include "tracer/lights/point_emitter.h"
 #include "tracer/lights/quadric_light.h"
 #include "tracer/lights/triangle_parts.h"
+#include "tracer/sampling/wavelengths.h"
 #include "tracer/textures/textures.h"
 
 namespace vitrail {
@@ -231,6 +232,19 @@ Background background(const LightSampler& sampler, Vector3d direction, const Sam
 
 // Radiance of the suns among the distant lights where a ray leaves the scene through their discs.
 SampledSpectrum discs(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);
+
+// The lights of `background` and `discs`, one by one: see(index into scene.lights, radiance).
+template <class See>
+void each_background_light(const LightSampler& sampler, Vector3d direction,
+                           const SampledWavelengths& wavelengths, See&& see) {
+  for (const std::uint32_t i : sampler.infinite)
+    see(i, evaluate(std::get<InfiniteLight>(sampler.scene.lights[i].model).radiance, wavelengths));
+  for (const Environment& e : sampler.environments)
+    see(e.light, value_towards(e, direction, wavelengths).radiance);
+  for (const LightSampler::Distant& d : sampler.distant)
+    if (const Vector3d local = d.frame.to_light(direction); d.sun && d.sun->meets_sun(local))
+      see(d.light, d.sun->sun(local, wavelengths));
+}
 
 // Whether `accept` any of the directions to distant lights whose numbers (LightSampler::Distant::light) are
 // `bits` where `mask` is set. `far` as of sample_light.

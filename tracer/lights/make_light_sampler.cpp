@@ -93,11 +93,13 @@ struct Sorter {
   void add(Environment e) {
     if (!(e.mean_luminance > 0)) return;
     environment_power.push_back(4 * pi * e.mean_luminance * cross_section);
+    e.light = light;
     s.environments.push_back(std::move(e));
   }
   void add(PointEmitter e) {
     bound_fading(e, farthest_from(e.position));
     s.fades = s.fades || e.fading;
+    e.light = light;
     s.emitters.push_back(std::move(e));
   }
   // Of the corners of the scene's bounds; 1 where it has none.

@@ -46,7 +46,8 @@ struct PointEmitter {
   std::optional<Fading> fading{};
   float factor = 1;  // beside it
   std::variant<Everywhere, Spot, Projection, Goniometric> shape;
-  LightBounds bounds;  // power: luminous flux
+  LightBounds bounds;       // power: luminous flux
+  std::uint32_t light = 0;  // index into LightScene::lights
 };
 
 // `image`: of a goniometric light. `aspect`: width over height of a projection's image. `records`: of the

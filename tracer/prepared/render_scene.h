@@ -8,6 +8,7 @@
 #include "bundle/interiors.h"
 #include "tracer/lights/light_sampler.h"
 #include "tracer/media/free_flight.h"
+#include "tracer/prepared/grouped_lights.h"
 #include "tracer/prepared/lane_scene.h"
 #include "tracer/prepared/sampling_choices.h"
 #include "tracer/sampling/sampler.h"
@@ -44,6 +45,7 @@ struct RenderScene {
   } pixel;
   PictureSeed seed;
   SamplingChoices sampling;
+  GroupedLights groups;
   bool uvs_show = true;  // some texture or a layer of the film may read (u,v)
 };
 

@@ -101,6 +101,7 @@ struct ConnectionRecord : RayRecordHead {
     Straight straight;
     Walking walking;  // where ray_in_pane is set
   };
+  std::uint8_t light_group;  // of its light, as LightGroups has them
 };
 
 // Of a photon (transport/scatterer.h, PhotonPath); above them the code of its FaceDoubt.
@@ -142,10 +143,14 @@ struct ShadowRecord {
   std::uint32_t exclude;
   std::uint8_t radiance[hero_count][3];  // as pack_radiance
   std::uint32_t pixel;
-  std::uint32_t sample;
+  std::uint32_t sample_group;  // sample << 9 | light group
+
+  static std::uint32_t with_group(std::uint32_t sample, std::uint8_t group) { return sample << 9 | group; }
+  std::uint32_t sample() const { return sample_group >> 9; }
+  std::uint8_t light_group() const { return static_cast<std::uint8_t>(sample_group); }
 };
 #pragma pack(pop)
-static_assert(sizeof(RayRecord) == 63 && std::is_trivially_copyable_v<RayRecord>);
+static_assert(sizeof(RayRecord) == 64 && std::is_trivially_copyable_v<RayRecord>);
 static_assert(sizeof(ShadowRecord) == 46 && std::is_trivially_copyable_v<ShadowRecord>);
 
 }  // namespace vitrail

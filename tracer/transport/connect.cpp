@@ -38,6 +38,7 @@ void send_connection(Tracing& tracing, const CameraPath& path, const Departure& 
   c.wavelengths = path.wavelengths;
   c.film = path.film;
   c.walks = walks;
+  c.light_group = tracing.scene.groups.of(tracing.scene.lights, light.light);
   const Aimed aimed = aim(from, light);
   depart(c, from, light.to_light);
   turn(c, aimed.direction);
@@ -52,8 +53,8 @@ void send_connection(Tracing& tracing, const CameraPath& path, const Departure& 
   trace(tracing, c);
 }
 
-void send_shadow_ray(const CameraPath& path, const Departure& from, const LightSample& light,
-                     const SampledSpectrum& radiance, ShadowRays& shadows) {
+void send_shadow_ray(const RenderScene& scene, const CameraPath& path, const Departure& from,
+                     const LightSample& light, const SampledSpectrum& radiance, ShadowRays& shadows) {
   const Aimed aimed = aim(from, light);
   ShadowRay& shadow = shadows.rays[shadows.count++];
   shadow.ray = {from.origin, aimed.rounded, from.exclude};
@@ -63,6 +64,7 @@ void send_shadow_ray(const CameraPath& path, const Departure& from, const LightS
     shadow.radiance.v[i] = rounded_radiance(std::max(0.0f, radiance.v[i]));
   shadow.pixel = path.film.pixel;
   shadow.sample = path.film.sample;
+  shadow.light_group = scene.groups.of(scene.lights, light.light);
   shadow.time_s = path.time_s;
   shadow.sensor = &path.film.sensor;
 }
@@ -126,7 +128,7 @@ void send(Tracing& tracing, const CameraPath& path, const Departure& from, const
   if (r.see_through || r.media || walks || (r.refraction && straight))
     send_connection(tracing, path, from, light, radiance, walks);
   else
-    send_shadow_ray(path, from, light, radiance, shadows);
+    send_shadow_ray(tracing.scene, path, from, light, radiance, shadows);
 }
 
 std::uint32_t light_candidates(const Tracing& tracing, const CameraPath& path, Point3d p, bool diffuse) {

@@ -16,7 +16,7 @@ void reach_light(Tracing& tracing, const Connection& c) {
   const auto is_direction = [&](Vector3d to_light) { return encode_direction(to_light) == c.direction; };
   if (!c.walks || any_distant_light(tracing.scene.lights, c.refracted.light, RefractedAim::light_mask,
                                     numbers_for_far_lights(tracing, c.key), is_direction))
-    deposit(tracing, c.film, c.throughput);
+    deposit(tracing, c.film, c.throughput, {c.light_group, c.ray.direction});
 }
 
 // Beyond a surface; false where the light is nearer to it than can be told.
@@ -32,7 +32,7 @@ bool connect_straight(Tracing& tracing, Connection& c, const Interaction& at, co
   c.left = end_value(end_code(c.left - along - aside * c.straight.slope));
   c.hit.t = c.left;
   if (c.left > 0) return true;
-  deposit(tracing, c.film, c.throughput);
+  deposit(tracing, c.film, c.throughput, {c.light_group, c.ray.direction});
   return false;
 }
 
@@ -122,6 +122,7 @@ void resume(Tracing& tracing, const ConnectionRecord& record, const Arrival& at)
   c.set_numbered_depth(record.sample.all_depth());
   unpack_head(record, c);
   c.walks = record.is(ray_in_pane);
+  c.light_group = record.light_group;
   if (c.walks) {
     const ConnectionRecord::Walking& w = record.walking;
     c.refracted = RefractedAim::of(w.light_and_doubt);
@@ -140,6 +141,7 @@ void pack(const Tracing&, const Connection& c, bool resolved, RayRecord& record)
   ConnectionRecord& r = record.connection;
   static_cast<RayRecordHead&>(r) = head_of(c, RayRecordKind::connection, resolved);
   r.sample = SampleRecord::of(c.film.pixel, c.film.sample, c.numbered_depth());
+  r.light_group = c.light_group;
   if (c.walks) {
     r.kind_and_flags |= ray_in_pane;
     r.walking.light_and_doubt = c.refracted.bits();

@@ -15,7 +15,8 @@ namespace vitrail {
 // Its throughput is the radiance that it will deposit.
 struct Connection : Traveller {
   FilmSample film;
-  bool walks = false;  // through panes, to a distant light
+  bool walks = false;            // through panes, to a distant light
+  std::uint8_t light_group = 0;  // as GroupedLights says
   // One that goes straight:
   StraightAim straight;
   double left = 0;  // of its way, in lengths of its direction; rounded as it travels

@@ -59,7 +59,7 @@ void answer(Tracing& tracing, const Gather& question) {
   const std::array<float, 4> u =
       camera_numbers(tracing, key_of(tracing, question.pixel, tracing.photons->iteration));
   deposit(tracing, question.pixel, tracing.photons->iteration,
-          sensor_of(tracing, u, tracing.photons->wavelengths), radiance);
+          sensor_of(tracing, u, tracing.photons->wavelengths), radiance, {});
 }
 
 }  // namespace vitrail

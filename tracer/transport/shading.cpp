@@ -8,6 +8,7 @@
 #include "tracer/transport/first_surface.h"
 #include "tracer/transport/gathering.h"
 #include "tracer/transport/glass.h"
+#include "tracer/transport/group_lights.h"
 
 namespace vitrail {
 
@@ -33,10 +34,19 @@ void add_environment(Tracing& tracing, const CameraPath& path) {
   const LightSampler& lights = tracing.scene.lights;
   const Vector3d direction = normalize(cast<double>(path.ray.direction));
   auto [radiance, light_pdf] = background(lights, direction, path.wavelengths);
-  if (lights.has_discs && !path.connected) radiance = radiance + discs(lights, direction, path.wavelengths);
+  const bool with_discs = lights.has_discs && !path.connected;
+  if (with_discs) radiance = radiance + discs(lights, direction, path.wavelengths);
   if (is_black(radiance)) return;
   const double weight = path.pdf > 0 ? weight_of_finding(path, light_pdf) : 1;
-  deposit(tracing, path.film, path.throughput * radiance * static_cast<float>(weight));
+  std::uint8_t group = tracing.scene.groups.surroundings;
+  if (with_discs && group == GroupedLights::by_direction) group = by_direction_with_discs;
+  deposit(tracing, path.film, path.throughput * radiance * static_cast<float>(weight),
+          {group, path.ray.direction});
+}
+
+std::uint8_t group_of(const RenderScene& scene, const PreparedMedium& medium) {
+  return scene.groups.kept_apart ? scene.groups.media[static_cast<std::size_t>(&medium - scene.media.data())]
+                                 : std::uint8_t{0};
 }
 
 bool scatter_in_medium(Tracing& tracing, CameraPath& path, double g, Point3d p, ShadowRays& shadows) {
@@ -156,7 +166,8 @@ void add_emission(Tracing& tracing, const CameraPath& path, const Interaction& a
     weight = weight_of_finding(
         path, triangle_pdf(lights, path.scattered_from(), at.triangle, at.p, distance, cosine));
   }
-  deposit(tracing, path.film, path.throughput * radiance * static_cast<float>(weight));
+  deposit(tracing, path.film, path.throughput * radiance * static_cast<float>(weight),
+          {tracing.scene.groups.of_area_light(light)});
 }
 
 bool shade(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
@@ -170,7 +181,8 @@ bool shade(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
     RandomStream random(stream_of(path, RayRandom::flight));
     const FlightSample flown =
         sample_flight(*medium, flight, path.wavelengths, path.active_wavelengths(), path.throughput, random);
-    if (!is_black(flown.emitted)) deposit(tracing, path.film, path.throughput * flown.emitted);
+    if (!is_black(flown.emitted))
+      deposit(tracing, path.film, path.throughput * flown.emitted, {group_of(tracing.scene, *medium)});
     path.throughput = path.throughput * flown.weight;
     if (is_black(path.throughput)) return false;
     if (flown.scattered_at) {

@@ -10,6 +10,8 @@ namespace vitrail {
 
 namespace {
 
+LitBy lit_by(const ShadowRay& s) { return {s.light_group, s.ray.direction}; }
+
 void send(Tracing& tracing, const ShadowRay& s, std::uint32_t domain) {
   ShadowRecord r;
   r.origin[0] = s.ray.origin.x;
@@ -20,7 +22,7 @@ void send(Tracing& tracing, const ShadowRay& s, std::uint32_t domain) {
   r.tmax = s.tmax;
   for (std::size_t i = 0; i < hero_count; ++i) pack_radiance(s.radiance.v[i], r.radiance[i]);
   r.pixel = s.pixel;
-  r.sample = s.sample;
+  r.sample_group = ShadowRecord::with_group(s.sample, s.light_group);
   tracing.outbox.shadows.push_back({domain, r});
   if (tracing.traffic) tracing.traffic->leave_for(domain);
 }
@@ -69,7 +71,7 @@ void trace_in_one(Tracing& tracing, ShadowRays& waiting) {
     tracing.kernel.occluded_of_many(*tracing.resident[0], rays, ends, blocked, count);
     for (std::size_t i = 0; i < count; ++i) {
       const ShadowRay& s = waiting.rays[first + i];
-      if (!blocked[i]) deposit(tracing, s.pixel, s.sample, *s.sensor, s.radiance);
+      if (!blocked[i]) deposit(tracing, s.pixel, s.sample, *s.sensor, s.radiance, lit_by(s));
     }
   }
   waiting.count = 0;
@@ -86,7 +88,7 @@ void trace(Tracing& tracing, ShadowRays& rays) {
     const Way way = follow(tracing, s, std::nullopt);
     if (tracing.traffic) tracing.traffic->set(here);
     if (way == Way::elsewhere) ++tracing.counters.born;
-    if (way == Way::free) deposit(tracing, s.pixel, s.sample, *s.sensor, s.radiance);
+    if (way == Way::free) deposit(tracing, s.pixel, s.sample, *s.sensor, s.radiance, lit_by(s));
   }
   rays.count = 0;
 }
@@ -99,7 +101,8 @@ void resume(Tracing& tracing, const ShadowRecord& record, std::uint32_t domain) 
               record.tmax,
               {},
               record.pixel,
-              record.sample};
+              record.sample(),
+              record.light_group()};
   for (std::size_t i = 0; i < hero_count; ++i) s.radiance.v[i] = unpack_radiance(record.radiance[i]);
   const SampleKey key = key_of(tracing, s.pixel, s.sample);
   s.time_s = time_of(tracing, key);
@@ -109,7 +112,7 @@ void resume(Tracing& tracing, const ShadowRecord& record, std::uint32_t domain) 
   ++tracing.counters.died;
   if (way == Way::blocked) return;
   const std::array<float, 4> u = camera_numbers(tracing, key);
-  deposit(tracing, s.pixel, s.sample, sensor_of(tracing, u, sample_wavelengths(u[2])), s.radiance);
+  deposit(tracing, s.pixel, s.sample, sensor_of(tracing, u, sample_wavelengths(u[2])), s.radiance, lit_by(s));
 }
 
 }  // namespace vitrail

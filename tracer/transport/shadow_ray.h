@@ -15,6 +15,7 @@ struct ShadowRay {
   float tmax = 0;
   SampledSpectrum radiance;
   std::uint32_t pixel = 0, sample = 0;
+  std::uint8_t light_group = 0;           // as GroupedLights says
   double time_s = 0;                      // its path's
   const SensorWeights* sensor = nullptr;  // its path's, if that is at hand
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/tracing.h"
 
+#include "tracer/transport/group_lights.h"
+
 namespace vitrail {
 
 TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
@@ -56,17 +58,20 @@ const Footprint* footprint_of(Tracing& tracing, std::uint32_t pixel, std::uint32
 }
 
 void deposit(Tracing& tracing, std::uint32_t pixel, std::uint32_t sample, const SensorWeights& sensor,
-             const SampledSpectrum& radiance) {
+             const SampledSpectrum& radiance, const LitBy& by) {
   Film& film = tracing.film;
   const XYZ light = sense(sensor, radiance);
   const double left = film.clamp(pixel, sample, light);
   const Footprint* const spread = footprint_of(tracing, pixel, sample);
-  if (!film.deposit(pixel, sample, {left * light.x, left * light.y, left * light.z}, spread) ||
-      film.bins().count == 0)
-    return;
+  const XYZ value{left * light.x, left * light.y, left * light.z};
+  const bool is_accepted =
+      !tracing.scene.groups.kept_apart
+          ? film.deposit(pixel, sample, value, spread)
+          : deposit_in_groups(tracing, {pixel, sample, &sensor, left, spread}, radiance, value, by);
+  if (!is_accepted || film.bins().count == 0) return;
   for (std::size_t i = 0; i < hero_count; ++i) {
-    const double value = left * static_cast<double>(radiance.v[i]) * static_cast<double>(sensor.spectral[i]);
-    if (value != 0) film.deposit_bin(pixel, sample, sensor.bin[i], value, spread);
+    const double in_bin = left * static_cast<double>(radiance.v[i]) * static_cast<double>(sensor.spectral[i]);
+    if (in_bin != 0) film.deposit_bin(pixel, sample, sensor.bin[i], in_bin, spread);
   }
 }
 

@@ -117,10 +117,17 @@ SensorWeights sensor_of(const Tracing& tracing, const std::array<float, 4>& came
 // Where the film splats, the pixels of a sample; else null.
 const Footprint* footprint_of(Tracing& tracing, std::uint32_t pixel, std::uint32_t sample);
 
+// Whose light a deposit is, for films that keep groups of lights.
+struct LitBy {
+  std::uint8_t group = 0;  // or GroupedLights::by_direction
+  Vector3f direction{};    // to the light, any length; of what is by direction
+};
+
 void deposit(Tracing& tracing, std::uint32_t pixel, std::uint32_t sample, const SensorWeights& sensor,
-             const SampledSpectrum& radiance);
-inline void deposit(Tracing& tracing, const FilmSample& film, const SampledSpectrum& radiance) {
-  deposit(tracing, film.pixel, film.sample, film.sensor, radiance);
+             const SampledSpectrum& radiance, const LitBy& by);
+inline void deposit(Tracing& tracing, const FilmSample& film, const SampledSpectrum& radiance,
+                    const LitBy& by) {
+  deposit(tracing, film.pixel, film.sample, film.sensor, radiance, by);
 }
 
 }  // namespace vitrail

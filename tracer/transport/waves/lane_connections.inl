@@ -88,6 +88,7 @@ VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vecto
   c.pdf = lamp.pdf * (gather<D>(VITRAIL_EACH(chosen.probability[j])) * share);
   for (int j = 0; j < W; ++j) {
     c.quadric[j] = nullptr;
+    c.ref[j] = slot[j]->light;
     if (!is_set(c.arrives, j)) continue;
     if (g.path[j]->lamp.area_light != slot[j]->area_light)
       lane_by_lane::find_radiance(work, *g.path[j], slot[j]->area_light);
@@ -152,6 +153,7 @@ VITRAIL_LANES void send_shadow_rays(LaneWork& work, const Group& g, const Intera
     for (int i = 0; i < 4; ++i) shadow.radiance.v[i] = lane(radiance[i], j);
     shadow.pixel = path.film.pixel;
     shadow.sample = path.film.sample;
+    if (work.groups_lights) shadow.light_group = lane_by_lane::group_of(work, chosen.ref[j]);
     shadow.time_s = path.time_s;
     shadow.sensor = &path.film.sensor;
     if (!chosen.quadric[j]) continue;

@@ -90,6 +90,7 @@ void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
                 .placed = placed_.data(),
                 .domains = domains_.data(),
                 .roulette_worth = roulette == Roulette::never ? 0 : worth_going_on(roulette),
+                .groups_lights = tracing.scene.groups.kept_apart,
                 .rounding_of_doubles = rounding_of_doubles(tracing.manifest().scale),
                 .shadows = shadows,
                 .next = next_.data()};

@@ -45,6 +45,10 @@ bool draw(const LaneWork& work, const CameraPath& path, Point3d p, const float (
   return drawn;
 }
 
+std::uint8_t group_of(const LaneWork& work, LightRef light) {
+  return work.tracing.scene.groups.of(work.tracing.scene.lights, light);
+}
+
 double filter_weight(const Tracing& tracing, float u, float v) { return tracing.scene.filter.weight(u, v); }
 
 void find_radiance(const LaneWork& work, const CameraPath& path, std::uint32_t area_light) {

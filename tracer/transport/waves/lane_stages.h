@@ -31,6 +31,7 @@ struct LaneWork {
   const PlacedHit* placed;             // of hits that are in a list of such
   const lanes::DomainTables* domains;  // of hits' domains
   float roulette_worth;                // what a path is worth going on for; 0: no roulette
+  bool groups_lights;                  // the film keeps groups of lights
   double rounding_of_doubles;          // as of offset_origin
 
   // What comes out: shadow rays behind those that are there, and the places of paths that go on.
@@ -77,6 +78,8 @@ struct ChosenLight {
 };
 bool draw(const LaneWork& work, const CameraPath& path, Point3d p, const float (&u)[4],
           const ChosenLight& chosen, LightSample& light);
+// As GroupedLights says.
+std::uint8_t group_of(const LaneWork& work, LightRef light);
 double filter_weight(const Tracing& tracing, float u, float v);
 // The radiance of a plain lamp, kept in path.lamp.
 void find_radiance(const LaneWork& work, const CameraPath& path, std::uint32_t area_light);

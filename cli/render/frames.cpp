@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render/frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <sstream>
+
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
+
+namespace vitrail {
+
+namespace {
+
+// What changes the picture, and neither the film's kind nor the job.
+constexpr const char* of_frames[] = {"--look-at", "--fov", "--set", "--seed", "--spp"};
+
+bool may_have(const std::string& word) {
+  return std::ranges::find(of_frames, word.substr(0, word.find('='))) != std::end(of_frames);
+}
+
+bool is_option(const std::string& word) {
+  return word.size() > 1 && word[0] == '-' &&
+         (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
+}
+
+}  // namespace
+
+std::vector<Frame> read_frames(const std::filesystem::path& file) {
+  note_input(file);
+  std::ifstream in = open_regular(file);
+  if (!in) throw Error("cannot read the frames", {file.string()});
+  std::vector<Frame> frames;
+  std::size_t line = 0;
+  for (std::string text; std::getline(in, text);) {
+    Frame frame{++line, {}};
+    std::istringstream words(text.substr(0, text.find('#')));
+    for (std::string word; words >> word;) {
+      if (is_option(word) && !may_have(word))
+        throw Error(fmt::format("a frame has {}, but not {}", fmt::join(of_frames, ", "), word),
+                    {file.string(), static_cast<int>(line), static_cast<int>(text.find(word)) + 1}, text);
+      frame.words.push_back(word);
+    }
+    if (!frame.words.empty()) frames.push_back(std::move(frame));
+  }
+  if (frames.empty()) throw Error("there is no frame: a line of options is one", {file.string()});
+  return frames;
+}
+
+std::filesystem::path numbered(const std::filesystem::path& name, std::size_t number) {
+  const std::string text = name.string();
+  const std::size_t begin = text.find('%');
+  std::size_t end = begin == text.npos ? begin : begin + 1, digits = 0;
+  while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])) != 0) ++end;
+  if (end == text.npos || end >= text.size() || text[end] != 'd' || text.find('%', end) != text.npos ||
+      end - begin > 3)
+    throw UsageError("--frames numbers its pictures: --output needs one %04d, as in day%04d.png: " + text);
+  std::from_chars(text.data() + begin + 1, text.data() + end, digits);
+  return text.substr(0, begin) + fmt::format("{:0{}}", number, digits) + text.substr(end + 1);
+}
+
+}  // namespace vitrail

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many pictures of one bundle, each with a camera, a light or a state of its own.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vitrail {
+
+// A line of the file: options of render that change the picture.
+struct Frame {
+  std::size_t line = 0;  // in the file, from 1
+  std::vector<std::string> words;
+};
+
+// Words with blanks between them; # and what follows is a comment, and a line without words is no frame.
+// Throws Error with the line where an option is not one that a frame may have.
+std::vector<Frame> read_frames(const std::filesystem::path& file);
+
+// "%04d" in the name becomes the number. Throws UsageError where there is not one such place.
+std::filesystem::path numbered(const std::filesystem::path& name, std::size_t number);
+
+}  // namespace vitrail

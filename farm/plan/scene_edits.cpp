@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/plan/scene_edits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "bundle/checksum.h"
+#include "bundle/light_names.h"
+#include "scene/records/material_traits.h"
+#include "scene/spectra/matrix_r.h"
+#include "scene/spectra/rgb_to_spectrum.h"
+#include "scene/system/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+struct Property {
+  const char* name;
+  std::size_t values;
+  double least, most;
+  const char* range;  // in words
+};
+constexpr Property properties[] = {{"scale", 1, 0, infinite, "a scale is a number that is not negative"},
+                                   {"sun", 3, -infinite, infinite, "a direction has three numbers, x:y:z"},
+                                   {"turbidity", 1, 1, 10, "a turbidity is in [1, 10]"},
+                                   {"color", 3, 0, 1, "a colour has three numbers in [0, 1], r:g:b"},
+                                   {"roughness", 1, 0, 1, "a roughness is in [0, 1]"}};
+
+// "lamp.scale=2": where the dot and the equals sign are; npos: it has none.
+struct Places {
+  explicit Places(const std::string& text)
+      : equals(text.rfind('=')), dot(equals == text.npos ? text.npos : text.rfind('.', equals)) {}
+  std::size_t equals, dot;
+};
+
+std::string property_in(const std::string& text) {
+  const Places at(text);
+  return at.dot == text.npos ? "" : text.substr(at.dot + 1, at.equals - at.dot - 1);
+}
+
+[[noreturn]] void refuse(const std::string& text, const std::string& what) {
+  throw UsageError(fmt::format("--set {}: {}", text, what));
+}
+
+// ---- Lights
+
+// A bundle does not keep the colours that `scaled` would fit anew.
+void scale_by(Spectrum& spectrum, double factor) {
+  const auto scale = [&](float& value) { value = static_cast<float>(static_cast<double>(value) * factor); };
+  if (auto* illuminant = std::get_if<RgbIlluminantSpectrum>(&spectrum))
+    scale(illuminant->scale);
+  else if (auto* unbounded = std::get_if<RgbUnboundedSpectrum>(&spectrum))
+    scale(unbounded->scale);
+  else
+    spectrum = scaled(spectrum, factor);
+}
+
+struct LightScaler {
+  double factor;
+  void operator()(PointLight& l) const { scale_by(l.intensity, factor); }
+  void operator()(SpotLight& l) const { scale_by(l.intensity, factor); }
+  void operator()(ProjectionLight& l) const { scale_by(l.scale, factor); }
+  void operator()(GoniometricLight& l) const { scale_by(l.intensity, factor); }
+  void operator()(DistantLight& l) const { scale_by(l.irradiance, factor); }
+  void operator()(InfiniteLight& l) const { scale_by(l.radiance, factor); }
+  void operator()(EnvironmentLight& l) const { scale_by(l.scale, factor); }
+  void operator()(SkyLight& l) const {
+    l.sky_scale *= static_cast<float>(factor);
+    l.sun_scale *= static_cast<float>(factor);
+  }
+};
+
+// A light whose power or illuminance is given is normalised to that, whatever its scale.
+void scale_given(Light& light, double factor) {
+  std::visit(
+      [&](auto& l) {
+        if constexpr (requires { l.power; })
+          if (l.power) *l.power *= static_cast<float>(factor);
+        if constexpr (requires { l.illuminance; })
+          if (l.illuminance) *l.illuminance *= static_cast<float>(factor);
+      },
+      light.model);
+}
+
+void scale_surface(AreaLight& light, double factor) {
+  if (auto* spectrum = std::get_if<Spectrum>(&light.radiance))
+    scale_by(*spectrum, factor);
+  else
+    light.scale *= static_cast<float>(factor);
+}
+
+void edit_light(Light& light, const SceneEdit& edit) {
+  auto* const sky = std::get_if<SkyLight>(&light.model);
+  auto* const distant = std::get_if<DistantLight>(&light.model);
+  if (edit.property == "scale") {
+    std::visit(LightScaler{edit.values[0]}, light.model);
+    scale_given(light, edit.values[0]);
+  } else if (edit.property == "turbidity" && sky) {
+    sky->turbidity = static_cast<float>(edit.values[0]);
+  } else if (edit.property == "sun" && (sky || distant)) {
+    const Vector3d to_sun = normalize(Vector3d{edit.values[0], edit.values[1], edit.values[2]});
+    if (sky) sky->to_sun = normalize(transform_vector(inverse(sky->light_to_world), to_sun));
+    if (distant) distant->direction = -to_sun;
+  } else {
+    refuse(edit.text, sky       ? "a sky has a scale, a sun and a turbidity"
+                      : distant ? "a distant light has a scale and a sun"
+                                : "a light has a scale");
+  }
+}
+
+// Whether some light has the name.
+bool edit_lights(Manifest& m, const SceneEdit& edit) {
+  const LightNames names = light_names(m);
+  bool any = false;
+  for (std::size_t i = 0; i < m.area_lights.size(); ++i) {
+    if (names.area_lights[i] != edit.name) continue;
+    if (edit.property != "scale") refuse(edit.text, "a light has a scale");
+    scale_surface(m.area_lights[i], edit.values[0]);
+    any = true;
+  }
+  for (std::size_t i = 0; i < m.lights.size(); ++i)
+    if (names.lights[i] == edit.name) edit_light(m.lights[i], edit), any = true;
+  return any;
+}
+
+// ---- Materials
+
+// Its own, not those of what it is made of. Null: it has none.
+SpectrumParameter* color_of(MaterialModel& model) {
+  return std::visit(
+      [](auto& m) -> SpectrumParameter* {
+        if constexpr (requires { m.base_color; })
+          return &m.base_color;
+        else if constexpr (requires { m.diffuse_reflectance; })
+          return &m.diffuse_reflectance;
+        else if constexpr (requires { m.reflectance; })
+          return &m.reflectance;
+        else
+          return nullptr;
+      },
+      static_cast<MaterialVariant&>(model));
+}
+
+// Smooth surfaces are prepared in another way than rough ones: false where it was one and would be the other.
+bool set_alpha(FloatParameter& alpha, double value) {
+  const auto* before = std::get_if<float>(&alpha);
+  if ((value == 0) != (before && *before == 0)) return false;
+  alpha = static_cast<float>(value);
+  return true;
+}
+
+void set_facets(Roughness& roughness, const SceneEdit& edit) {
+  if (!set_alpha(roughness.alpha_u, edit.values[0]) || !set_alpha(roughness.alpha_v, edit.values[0]))
+    refuse(edit.text,
+           "a bundle of a smooth surface serves no rough one, nor the other way round: change the scene and "
+           "partition it again");
+  roughness.square_root = false;
+}
+
+// False where it has none.
+bool set_roughness(MaterialModel& model, const SceneEdit& edit) {
+  return std::visit(
+      [&](auto& m) {
+        if constexpr (requires { m.base_color; })
+          m.roughness = static_cast<float>(edit.values[0]);
+        else if constexpr (requires { m.roughness; })
+          set_facets(m.roughness, edit);
+        else if constexpr (requires { m.interface_roughness; })
+          set_facets(m.interface_roughness, edit);
+        else
+          return false;
+        return true;
+      },
+      static_cast<MaterialVariant&>(model));
+}
+
+// False where neither it nor what it is made of has the property.
+bool edit_material(Manifest& m, std::size_t material, const SceneEdit& edit) {
+  MaterialModel& model = m.materials[material].model;
+  if (edit.property == "roughness") {
+    if (set_roughness(model, edit)) return true;
+  } else if (SpectrumParameter* const color = color_of(model)) {
+    *color = resolved(reflectance_from_rgb({edit.values[0], edit.values[1], edit.values[2]}), m.settings.rgb);
+    return true;
+  }
+  bool any = false;
+  for (const Id<Material> part : parts_of(model)) any |= edit_material(m, part.value, edit);
+  return any;
+}
+
+bool edit_materials(Manifest& m, const SceneEdit& edit) {
+  bool any = false;
+  for (std::size_t i = 0; i < m.materials.size(); ++i) {
+    if (m.materials[i].name != edit.name) continue;
+    if (!edit_material(m, i, edit)) refuse(edit.text, fmt::format("this material has no {}", edit.property));
+    any = true;
+  }
+  return any;
+}
+
+// Of lights, or of materials that have one.
+std::string list_of_names(const Manifest& m, bool of_lights) {
+  std::set<std::string> names;
+  const LightNames lights = light_names(m);
+  if (of_lights)
+    for (const auto* list : {&lights.area_lights, &lights.lights}) names.insert(list->begin(), list->end());
+  else
+    for (const Material& material : m.materials) names.insert(material.name);
+  names.erase("");
+  constexpr std::size_t most = 20;
+  std::vector<std::string> shown(names.begin(), names.end());
+  const std::size_t more = shown.size() - std::min(shown.size(), most);
+  shown.resize(shown.size() - more);
+  if (more > 0) shown.push_back(fmt::format("{} more", more));
+  return shown.empty() ? "none with a name" : fmt::format("{}", fmt::join(shown, ", "));
+}
+
+}  // namespace
+
+bool is_scene_edit(const std::string& text) {
+  return std::ranges::find(properties, property_in(text), &Property::name) != std::end(properties);
+}
+
+SceneEdit parse_scene_edit(const std::string& text) {
+  const Places at(text);
+  const auto* const property = std::ranges::find(properties, property_in(text), &Property::name);
+  if (property == std::end(properties) || at.dot == 0)
+    refuse(text, "it has to be NAME.PROPERTY=VALUE, as in lamp.scale=2");
+  SceneEdit edit{text, text.substr(0, at.dot), property->name, {}};
+  std::istringstream list(text.substr(at.equals + 1));
+  for (std::string part; std::getline(list, part, ':');) {
+    double value = 0;
+    const char* const end = part.data() + part.size();
+    const auto [parsed, failed] = std::from_chars(part.data(), end, value);
+    if (failed != std::errc() || parsed != end || !std::isfinite(value)) refuse(text, property->range);
+    if (value < property->least || value > property->most) refuse(text, property->range);
+    edit.values.push_back(value);
+  }
+  if (edit.values.size() != property->values) refuse(text, property->range);
+  if (edit.property == "sun" && !(std::hypot(edit.values[0], edit.values[1], edit.values[2]) > 0))
+    refuse(text, "this direction has no length");
+  return edit;
+}
+
+void edit_scene(std::span<const SceneEdit> edits, Manifest& m) {
+  if (edits.empty()) return;
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(&m.scene_hash, 1)));
+  for (const SceneEdit& edit : edits) {
+    const bool of_material = edit.property == "color" || edit.property == "roughness";
+    if (!(of_material ? edit_materials(m, edit) : edit_lights(m, edit)))
+      refuse(edit.text, fmt::format("no {} has this name; there is {}", of_material ? "material" : "light",
+                                    list_of_names(m, !of_material)));
+    hasher.add(std::as_bytes(std::span(edit.text)));
+    hasher.add(std::as_bytes(std::span("\n", 1)));
+  }
+  m.scene_hash = hasher.digest();
+}
+
+}  // namespace vitrail

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `vitrail render --set` changes of a bundle besides the states of its glass: the picture is that of a
+// bundle which is made of the scene edited in that way.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bundle/manifest.h"
+
+namespace vitrail {
+
+// NAME.PROPERTY=VALUE. Of a light (bundle/light_names.h):
+// - scale, at least 0: times its light;
+// - sun=x:y:z, towards the sun in the world, of a sky or a distant light;
+// - turbidity, 1 … 10, of a sky.
+// Of a material, by the name that the scene's file gives:
+// - color=r:g:b, linear sRGB in [0, 1]: its diffuse reflectance or base colour;
+// - roughness: the α of its microfacets, or of Disney's material its roughness.
+struct SceneEdit {
+  std::string text, name, property;
+  std::vector<double> values;  // one or three
+};
+
+// Whether the property of a text is one of these.
+bool is_scene_edit(const std::string& text);
+// Throws UsageError.
+SceneEdit parse_scene_edit(const std::string& text);
+
+// In the order in which they are given. Throws UsageError where nothing has that name or property, and where
+// the bundle would have to be made anew. The manifest's scene_hash becomes another one.
+void edit_scene(std::span<const SceneEdit> edits, Manifest& manifest);
+
+}  // namespace vitrail

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Another place or angle of view for a bundle's camera.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bundle/manifest.h"
+
+namespace vitrail {
+
+struct ViewEdit {
+  struct LookAt {
+    Point3d eye, target;
+    Vector3d up{0, 0, 0};  // 0: the direction that was up before
+  };
+  std::optional<LookAt> look_at;  // in the world of the scene's file; the camera then stands still
+  std::optional<double> fov_deg;  // over the shorter side of the picture
+};
+
+// "0,-5,2,0,0,1" or with three numbers more of the direction that is up. Throws UsageError.
+ViewEdit::LookAt parse_look_at(const std::string& text);
+
+// Before the film is given another size. Throws UsageError where the camera has no such thing, or the view no
+// direction.
+void edit_view(const ViewEdit& edit, Manifest& manifest);
+
+}  // namespace vitrail

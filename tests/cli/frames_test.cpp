@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// `render --frames`: a picture for each line of a text.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Frames : public ::testing::Test {
+ protected:
+  Frames() {
+    const CommandResult made = run(fmt::format("{} {}/examples/cornell-box/cornell-box.pbrt -o {} --quiet",
+                                               vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit")));
+    EXPECT_EQ(made.status, 0) << made.output;
+  }
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  void write_frames(const std::string& text) const { std::ofstream(directory_ / "frames.txt") << text; }
+  CommandResult render(const std::string& more, int ranks = 1) const {
+    return run(
+        fmt::format("{} {} --width 16 --spp 2 {}", mpi_vitrail("render", ranks), path("box.vit"), more));
+  }
+  CommandResult render_frames(const std::string& more = "", int ranks = 1) const {
+    return render(fmt::format("--frames {} -o {} {}", path("frames.txt"), path("f%03d.png"), more), ranks);
+  }
+  std::string bytes(const std::string& name) const {
+    std::ifstream in(directory_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(Frames, AreThePicturesOfTheirOptions) {
+  write_frames(
+      "# a lamp, and an eye\n--set area-1.scale=.5\n\n--look-at=.5,1.5,-2.9,0,1,0  # aside\n--seed 3 "
+      "--fov 60\n");
+  for (const int ranks : {1, 2}) {
+    const CommandResult all = render_frames("--force", ranks);
+    ASSERT_EQ(all.status, 0) << all.output;
+    const char* options[] = {"--set area-1.scale=.5", "--look-at=.5,1.5,-2.9,0,1,0", "--seed 3 --fov 60"};
+    for (int i = 0; i < 3; ++i) {
+      const CommandResult one = render(fmt::format("{} -o {} --force", options[i], path("one.png")));
+      ASSERT_EQ(one.status, 0) << one.output;
+      EXPECT_EQ(bytes(fmt::format("f{:03}.png", i + 1)), bytes("one.png")) << options[i];
+    }
+  }
+  EXPECT_FALSE(fs::exists(directory_ / "f004.png"));
+}
+
+TEST_F(Frames, GoOnAtTheFirstThatIsMissing) {
+  write_frames("--seed 1\n--seed 2\n--seed 3\n");
+  ASSERT_EQ(render_frames().status, 0);
+  const std::string second = bytes("f002.png");
+  fs::remove(directory_ / "f002.png");
+  std::ofstream(directory_ / "f003.png") << "somebody's";
+  const CommandResult again = render_frames();
+  EXPECT_EQ(again.status, 0) << again.output;
+  EXPECT_THAT(again.output, AllOf(HasSubstr("f001.png is there"), HasSubstr("f003.png is there")));
+  EXPECT_EQ(bytes("f002.png"), second);
+  EXPECT_EQ(bytes("f003.png"), "somebody's");
+}
+
+TEST_F(Frames, WhatIsWrongIsSaidWithItsLine) {
+  write_frames("--seed 1\n--seed 2 --threads 3\n");
+  const CommandResult refused = render_frames();
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.output,
+              AllOf(HasSubstr("frames.txt:2"), HasSubstr("--threads"), HasSubstr("--look-at")));
+  write_frames("--seed x\n");
+  EXPECT_THAT(render_frames().output, HasSubstr("frames.txt:1"));
+  write_frames("# nothing\n");
+  EXPECT_EQ(render_frames().status, 3);
+  write_frames("--seed 1\n");
+  const CommandResult unnumbered =
+      render(fmt::format("--frames {} -o {}", path("frames.txt"), path("f.png")));
+  EXPECT_EQ(unnumbered.status, 2);
+  EXPECT_THAT(unnumbered.output, HasSubstr("%04d"));
+  const CommandResult of_scene =
+      run(fmt::format("{} {}/examples/cornell-box/cornell-box.pbrt --frames {} -o {}", vitrail("render"),
+                      VITRAIL_SOURCE_DIR, path("frames.txt"), path("f%d.png")));
+  EXPECT_EQ(of_scene.status, 2);
+  EXPECT_THAT(of_scene.output, HasSubstr("partition"));
+}
+
+TEST_F(Frames, OfTheExamplesAreFrames) {
+  const CommandResult turned =
+      run(fmt::format("/usr/bin/python3 {}/examples/frames/turntable.py --around 0,1,0 --radius 0.9 "
+                      "--up y --frames 3 > {}",
+                      VITRAIL_SOURCE_DIR, path("frames.txt")));
+  ASSERT_EQ(turned.status, 0) << turned.output;
+  const CommandResult all = render_frames();
+  EXPECT_EQ(all.status, 0) << all.output;
+  EXPECT_NE(bytes("f001.png"), bytes("f003.png"));
+}
+
+}  // namespace
+}  // namespace vitrail::test

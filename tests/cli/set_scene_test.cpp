@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// `render --set`, --look-at and --fov on a bundle: to the bit the picture of a bundle that is made of the
+// scene edited in that way.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Values {
+  std::string lamp = "1", point = "1", color = ".5 .4 .3", roughness = ".2", fov = "60";
+};
+
+std::string pbrt_scene(const Values& v) {
+  return fmt::format(R"(LookAt 0 -3 2  0 0 0  0 0 1
+Camera "perspective" "float fov" {}
+Sampler "independent" "integer pixelsamples" 4
+Film "rgb" "integer xresolution" 24 "integer yresolution" 16
+WorldBegin
+LightSource "point" "point3 from" [1 0 2] "rgb I" [2 3 4] "float scale" {}
+LightSource "infinite" "rgb L" [.1 .2 .3]
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [4 3 2] "float scale" {}
+  Shape "trianglemesh" "point3 P" [-1 1 1 -1 -1 1 -1 0 2] "integer indices" [0 1 2]
+AttributeEnd
+MakeNamedMaterial "floor" "string type" "diffuse" "rgb reflectance" [{}]
+NamedMaterial "floor"
+Shape "trianglemesh" "point3 P" [-2 -2 0 2 -2 0 2 2 0 -2 2 0] "integer indices" [0 1 2 0 2 3]
+MakeNamedMaterial "metal" "string type" "conductor" "float roughness" {} "bool remaproughness" false
+NamedMaterial "metal"
+Translate 0 0 .5
+Shape "sphere" "float radius" .4
+)",
+                     v.fov, v.point, v.lamp, v.color, v.roughness);
+}
+
+struct View {
+  std::string origin = "0, -4, 2", turbidity = "3", sun = "0.3, 0.2, 0.8";
+};
+
+std::string mitsuba_scene(const View& v) {
+  return fmt::format(R"(<scene version="3.0.0">
+<integrator type="path"/>
+<sensor type="perspective"><float name="fov" value="40"/>
+  <transform name="to_world"><lookat origin="{}" target="0, 0, 0.3" up="0, 0, 1"/></transform>
+  <film type="hdrfilm"><integer name="width" value="16"/><integer name="height" value="16"/></film>
+  <sampler type="independent"><integer name="sample_count" value="4"/></sampler></sensor>
+<emitter type="sunsky"><float name="turbidity" value="{}"/><vector name="sun_direction" value="{}"/></emitter>
+<shape type="rectangle"/><shape type="sphere"><float name="radius" value="0.4"/></shape>
+</scene>
+)",
+                     v.origin, v.turbidity, v.sun);
+}
+
+class SetScene : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  std::string bundle(const std::string& name, const std::string& text) const {
+    std::ofstream(directory_ / name) << text;
+    const CommandResult made =
+        run(fmt::format("{} {} -o {}.vit --force --quiet", vitrail("partition"), path(name), path(name)));
+    EXPECT_EQ(made.status, 0) << made.output;
+    return path(name) + ".vit";
+  }
+  std::string hash(const std::string& bundle, const std::string& options = "") const {
+    const std::string film = path("picture.film");
+    const CommandResult made =
+        run(fmt::format("{} {} -o {} --force --quiet {}", vitrail("render"), bundle, film, options));
+    EXPECT_EQ(made.status, 0) << made.output;
+    const CommandResult told = run(fmt::format("{} --json {}", vitrail("inspect"), film));
+    return nlohmann::json::parse(told.output).at("film_hash").get<std::string>();
+  }
+  void expect_refused(const std::string& bundle, const std::string& options, const std::string& words) const {
+    const CommandResult refused =
+        run(fmt::format("{} {} -o {} --force {}", vitrail("render"), bundle, path("no.film"), options));
+    EXPECT_EQ(refused.status, 2) << options;
+    EXPECT_THAT(refused.output, HasSubstr(words)) << options;
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(SetScene, LightsAndMaterialsAndTheAngleOfView) {
+  const std::string plain = bundle("plain.pbrt", pbrt_scene({}));
+  const std::string before = hash(plain);
+  const auto expect_edit = [&](const char* options, const Values& edited) {
+    const std::string set = hash(plain, options);
+    EXPECT_EQ(set, hash(bundle("edited.pbrt", pbrt_scene(edited)))) << options;
+    EXPECT_NE(set, before) << options;
+  };
+  expect_edit("--set point-2.scale=4", {.point = "4"});
+  expect_edit("--set area-1.scale=.25", {.lamp = ".25"});
+  expect_edit("--set floor.color=.1:.7:.2", {.color = ".1 .7 .2"});
+  expect_edit("--set metal.roughness=.4", {.roughness = ".4"});
+  expect_edit("--fov 30", {.fov = "30"});
+  expect_edit("--set metal.roughness=.1 --set area-1.scale=2 --fov 45",
+              {.lamp = "2", .roughness = ".1", .fov = "45"});
+}
+
+TEST_F(SetScene, SkyAndPlaceOfTheCamera) {
+  const std::string plain = bundle("plain.xml", mitsuba_scene({}));
+  const std::string before = hash(plain);
+  const auto expect_edit = [&](const char* options, const View& edited) {
+    const std::string set = hash(plain, options);
+    EXPECT_EQ(set, hash(bundle("edited.xml", mitsuba_scene(edited)))) << options;
+    EXPECT_NE(set, before) << options;
+  };
+  expect_edit("--set sky-1.turbidity=6", {.turbidity = "6"});
+  expect_edit("--set sky-1.sun=-.5:.1:.6", {.sun = "-.5, .1, .6"});
+  expect_edit("--look-at 3,-2,1,0,0,.3,0,0,1", {.origin = "3, -2, 1"});
+}
+
+TEST_F(SetScene, WhatCannotBeIsRefused) {
+  const std::string plain = bundle("plain.pbrt", pbrt_scene({}));
+  expect_refused(plain, "--set lamp.scale=2", "there is area-1, infinite-3, point-2");
+  expect_refused(plain, "--set wall.color=.1:.2:.3", "there is floor, metal");
+  expect_refused(plain, "--set metal.color=.1:.2:.3", "no color");
+  expect_refused(plain, "--set floor.roughness=.1", "no roughness");
+  expect_refused(plain, "--set metal.roughness=0", "partition it again");
+  expect_refused(plain, "--set point-2.sun=0:0:1", "a light has a scale");
+  expect_refused(plain, "--set point-2.scale=-1", "not negative");
+  expect_refused(plain, "--set point-2.scale=", "a scale is a number");
+  expect_refused(plain, "--set floor.color=.1", "three numbers");
+  expect_refused(plain, "--set floor.shine=1", "what can be set");
+  expect_refused(plain, "--look-at 0,0,0,0,0,0", "no direction");
+  expect_refused(plain, "--look-at 0,0,1", "--look-at takes");
+}
+
+}  // namespace
+}  // namespace vitrail::test
