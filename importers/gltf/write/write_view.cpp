@@ -8,6 +8,7 @@
 #include "importers/reading/sensor_view.h"
 #include "importers/writing/export_colors.h"
 #include "importers/writing/physical_light.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail::gltf {
 
@@ -20,6 +21,24 @@ int add(tinygltf::Model& model, tinygltf::Node node) {
 
 // It looks along −z in glTF.
 Transform frame_of(const Transform& camera_to_world) { return camera_to_world * scale({1, 1, -1}); }
+
+// The greatest distance from a point to the boxes of what is there; 1 where there is nothing.
+double reach(const Scene& scene, Point3d from) {
+  double most = 0;
+  const auto look_at = [&](const Shape& shape, const Transform& to_world) {
+    const Bounds3f box = bounds_of(scene.meshes[shape.mesh.value]);
+    for (int corner = 0; corner < 8 && !box.empty(); ++corner) {
+      const Point3d p{(corner & 1 ? box.upper : box.lower).x, (corner & 2 ? box.upper : box.lower).y,
+                      (corner & 4 ? box.upper : box.lower).z};
+      most = std::max(most, length(transform_point(to_world, p) - from));
+    }
+  };
+  for (const Shape& shape : scene.shapes) look_at(shape, shape.object_to_world);
+  for (const Instance& instance : scene.instances)
+    for (const Shape& shape : scene.prototypes[instance.prototype.value].shapes)
+      look_at(shape, instance.prototype_to_world * shape.object_to_world);
+  return most > 0 && std::isfinite(most) ? most : 1;
+}
 
 struct PunctualLight {
   std::string type;
@@ -119,12 +138,14 @@ int write_camera(tinygltf::Model& model, ConversionNotes& notes, const Transform
   if (std::abs(screen.x0 + screen.x1) > 1e-6 * width || std::abs(screen.y0 + screen.y1) > 1e-6 * height)
     notes.approximated("a picture beside the camera's axis: about the axis");
   if (focal_radius > 0) notes.dropped("depth of field: glTF's cameras have none");
+  // Around all that there is: what goes by depth buffers cuts there.
+  const double far = 2 * reach(scene, transform_point(to_world, {0, 0, 0})), near = 1e-5 * far;
   if (out.type == "perspective") {
     out.perspective.yfov = 2 * std::atan(height), out.perspective.aspectRatio = width / height;
-    out.perspective.znear = 0.001;
+    out.perspective.znear = near, out.perspective.zfar = far;
   } else {
     out.orthographic.xmag = width, out.orthographic.ymag = height;
-    out.orthographic.znear = 0.001, out.orthographic.zfar = 1e6;
+    out.orthographic.znear = near, out.orthographic.zfar = far;
   }
   model.cameras.push_back(std::move(out));
   tinygltf::Node node = node_at(mirror * frame_of(to_world));

@@ -122,6 +122,16 @@ TEST_F(WriteGltf, ChannelsOfTwoImagesBecomeOne) {
   EXPECT_EQ(stored.image.values.at(2), 1.0f) << "blue: metal";
 }
 
+// Blender cuts at a zfar of 0, which tinygltf writes where none is set.
+TEST_F(WriteGltf, CamerasReachAllThatThereIs) {
+  export_scene(read().scene, folder_ / "out.gltf");
+  std::ifstream in(folder_ / "out.gltf");
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  const std::size_t at = text.find("\"zfar\":");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_GT(std::stod(text.substr(at + 7)), 10) << "from (0,1,9) to (-3,1,-1)";
+}
+
 TEST_F(WriteGltf, SaysWhatIsLost) {
   Scene scene = read().scene;
   scene.lights.push_back({InfiniteLight{ConstantSpectrum{1}}});
