@@ -23,10 +23,10 @@ Patience::Patience(Transport& transport, Watchdog& watchdog, double patience_s)
       watchdog_(watchdog),
       patience_s_(patience_s),
       watch_(transport.rank(), transport.size(), patience_s) {
+  watchdog_.expect_reports(transport_.size() > 1);
   if (transport_.size() == 1) return;
   watch_.round_begins(0);  // which lasts as long as the job
   transport_.while_waiting = [this] { watch(); };
-  watchdog_.expect_reports();
   learn_names();
   watchdog_.call_it(fmt::format("rank {} of {} ({})", transport_.rank(), transport_.size(),
                                 names_[static_cast<std::size_t>(transport_.rank())]));

@@ -24,8 +24,8 @@ class Watchdog {
   // How messages call this process, "rank 1 of 4 (node7)". Before that, and alone, nothing.
   void call_it(std::string name);
 
-  // The thread that speaks to other ranks calls the second again and again, once it has called the first.
-  void expect_reports() { reports_expected_ = true; }
+  // The thread that speaks to other ranks calls the second again and again while they are expected.
+  void expect_reports(bool from_now_on = true) { reports_expected_ = from_now_on; }
   void report() { reports_.fetch_add(1, std::memory_order_relaxed); }
 
   // It has found a standstill and said so: the job ends. Who sees that ends all ranks; where nobody does,

@@ -13,12 +13,8 @@ namespace vitrail {
 
 void beside(Transport& transport, const std::function<void()>& step) {
   using namespace std::chrono_literals;
-  const auto watched = [&] {
-    const Underway underway(doing());
-    step();
-  };
-  if (transport.size() == 1) return watched();
-  std::future<void> working = std::async(std::launch::async, watched);
+  if (transport.size() == 1) return step();
+  std::future<void> working = std::async(std::launch::async, step);
   while (working.wait_for(1ms) != std::future_status::ready) transport.goes_on();
   working.get();
 }
@@ -35,7 +31,11 @@ Round wait_for_round(Transport& transport) {
 void agree(Transport& transport, const std::function<void()>& step) {
   std::exception_ptr failure;
   try {
-    beside(transport, step);
+    // A step that stands still is seen. What is only beside may wait for another program.
+    beside(transport, [&] {
+      const Underway underway(doing());
+      step();
+    });
   } catch (...) {
     failure = std::current_exception();
   }

@@ -141,6 +141,13 @@ TEST_F(Launchers, ALauncherThatDoesNotEndIsKilled) {
   EXPECT_EQ(hash("a.film"), hash("whole.film"));
 }
 
+// It has nobody to answer, and is not taken for one that hangs.
+TEST_F(Launchers, ARankOfMpirunThatIsAloneIsPatient) {
+  const CommandResult made =
+      run(mpi_vitrail("render", 1) + arguments("a.film", "--patience 1.5 --spp 65536 --time 5"));
+  EXPECT_EQ(made.status, 0) << made.output;
+}
+
 // Nobody else misses a rank that is alone.
 TEST_F(Launchers, AStoppedRenderIsKilledAndBroughtBack) {
   ASSERT_EQ(run(alone("whole.film")).status, 0);
