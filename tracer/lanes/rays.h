@@ -5,6 +5,7 @@
 #include "tracer/lanes/codes.h"
 #include "tracer/lanes/directions.h"
 #include "tracer/lanes/sampling.h"
+#include "tracer/quadrics/quadric_hits_lanes.h"
 #include "tracer/rays/departing.h"
 #include "tracer/rays/rounding.h"
 
@@ -98,6 +99,18 @@ VITRAIL_LANES Aimed<D> aim(Vector<D> p, Vector<FloatsLike<D>> origin, const Conn
       select<D>(endless, fill<D>(std::numeric_limits<double>::infinity()), select<D>(meets, clamped, there));
   aimed.cosine = select<D>(no(endless) & meets, cosine, fill<D>(1));
   return aimed;
+}
+
+// What `end` of that is where it leads to a whole sphere, sphere(j) the PlacedQuadric of lane j: where it
+// meets that, nearest to where it ended. Near its limb it may pass by. `starts_there`: as of quadric_hits.
+template <class D, class SphereOf>
+VITRAIL_LANES D end_on_sphere(Vector<FloatsLike<D>> origin, const Aimed<D>& aimed, const SphereOf& sphere,
+                              Mask<D> starts_there) {
+  const auto [first, second] = sphere_crossings(origin, aimed.direction, sphere, starts_there);
+  const Mask<D> by_second =
+      second.is_hit & (no(first.is_hit) | (abs(second.t - aimed.end) < abs(first.t - aimed.end)));
+  const D t = select<D>(by_second, second.t, first.t);
+  return select<D>(first.is_hit | second.is_hit, t * (1 - 1e-12), aimed.end);
 }
 
 // Shadow::tmax and Shadow::radiance.

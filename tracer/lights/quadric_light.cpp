@@ -7,6 +7,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/lights/normal_cone.h"
+#include "tracer/lights/sphere_light_lanes.h"
 #include "tracer/quadrics/quadric_area.h"
 #include "tracer/quadrics/quadric_surface.h"
 
@@ -61,97 +62,46 @@ bool is_similarity(const Affine& a) {
 }  // namespace
 
 QuadricLight::QuadricLight(const EmissiveQuadric& record, bool two_sided, int patches)
-    : record_(&record), own_area_(own_area(record.quadric.quadric)), two_sided_(two_sided) {
-  const Affine& to = record.to_bundle;
-  const Vector3d x = column(to, 0), y = column(to, 1), z = column(to, 2);
-  const double determinant = dot(x, cross(y, z));
-  determinant_ = std::abs(determinant);
-  inverse_[0] = cross(y, z) * (1 / determinant);
-  inverse_[1] = cross(z, x) * (1 / determinant);
-  inverse_[2] = cross(x, y) * (1 / determinant);
-  double norm2 = 0;
-  for (const Vector3d& row : inverse_) norm2 += dot(row, row);
-  const Vector3d away = origin_of(to) - middle;
-  doubt_ = 0x1p-48 * (1 + std::sqrt(norm2 * dot(away, away)));
+    : record_(&record),
+      stands_(record.quadric, record.to_bundle),
+      own_area_(own_area(record.quadric.quadric)),
+      two_sided_(two_sided) {
   const Quadric& q = record.quadric.quadric;
   if (is_whole_sphere(q)) way_ = Way::sphere;
   if (q.kind == QuadricKind::disk && is_whole_turn(q) && q.low <= 0) way_ = Way::disk;
   if (q.kind == QuadricKind::cylinder && is_whole_turn(q) && (two_sided || !record.quadric.inside_out)) {
     way_ = Way::cylinder;
+    const auto& [x, y, z] = stands_.column;
     own_height_ = length(z) / std::sqrt(length(x) * length(y));
   }
   const bool by_area = way_ == Way::area || (way_ == Way::cylinder && two_sided);
-  if (by_area && patches >= QuadricPatches::fewest && determinant_ > 0)
+  if (by_area && patches >= QuadricPatches::fewest && stands_.determinant > 0)
     patches_ = std::make_shared<const QuadricPatches>(record, two_sided, patches);
 }
 
 Vector3d QuadricLight::own(Vector3d v) const {
-  return {dot(inverse_[0], v), dot(inverse_[1], v), dot(inverse_[2], v)};
+  return {dot(stands_.inverse[0], v), dot(stands_.inverse[1], v), dot(stands_.inverse[2], v)};
 }
 
 Vector3d QuadricLight::placed(Vector3d v) const {
-  const Affine& to = record_->to_bundle;
-  return column(to, 0) * v.x + column(to, 1) * v.y + column(to, 2) * v.z;
+  const auto& [x, y, z] = stands_.column;
+  return x * v.x + y * v.y + z * v.z;
 }
 
 // ---- Spheres
 
-// How the unit sphere is seen from q.
-struct QuadricLight::Cone {
-  double d2 = 0;  // |q|²
-  bool outside = false;
-  double height = 2;  // 1 − cos θ of the cone; 2: all directions
-
-  // Of what is seen from outside, or inside; per solid angle of the own space.
-  double pdf(bool from_outside) const { return from_outside == outside ? 1 / (2 * pi * height) : 0; }
-};
-
-QuadricLight::Cone QuadricLight::cone(Vector3d q) const {
-  Cone cone{dot(q, q)};
-  cone.outside = cone.d2 > 1 + doubt_;
-  // (1 − cos θ)(1 + cos θ) = sin² θ = 1/|q|².
-  if (cone.outside) cone.height = 1 / (cone.d2 * (1 + std::sqrt((cone.d2 - 1) / cone.d2)));
-  return cone;
+// Of what is seen from outside, or inside; per solid angle of the own space.
+double QuadricLight::sphere_pdf(Vector3d q, bool from_outside) const {
+  const auto cone = lanes::sphere_cone(lanes::fill<double>(q), stands_.doubt);
+  return from_outside == cone.outside ? lanes::cone_pdf(cone) : 0;
 }
 
 std::optional<QuadricLight::Sample> QuadricLight::sample_sphere(Point3d from, float u, float v) const {
-  const Vector3d q = own(from - origin_of(record_->to_bundle));
-  const Cone cone = this->cone(q);
-  // A point of the disk, lifted onto the cap of that height: equal areas stay equal.
-  const Vector3d disk = sample_cosine_hemisphere(u, v);
-  const double r2 = disk.x * disk.x + disk.y * disk.y;
-  const double drop = cone.height * r2;
-  const double aside = std::sqrt(cone.height * (2 - drop));
-  const Vector3d local{disk.x * aside, disk.y * aside, 1 - drop};
-  Sample s;
-  Vector3d direction, normal;
-  double t;
-  if (cone.outside) {
-    const double d = std::sqrt(cone.d2);
-    const Frame frame(q * (-1 / d));
-    direction = frame.to_world(local);
-    // The sine of the angle between the ray and the normal where they meet, over the radius of `local`.
-    const double sine = aside * d, cosine = safe_sqrt(1 - sine * sine * r2);
-    t = (cone.d2 - 1) / (d * local.z + cosine);
-    const double turned = sine * local.z - cosine * aside;  // sin of the angle at the centre, likewise
-    normal = frame.to_world({disk.x * turned, disk.y * turned, 0}) -
-             frame.normal * (cosine * local.z + aside * sine * r2);
-  } else {
-    direction = local;
-    const double b = dot(q, direction), inside = b * b + 1 - cone.d2;
-    if (!(inside >= 0)) return std::nullopt;
-    t = std::sqrt(inside) - b;
-    normal = q + direction * t;
-  }
-  s.local = middle + normalize(normal);
-  const Vector3d way = placed(direction);
-  const double longer = length(way);
-  s.to_light = way * (1 / longer);
-  s.distance = t * longer;
-  s.normal = placed_quadric_normal(record_->quadric, record_->to_bundle, s.local);
-  s.front = is_front(cone.outside);
-  s.pdf = cone.pdf(cone.outside) * longer * longer * longer / determinant_;
-  return s;
+  const auto s = lanes::sample_sphere<double>(lanes::fill<double>(from - middle), u, v,
+                                              [&](int) -> const PlacedQuadric& { return stands_; });
+  if (!s.arrives) return std::nullopt;
+  return Sample{middle + lane(s.local, 0), lane(s.to_light, 0), lane(s.normal, 0), s.distance, s.pdf,
+                is_front(s.outside)};
 }
 
 // ---- Cylinders
@@ -186,7 +136,7 @@ struct QuadricLight::Arc {
 QuadricLight::Arc QuadricLight::arc(Vector3d q) const {
   const double rho2 = q.x * q.x + q.y * q.y;
   Arc arc{q.z, std::sqrt(rho2)};
-  if (rho2 > 1 + doubt_) arc.half_rad = portable_atan2(1, std::sqrt(rho2 - 1));
+  if (rho2 > 1 + stands_.doubt) arc.half_rad = portable_atan2(1, std::sqrt(rho2 - 1));
   return arc;
 }
 
@@ -215,7 +165,7 @@ std::optional<QuadricLight::Sample> QuadricLight::sample_cylinder(Point3d from, 
   sample.normal = placed_quadric_normal(record_->quadric, record_->to_bundle, sample.local);
   sample.front = is_front(true);
   const double longer = sample.distance / length(own_way);
-  sample.pdf = arc.pdf(own_way, own_height_) * longer * longer * longer / determinant_;
+  sample.pdf = arc.pdf(own_way, own_height_) * longer * longer * longer / stands_.determinant;
   return sample;
 }
 
@@ -276,7 +226,7 @@ std::optional<QuadricLight::Sample> QuadricLight::sample_disk(Point3d from, floa
   s.normal = placed_quadric_normal(record_->quadric, record_->to_bundle, s.local);
   s.front = is_front(q.z > 0);
   const double longer = s.distance / length(own_way);
-  s.pdf = cone.pdf(own_way) * longer * longer * longer / determinant_;
+  s.pdf = cone.pdf(own_way) * longer * longer * longer / stands_.determinant;
   return s;
 }
 
@@ -340,10 +290,10 @@ double QuadricLight::pdf(Point3d from, Point3d at, double cosine) const {
   // Of directions dω = |det| / |M ω′|³ dω′.
   const double longer = distance / own_distance;
   const bool outer = is_front(cosine > 0);
-  const double own_pdf = way == Way::sphere     ? cone(q).pdf(outer)
+  const double own_pdf = way == Way::sphere     ? sphere_pdf(q, outer)
                          : way == Way::cylinder ? (outer ? arc(q).pdf(own_way, own_height_) : 0)
                                                 : EllipticCone(q).pdf(own_way);
-  return own_pdf * longer * longer * longer / determinant_;
+  return own_pdf * longer * longer * longer / stands_.determinant;
 }
 
 // ---- What is known of it once

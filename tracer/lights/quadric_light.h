@@ -17,6 +17,7 @@
 #include "bundle/manifest.h"
 #include "tracer/lights/light_tree.h"
 #include "tracer/lights/quadric_patches.h"
+#include "tracer/quadrics/placed_quadric.h"
 #include "tracer/quadrics/quadric_area.h"
 #include "tracer/textures/textures.h"
 
@@ -49,16 +50,18 @@ class QuadricLight {
   double area() const;         // where it stands
   LightBounds bounds() const;  // box and normals
   const EmissiveQuadric& record() const { return *record_; }
+  const PlacedQuadric& stands() const { return stands_; }
+  // Of the front of a closed one.
+  bool is_front(bool outside) const { return outside != record_->quadric.inside_out; }
 
  private:
   enum class Way : std::uint8_t { sphere, cylinder, disk, area };
-  struct Cone;
   struct Arc;
   struct EllipticCone;
 
   Vector3d own(Vector3d v) const;
   Vector3d placed(Vector3d v) const;
-  Cone cone(Vector3d q) const;
+  double sphere_pdf(Vector3d q, bool from_outside) const;
   Arc arc(Vector3d q) const;
   std::optional<Sample> sample_sphere(Point3d from, float u, float v) const;
   std::optional<Sample> sample_cylinder(Point3d from, float u, float v) const;
@@ -66,12 +69,9 @@ class QuadricLight {
   std::optional<Sample> sample_area(Point3d from, float u, float v) const;
   Sides sides(Point3d from) const;
   Way way(Point3d from) const;
-  bool is_front(bool outside) const { return outside != record_->quadric.inside_out; }
 
   const EmissiveQuadric* record_;
-  Vector3d inverse_[3];     // rows of the inverse of its transform's 3×3 block
-  double determinant_ = 0;  // magnitude
-  double doubt_ = 0;        // of |q|², where q is on its surface, in its own space
+  PlacedQuadric stands_;
   double own_area_ = 0;
   double own_height_ = 1;  // of a cylinder, over its radius
   Way way_ = Way::area;

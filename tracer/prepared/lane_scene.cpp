@@ -69,11 +69,17 @@ LaneSurface lane_surface(const Manifest& manifest, const Interiors& interiors, c
   return s;
 }
 
-bool is_plain(const LightSampler& lights, const LightSampler::Slot& slot) {
-  if (slot.light.kind != LightKind::triangle || lights.faces.empty()) return false;
+LaneLamp lane_lamp(const LightSampler& lights, const LightSampler::Slot& slot) {
+  const bool is_quadric = slot.light.kind == LightKind::quadric;
+  if (!is_quadric && (slot.light.kind != LightKind::triangle || lights.faces.empty())) return LaneLamp::other;
   const AreaLight& light = lights.scene.area_lights[slot.area_light];
-  return !light.directional && std::holds_alternative<Spectrum>(light.radiance) &&
-         slot.opacity == FloatParameter{1.0f} && !lights.parts_of_triangle(slot.light.index);
+  if (light.directional || !std::holds_alternative<Spectrum>(light.radiance)) return LaneLamp::other;
+  if (slot.opacity != FloatParameter{1.0f}) return LaneLamp::other;
+  if (is_quadric) {
+    const Quadric& quadric = lights.quadrics[slot.light.index].record().quadric.quadric;
+    return is_whole_sphere(quadric) ? LaneLamp::sphere : LaneLamp::other;
+  }
+  return lights.parts_of_triangle(slot.light.index) ? LaneLamp::other : LaneLamp::triangle;
 }
 
 }  // namespace
@@ -108,7 +114,7 @@ LaneScene::LaneScene(const Manifest& manifest, const Interiors& interiors, const
   divides_space = interiors.divide_space();
   for (const Surface& surface : manifest.surfaces)
     surfaces.push_back(lane_surface(manifest, interiors, surface));
-  for (const LightSampler::Slot& slot : lights.slots) is_plain_lamp.push_back(is_plain(lights, slot));
+  for (const LightSampler::Slot& slot : lights.slots) lamps.push_back(lane_lamp(lights, slot));
 }
 
 }  // namespace vitrail

@@ -49,16 +49,19 @@ struct LaneBsdf {
 // Of a surface of that kind.
 LaneBsdf lane_bsdf(const Bsdf& bsdf);
 
+// A lamp that is there as a whole and shines to all sides, alike all over; or one for lane by lane.
+enum class LaneLamp : std::uint8_t { other, triangle, sphere };
+
 struct LaneScene {
   bool is_enabled = false;       // all but where direct light alone is asked for
   bool has_connections = false;  // light may pass something straight on: a connection may be no shadow ray
   bool divides_space = false;    // as Interiors
   std::vector<LaneSurface> surfaces;  // of all Manifest::surfaces
-  // Of each of LightSampler::slots: a triangle that is whole and shines to all sides, alike all over.
-  std::vector<std::uint8_t> is_plain_lamp;
+  std::vector<LaneLamp> lamps;        // of each of LightSampler::slots
   // Stand for what a path does not have.
   LightSampler::Slot no_slot;
   LightSampler::Face no_face;
+  PlacedQuadric no_sphere{{}, {}};
 
   LaneScene(const Manifest& manifest, const Interiors& interiors, const Materials& materials,
             const LightSampler& lights);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/quadrics/quadric_hits.h"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "scene/geometry/portable_math.h"
 #include "tracer/quadrics/curve_hits.h"
+#include "tracer/quadrics/quadric_hits_lanes.h"
 #include "tracer/rays/ray.h"
 
 namespace vitrail {
@@ -44,16 +43,12 @@ LocalRay to_local(const RayConstants& ray, const Affine& to_bundle) {
           {dot(x, direction) * scale, dot(y, direction) * scale, dot(z, direction) * scale}};
 }
 
-// a·s² + 2b·s + c of the whole surface at p + s·d.
-struct Quadratic {
-  double a, b, c;
-};
-
-Quadratic quadratic_of(QuadricKind kind, Point3d p, Vector3d d) {
+// Of the whole surface.
+lanes::Quadratic<double> quadratic_of(QuadricKind kind, Point3d p, Vector3d d) {
   const double a = d.x * d.x + d.y * d.y, b = p.x * d.x + p.y * d.y, c = p.x * p.x + p.y * p.y;
   switch (kind) {
     case QuadricKind::sphere:
-      return {a + d.z * d.z, b + p.z * d.z, c + p.z * p.z - 1};
+      return lanes::sphere_quadratic(lanes::fill<double>(p - Point3d{}), lanes::fill<double>(d));
     case QuadricKind::cylinder:
       return {a, b, c - 1};
     case QuadricKind::disk:
@@ -127,27 +122,16 @@ QuadricHits quadric_hits(const RayConstants& ray, const Affine& to_bundle, const
     return curve_hits(origin_of(ray, to_bundle), direction_of(ray), unpacked_curve(to_bundle.m),
                       starts_there);
   const auto [origin, d] = to_local(ray, to_bundle);
-  const Vector3d away = origin - Point3d{};
-  const double nearest = -dot(away, d) / dot(d, d);
-  const Point3d p = origin + d * nearest;
-  const auto [a, b, c] = quadratic_of(quadric.kind, p, d);
-  const double discriminant = b * b - a * c;
+  const auto at = lanes::nearest_point(lanes::fill<double>(origin - Point3d{}), lanes::fill<double>(d));
+  const Point3d p{at.p.x, at.p.y, at.p.z};
+  const auto f = quadratic_of(quadric.kind, p, d);
   QuadricHits hits;
-  if (!(discriminant >= 0)) return hits;
-  const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-  double roots[2];
-  int count = 0;
-  if (q != 0) roots[count++] = c / q;
-  if (a != 0) roots[count++] = q / a;
-  if (count == 2 && roots[1] < roots[0]) std::swap(roots[0], roots[1]);
-  const auto t_of = [&](int i) { return nearest + roots[i]; };
-  int start = -1;
-  if (starts_there && count > 0) start = count == 2 && std::abs(t_of(1)) < std::abs(t_of(0)) ? 1 : 0;
-  for (int i = 0; i < count; ++i) {
-    const double t = t_of(i);
-    if (i == start || !(t > 0) || !std::isfinite(t)) continue;
-    const Point3d at = on_surface(quadric.kind, p + d * roots[i]);
-    if (is_within(quadric, at)) hits.at[hits.count++] = {t, at};
+  if (!(f.b * f.b - f.a * f.c >= 0)) return hits;
+  const auto [first, second] = lanes::crossings(f, at.nearest, starts_there);
+  for (const auto& [s, t, is_hit] : {first, second}) {
+    if (!is_hit) continue;
+    const Point3d there = on_surface(quadric.kind, p + d * s);
+    if (is_within(quadric, there)) hits.at[hits.count++] = {t, there};
   }
   return hits;
 }

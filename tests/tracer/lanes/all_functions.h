@@ -4,6 +4,7 @@
 
 #include "tests/tracer/lanes/glossy_functions.h"
 #include "tests/tracer/lanes/lane_table.h"
+#include "tests/tracer/lanes/sphere_functions.h"
 #include "tests/tracer/lanes/stage_functions.h"
 #include "tracer/bsdf/fresnel_lanes.h"
 #include "tracer/bsdf/local_lanes.h"
@@ -87,7 +88,8 @@ constexpr LaneFunctions functions_of(const char* set) {
             rounded_by_chance, order_of_min_and_max, rounding_to_float, sigmoid, table_value, wavelengths,
             plain_interaction, interaction_with_normals, interaction_with_uv, interaction_with_both,
             offset_origin, depart, choose_of_few_lights, choose_of_many_lights, choose_by_power,
-            choose_of_none, aim, shadow_radiance, draw_triangle, quick_math, microfacets, conductor, plastic>;
+            choose_of_none, aim, shadow_radiance, draw_triangle, sample_sphere, sphere_crossings,
+            aim_at_sphere, quick_math, microfacets, conductor, plastic>;
   return {set, W, all, sizeof all / sizeof all[0]};
 }
 

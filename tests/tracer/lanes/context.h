@@ -9,7 +9,7 @@
 namespace vitrail::lane_tests {
 
 inline constexpr std::uint32_t fixture_clusters = 64, fixture_lamps = 64, fixture_domains = 4,
-                               fixture_trees = 4;
+                               fixture_trees = 4, fixture_spheres = 32;
 
 struct Context {
   WavelengthTables wavelengths;
@@ -19,6 +19,7 @@ struct Context {
   const LightSampler::Slot* slots;              // of triangles that emit
   const LightSampler::Face* faces;              // of each slot
   const bool* two_sided;
+  const PlacedQuadric* spheres;           // fixture_spheres
   const LightTree* trees[fixture_trees];  // of few lights, of many, by power, of none
 };
 

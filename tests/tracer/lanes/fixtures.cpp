@@ -59,6 +59,21 @@ DomainContent domain(bool normals, bool uvs) {
   return content;
 }
 
+// Where a sphere may stand: round or stretched askew, some mirrored, one flat.
+Affine place(Random& random, std::uint32_t number) {
+  Affine a{};
+  const double size = std::exp2(uniform(random, -4, 4));
+  const Point3f center = point(random, 4);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j)
+      a.m[i][j] = number % 4 == 0 ? (i == j ? size : 0) : uniform(random, -size, size);
+    a.m[i][3] = static_cast<double>(center[i]);
+  }
+  if (number == 7)
+    for (double& x : a.m[2]) x = 0;
+  return a;
+}
+
 // Some far off in a bunch, which are alike from here.
 std::vector<LightBounds> light_bounds(std::size_t count) {
   Random random(9);
@@ -100,6 +115,10 @@ Fixtures::Fixtures() {
     two_sided[faces.size()] = area_lights[slot.area_light].two_sided;
     faces.push_back(lights.face(slot.light.index));
   }
+  for (std::uint32_t i = 0; i < fixture_spheres; ++i) {
+    spheres.push_back({{{.kind = QuadricKind::sphere}, i % 3 == 0}, place(random, i), i});
+    placed_spheres.emplace_back(spheres[i].quadric, spheres[i].to_bundle);
+  }
   for (std::uint32_t i = 0; i < fixture_domains; ++i) {
     contents[i] = domain((i & 1) != 0, (i & 2) != 0);
     views[i] = view_of(contents[i]);
@@ -116,6 +135,7 @@ Fixtures::Fixtures() {
   context.slots = lights.slots.data();
   context.faces = faces.data();
   context.two_sided = two_sided;
+  context.spheres = placed_spheres.data();
 }
 
 const Fixtures& fixtures() {

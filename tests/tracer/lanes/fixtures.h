@@ -18,6 +18,8 @@ struct Fixtures {
   std::vector<AreaLight> area_lights;
   LightSampler lights;
   std::vector<LightSampler::Face> faces;
+  std::vector<EmissiveQuadric> spheres;
+  std::vector<PlacedQuadric> placed_spheres;
   LightTree trees[fixture_trees];
   bool two_sided[fixture_lamps] = {};
   Context context{};

@@ -23,6 +23,7 @@ std::vector<ScalarFunction> sampling_functions();
 std::vector<ScalarFunction> geometry_functions();
 std::vector<ScalarFunction> scattering_functions();
 std::vector<ScalarFunction> stage_functions();
+std::vector<ScalarFunction> sphere_functions();
 std::vector<ScalarFunction> glossy_functions();
 
 }  // namespace vitrail::lane_tests

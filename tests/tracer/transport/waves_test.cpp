@@ -107,6 +107,14 @@ std::vector<Case> cases() {
       {"a ball of plastic", ball(plastic(0.1f))},
       {"a lamp that is a ball",
        [](Scene& s) { add_ball(s, material(DiffuseMaterial{}), AreaLight{ConstantSpectrum{4}}); }},
+      {"a lamp around all, and one that is a ball",
+       [](Scene& s) {
+         s.meshes[0].triangles.resize(8);
+         add_ball(s, material(DiffuseMaterial{}), AreaLight{.radiance = ConstantSpectrum{4}});
+         add_ball(s, material(DiffuseMaterial{}),
+                  AreaLight{.radiance = ConstantSpectrum{0.5f}, .two_sided = true});
+         s.shapes.back().object_to_world = translate({0.2, 0.1, 0}) * scale({5, 4, -6});
+       }},
       {"a point", light(PointLight{{0.3, 0.2, -0.4}, ConstantSpectrum{1}})},
       {"no lamp", [](Scene& s) { s.shapes.pop_back(); }},
       {"an open box under a sky",

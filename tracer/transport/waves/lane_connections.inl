@@ -9,6 +9,7 @@ struct Candidate {
   D pdf;
   Four<F> radiance;
   const EmissiveQuadric* quadric[W];
+  const PlacedQuadric* sphere[W];  // where that is one; else null
   LightRef ref[W];
 };
 
@@ -40,8 +41,56 @@ VITRAIL_LANES void sample_alone(const LaneWork& work, const Group& g, Vector<D> 
     set_lane(c.pdf, j, s.pdf);
     for (int i = 0; i < 4; ++i) set_lane(c.radiance[i], j, s.radiance.v[i]);
     c.quadric[j] = s.quadric;
+    c.sphere[j] = nullptr;
     c.ref[j] = s.light;
   }
+}
+
+// Those of `on`, whose lamps are triangles. The pdf is given the light.
+VITRAIL_LANES void sample_triangles(const LaneWork& work, Vector<D> p, const Four<F>& u,
+                                    const LightSampler::Slot* const (&slot)[W], const bool (&on)[W],
+                                    Candidate& c) {
+  const AreaLight* const area_lights = work.tracing.scene.manifest.area_lights.data();
+  const LightSampler::Slot* of[W];
+  const LightSampler::Face* face[W];
+  for (int j = 0; j < W; ++j) {
+    of[j] = on[j] ? slot[j] : &work.scene.no_slot;
+    face[j] = on[j] ? work.tracing.scene.lights.faces.data() + slot[j]->light.index : &work.scene.no_face;
+  }
+  const LampSample<D> lamp = draw_triangle<D>(
+      p, u[0], u[1], [&](int j) __attribute__((always_inline))->const LightSampler::Slot& { return *of[j]; },
+      [&](int j) __attribute__((always_inline))->const LightSampler::Face& { return *face[j]; },
+      VITRAIL_EACH(on[j] && area_lights[of[j]->area_light].two_sided));
+  c.arrives = lamp.arrives & gather_mask<D>(VITRAIL_EACH(on[j]));
+  c.light = {lamp.to_light, lamp.distance, lamp.normal, lamp.tilt_rad};
+  c.pdf = lamp.pdf;
+}
+
+// The same whose lamps are spheres; other lanes keep what they have.
+VITRAIL_LANES void sample_spheres(const LaneWork& work, Vector<D> p, const Four<F>& u,
+                                  const LightSampler::Slot* const (&slot)[W], const bool (&on)[W],
+                                  Candidate& c) {
+  const AreaLight* const area_lights = work.tracing.scene.manifest.area_lights.data();
+  const QuadricLight* const quadrics = work.tracing.scene.lights.quadrics.data();
+  for (int j = 0; j < W; ++j) {
+    if (!on[j]) continue;
+    const QuadricLight& light = quadrics[slot[j]->light.index];
+    c.quadric[j] = &light.record();
+    c.sphere[j] = &light.stands();
+  }
+  const SphereSample<D> s = sample_sphere<D>(
+      p, u[0], u[1], [&](int j) __attribute__((always_inline))->const PlacedQuadric& {
+        return on[j] ? *c.sphere[j] : work.scene.no_sphere;
+      });
+  const Mask<D> those = gather_mask<D>(VITRAIL_EACH(on[j]));
+  const Mask<D> turned = gather_mask<D>(VITRAIL_EACH(on[j] && c.quadric[j]->quadric.inside_out)),
+                two_sided = gather_mask<D>(VITRAIL_EACH(on[j] && area_lights[slot[j]->area_light].two_sided));
+  c.arrives = (those & s.arrives & ((s.outside != turned) | two_sided)) | (no(those) & c.arrives);
+  c.light.to_light = select<D>(those, s.to_light, c.light.to_light);
+  c.light.normal = select<D>(those, s.normal, c.light.normal);
+  c.light.distance = select<D>(those, s.distance, c.light.distance);
+  c.light.tilt_rad = select<D>(those, fill<D>(0), c.light.tilt_rad);
+  c.pdf = select<D>(those, s.pdf, c.pdf);
 }
 
 VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vector<D> p, const Four<F>& u,
@@ -63,36 +112,24 @@ VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vecto
   root.is_known |= any(of_tree);
 
   const LightSampler::Slot* slot[W];
-  const LightSampler::Face* face[W];
-  bool in_lanes[W], alone[W], some_alone = false;
+  bool triangle[W], sphere[W], alone[W], some_triangle = false, some_sphere = false, some_alone = false;
   for (int j = 0; j < W; ++j) {
-    const bool from_tree = is_set(of_tree, j);
-    const bool plain = chosen.any[j] && work.scene.is_plain_lamp.data()[chosen.slot[j]];
-    slot[j] = plain ? lights.slots.data() + chosen.slot[j] : &work.scene.no_slot;
-    face[j] = plain ? lights.faces.data() + slot[j]->light.index : &work.scene.no_face;
-    in_lanes[j] = from_tree && plain;
-    alone[j] = is_set(on, j) && (!from_tree || (chosen.any[j] && !plain));
-    some_alone |= alone[j];
+    const bool from_tree = is_set(of_tree, j) && chosen.any[j];
+    const LaneLamp lamp = from_tree ? work.scene.lamps.data()[chosen.slot[j]] : LaneLamp::other;
+    slot[j] = lamp != LaneLamp::other ? lights.slots.data() + chosen.slot[j] : &work.scene.no_slot;
+    some_triangle |= triangle[j] = lamp == LaneLamp::triangle;
+    some_sphere |= sphere[j] = lamp == LaneLamp::sphere;
+    some_alone |= alone[j] = is_set(on, j) && (from_tree ? lamp == LaneLamp::other : !is_set(of_tree, j));
   }
 
-  Candidate c;
-  const AreaLight* const area_lights = work.tracing.scene.manifest.area_lights.data();
-  const LampSample<D> lamp = draw_triangle<D>(
-      p, u[0],
-      u[1], [&](int j) __attribute__((always_inline))->const LightSampler::Slot& { return *slot[j]; },
-      [&](int j) __attribute__((always_inline))->const LightSampler::Face& { return *face[j]; },
-      VITRAIL_EACH(in_lanes[j] && area_lights[slot[j]->area_light].two_sided));
-  c.arrives = lamp.arrives & gather_mask<D>(VITRAIL_EACH(in_lanes[j]));
-  c.is_delta = gather_mask<D>([](int) __attribute__((always_inline)) { return false; });
-  c.light = {lamp.to_light, lamp.distance, lamp.normal, lamp.tilt_rad};
-  c.pdf = lamp.pdf * (gather<D>(VITRAIL_EACH(chosen.probability[j])) * share);
-  for (int j = 0; j < W; ++j) {
-    c.quadric[j] = nullptr;
-    c.ref[j] = slot[j]->light;
-    if (!is_set(c.arrives, j)) continue;
-    if (g.path[j]->lamp.area_light != slot[j]->area_light)
+  Candidate c{};
+  for (int j = 0; j < W; ++j) c.ref[j] = slot[j]->light;
+  if (some_triangle) sample_triangles(work, p, u, slot, triangle, c);
+  if (some_sphere) sample_spheres(work, p, u, slot, sphere, c);
+  c.pdf = c.pdf * (gather<D>(VITRAIL_EACH(chosen.probability[j])) * share);
+  for (int j = 0; j < W; ++j)
+    if (is_set(c.arrives, j) && g.path[j]->lamp.area_light != slot[j]->area_light)
       lane_by_lane::find_radiance(work, *g.path[j], slot[j]->area_light);
-  }
   for (int i = 0; i < 4; ++i) c.radiance[i] = gather<F>(VITRAIL_EACH(g.path[j]->lamp.radiance.v[i]));
   if (some_alone) sample_alone(work, g, p, u, alone, of_tree, chosen, c);
   return c;
@@ -126,10 +163,31 @@ VITRAIL_LANES void send_connections(LaneWork& work, const Group& g, const Intera
   }
 }
 
+// But at quadrics that are no whole spheres.
+VITRAIL_LANES Aimed<D> aim_at(const Group& g, const Interaction<D>& at, Vector<F> origin, Mask<D> on,
+                              const Candidate& chosen, const PlacedQuadric& no_sphere) {
+  const Mask<D> sphere = on & gather_mask<D>(VITRAIL_EACH(chosen.sphere[j] != nullptr));
+  if (!any(sphere)) return aim(at.p, origin, chosen.light);
+  Connected<D> light = chosen.light;
+  light.normal = select<D>(sphere, fill<D>(Vector3d{}), light.normal);
+  Aimed<D> aimed = aim(at.p, origin, light);
+  aimed.end =
+      select<D>(sphere,
+                end_on_sphere(
+                    origin, aimed,
+                    [&](int j) __attribute__((always_inline))->const PlacedQuadric& {
+                      return is_set(sphere, j) ? *chosen.sphere[j] : no_sphere;
+                    },
+                    gather_mask<D>(VITRAIL_EACH(is_set(sphere, j) &&
+                                                g.path[j]->hit.triangle == chosen.quadric[j]->triangle))),
+                aimed.end);
+  return aimed;
+}
+
 VITRAIL_LANES void send_shadow_rays(LaneWork& work, const Group& g, const Interaction<D>& at, Mask<D> on,
                                     const Candidate& chosen, Four<F> radiance) {
   const Vector<F> origin = origin_of(work, at, chosen.light.to_light);
-  const Aimed<D> aimed = aim(at.p, origin, chosen.light);
+  const Aimed<D> aimed = aim_at(g, at, origin, on, chosen, work.scene.no_sphere);
   const F end = shadow_end(aimed.end);
   radiance = shadow_radiance(radiance);
   for (int j = 0; j < g.valid; ++j) {
@@ -156,7 +214,7 @@ VITRAIL_LANES void send_shadow_rays(LaneWork& work, const Group& g, const Intera
     if (work.groups_lights) shadow.light_group = lane_by_lane::group_of(work, chosen.ref[j]);
     shadow.time_s = path.time_s;
     shadow.sensor = &path.film.sensor;
-    if (!chosen.quadric[j]) continue;
+    if (!chosen.quadric[j] || chosen.sphere[j]) continue;
     lane_by_lane::aim(path, point_of(at.p, j), shadow.ray.origin, light_of(chosen, j), shadow);
   }
 }
@@ -208,7 +266,8 @@ VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carrie
     best.light.tilt_rad = select<D>(takes, c.light.tilt_rad, best.light.tilt_rad);
     best.is_delta = (takes & c.is_delta) | (no(takes) & best.is_delta);
     for (int j = 0; j < W; ++j)
-      if (is_set(takes, j)) best.quadric[j] = c.quadric[j], best.ref[j] = c.ref[j];
+      if (is_set(takes, j))
+        best.quadric[j] = c.quadric[j], best.sphere[j] = c.sphere[j], best.ref[j] = c.ref[j];
   }
   if (count > 1) {
     const F mean = to_floats(all / (static_cast<double>(count) * chosen));
