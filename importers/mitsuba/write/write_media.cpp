@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "importers/writing/medium_grids.h"
 #include "scene/models/measured_media.h"
 #include "scene/models/subsurface_media.h"
 #include "scene/system/atomic_file.h"
@@ -45,24 +46,8 @@ Transform grid_to_world(const Transform& medium_to_world, const Bounds3d& box) {
 
 // Held at its edges, a grid that is 0 outside is as it was with cells of 0 around it, within its own bounds.
 Grid with_zeros_around(const Grid& grid) {
-  Grid wide = grid;
-  wide.nx += 2, wide.ny += 2, wide.nz += 2;
-  const Vector3d size = grid.bounds.upper - grid.bounds.lower,
-                 cell{size.x / grid.nx, size.y / grid.ny, size.z / grid.nz};
-  wide.bounds = {grid.bounds.lower - cell, grid.bounds.upper + cell};
+  Grid wide = with_cells_around(grid, true);
   wide.edge = GridEdge::held;
-  const auto index = [](const Grid& g, int x, int y, int z) {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(g.ny) + static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(g.nx) +
-           static_cast<std::size_t>(x);
-  };
-  const auto channels = static_cast<std::size_t>(grid.channels);
-  wide.values.assign(index(wide, 0, 0, wide.nz) * channels, 0.0f);
-  for (int z = 0; z < grid.nz; ++z)
-    for (int y = 0; y < grid.ny; ++y)
-      std::copy_n(grid.values.begin() + static_cast<std::ptrdiff_t>(index(grid, 0, y, z) * channels),
-                  static_cast<std::size_t>(grid.nx) * channels,
-                  wide.values.begin() + static_cast<std::ptrdiff_t>(index(wide, 1, y + 1, z + 1) * channels));
   return wide;
 }
 
@@ -114,8 +99,29 @@ Spectrum spectrum_of(Context& context, const VolumeParameter& value, const char*
       grid.values.empty() ? 1.0f : static_cast<float>(sum / static_cast<double>(grid.values.size()))};
 }
 
+// Cell by cell. Of the albedo, nothing is known where there is nothing: at the edges it goes on.
+std::optional<ExtinctionAlbedo> extinction_and_albedo_grids(Context& context, const AbsorptionScattering& m) {
+  try {
+    Grid sigma_t = combined_cells(m.sigma_a, m.sigma_s, [](double a, double s) { return a + s; });
+    Grid albedo =
+        combined_cells(m.sigma_a, m.sigma_s, [](double a, double s) { return a + s > 0 ? s / (a + s) : 0; });
+    albedo.edge = GridEdge::held;
+    context.approximated(
+        "grids of absorption and scattering become those of extinction and albedo, which Mitsuba takes as "
+        "linear "
+        "between cells");
+    if (becomes_color(m.sigma_a) || becomes_color(m.sigma_s))
+      context.approximated("a coefficient beside a grid becomes its colour");
+    return ExtinctionAlbedo{std::move(sigma_t), std::move(albedo)};
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
 ExtinctionAlbedo extinction_and_albedo(Context& context, const Medium& medium) {
   const auto of_sum = [&](const AbsorptionScattering& m) {
+    if (std::holds_alternative<Grid>(m.sigma_a) || std::holds_alternative<Grid>(m.sigma_s))
+      if (const auto grids = extinction_and_albedo_grids(context, m)) return *grids;
     const Spectrum a = spectrum_of(context, m.sigma_a, "absorption"),
                    s = spectrum_of(context, m.sigma_s, "scattering");
     return ExtinctionAlbedo{combined(a, s, [](double x, double y) { return x + y; }),
@@ -146,21 +152,36 @@ void report_rest(Context& context, const Medium& medium) {
     context.dropped("Mitsuba has no procedural cloud: the medium is homogeneous");
 }
 
-// Density times σt as one grid: σt has to be a number, which goes to the scale.
+// Of a colour a grid of three channels is made, of their product; of a number it goes to the scale.
+struct DensityGrid {
+  Grid grid;
+  double factor = 1;
+};
+DensityGrid density_grid(Context& context, const Grid& density, const VolumeParameter& sigma_t) {
+  const auto* spectrum = std::get_if<Spectrum>(&sigma_t);
+  if (spectrum && !is_constant(*spectrum)) try {
+      Grid product = combined_cells(density, sigma_t, [](double d, double t) { return d * t; });
+      if (becomes_color(sigma_t)) context.approximated("the extinction beside a density becomes its colour");
+      return {std::move(product)};
+    } catch (const Error&) {  // NanoVDB
+    }
+  const Spectrum one = spectrum_of(context, sigma_t, "extinction");
+  return {density, number_of(context, one, "the extinction of a medium with a density")};
+}
+
 bool write_density(Context& context, Element root, const Medium& medium, const ExtinctionAlbedo& coefficients,
                    const std::string& id) {
   const auto* density = std::get_if<Grid>(&medium.density);
   if (!density) return false;
   Element element = add(root, "medium", "heterogeneous", "", id);
-  if (!add_grid(context, element, "sigma_t", *density, medium.medium_to_world)) {
+  const DensityGrid sigma_t = density_grid(context, *density, coefficients.sigma_t);
+  if (!add_grid(context, element, "sigma_t", sigma_t.grid, medium.medium_to_world)) {
     root.remove_child(element);
     context.dropped("Mitsuba cannot read NanoVDB files: the medium is homogeneous");
     return false;
   }
   add_volume(context, element, "albedo", coefficients.albedo, medium.medium_to_world);
-  const Spectrum sigma_t = spectrum_of(context, coefficients.sigma_t, "extinction");
-  const double factor = number_of(context, sigma_t, "the extinction of a medium with a density");
-  add_float(element, "scale", static_cast<float>(factor * static_cast<double>(medium.scale)));
+  add_float(element, "scale", static_cast<float>(sigma_t.factor * static_cast<double>(medium.scale)));
   add_phase(element, medium.g);
   return true;
 }

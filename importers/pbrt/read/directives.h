@@ -138,6 +138,7 @@ class Interpreter {
   Material made_material(const std::string& kind, ParameterSet& parameters, const Scope& scope);
   std::uint32_t new_material_slot();
   void set_material(std::uint32_t slot, Material material);
+  void define_unknown_materials();
   std::uint32_t add_material(Material material);
   Id<Material> shape_material();
   std::optional<Id<Material>> overridden_material(ParameterSet& shape, const Place& place);
@@ -198,6 +199,8 @@ class Interpreter {
     Place place;
   };
   NamedSlots material_names_{"material"};
+  std::map<std::uint32_t, std::optional<Id<Material>>>
+      before_named_;  // where a name came before its definition
   std::vector<Material> materials_;
   std::vector<bool> material_is_made_;
   std::vector<DeferredMaterial> deferred_;

@@ -190,7 +190,7 @@ LightModel infinite_light(const Maker& m) {
   light.projection = m.scope.context.version == Version::v3 ? EnvironmentLight::Projection::latitude_longitude
                                                             : EnvironmentLight::Projection::equal_area;
   light.scale = m.factor_of_image("L");
-  light.illuminance = m.optional_number("illuminance");
+  if (const auto named = m.optional_number("illuminance")) light.illuminance = *named * sky_per_illuminance;
   light.portal = read_portal(m);
   light.encoding = m.encoding_of_image();
   light.primaries = primaries_taken(m.scope.context.version);

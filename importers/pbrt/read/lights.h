@@ -9,6 +9,11 @@
 
 namespace vitrail::pbrt {
 
+// An image of the sky of a given "illuminance" E shows twice that in pbrt-v4: its lights.cpp weighs each
+// pixel above the horizon by 2π over the number of all pixels, and the pixels of an equal-area map cover 4π
+// over it.
+inline constexpr float sky_per_illuminance = 2;
+
 // A light of a LightSource directive; nothing where its kind is unknown and it is dropped.
 std::optional<Light> make_light(const std::string& kind, ParameterSet& parameters, const Transform& ctm,
                                 const Scope& scope);

@@ -83,8 +83,23 @@ void Interpreter::named_material(const Place& place) {
         place);
   const auto next = static_cast<std::uint32_t>(materials_.size());
   const std::uint32_t slot = material_names_.use(name, place, next);
-  if (slot == next) new_material_slot();
+  if (slot == next) {
+    before_named_[slot] = state_.material;
+    new_material_slot();
+  }
   state_.material = Id<Material>{slot};
+}
+
+// pbrt-v3 goes on with the material that was there before an unknown name; it begins with matte.
+void Interpreter::define_unknown_materials() {
+  material_names_.define_others([&](const std::string& name, std::uint32_t slot, const Place& place) {
+    context_.report.begin_item(place, RecordKind::material);
+    context_.report.approximated(
+        fmt::format("material \"{}\" is not defined: as in pbrt-v3, the one before it stays", name), place);
+    const auto before = before_named_.find(slot);
+    const bool is_known = before != before_named_.end() && before->second;
+    set_material(slot, is_known ? Material(materials_[before->second->value]) : Material{DiffuseMaterial{}});
+  });
 }
 
 void Interpreter::texture(const Place& place) {

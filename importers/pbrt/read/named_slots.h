@@ -60,6 +60,19 @@ class NamedSlots {
   // Whether it had a definition and has none now.
   bool has_ended(const std::string& name) const { return ended_.contains(name) && !entries_.contains(name); }
 
+  // Gives each name that is used and never defined, by its number, to `define(name, slot, place)`.
+  template <class F>
+  void define_others(F&& define) {
+    std::map<std::uint32_t, std::string> others;
+    for (const auto& [name, entry] : entries_)
+      if (!entry.defined) others.emplace(entry.slot, name);
+    for (const auto& [slot, name] : others) {
+      Entry& entry = entries_.at(name);
+      entry.defined = true;
+      define(name, slot, entry.place);
+    }
+  }
+
   // Throws Error at the first use of a name that has no definition.
   void require_definitions() const {
     for (const auto& [name, entry] : entries_) {

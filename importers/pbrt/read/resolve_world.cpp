@@ -69,6 +69,7 @@ void Interpreter::resolve_deferred(bool all) {
 
 void Interpreter::resolve_materials() {
   resolve_deferred(true);
+  if (context_.version == Version::v3) define_unknown_materials();
   material_names_.require_definitions();
   for (const auto& [slot, name] : named_slots_) materials_[slot].name = name;
   if (is_in_order(materials_)) {

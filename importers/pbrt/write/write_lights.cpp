@@ -6,6 +6,7 @@
 
 #include "images/image_files.h"
 #include "importers/images/sky_image.h"
+#include "importers/pbrt/read/lights.h"
 #include "importers/pbrt/write/write_images.h"
 #include "importers/writing/export_colors.h"
 #include "importers/writing/physical_light.h"
@@ -93,7 +94,7 @@ class LightWriter {
     const ImageScale scale = scale_of(l.scale);
     p_.file("filename", environment_for_pbrt(p_, l, scale.tint))
         .number("scale", static_cast<float>(scale.number));
-    if (l.illuminance) p_.number("illuminance", *l.illuminance);
+    if (l.illuminance) p_.number("illuminance", *l.illuminance / sky_per_illuminance);
     if (l.portal) portal(*l.portal);
     return "infinite";
   }

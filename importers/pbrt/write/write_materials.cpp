@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
+#include "images/image_files.h"
 #include "importers/pbrt/write/write_images.h"
 #include "importers/pbrt/write/writer.h"
 #include "importers/reading/glazing_material.h"
+#include "importers/writing/coat_albedo.h"
 #include "importers/writing/export_colors.h"
 #include "scene/records/material_traits.h"
 
@@ -61,10 +64,14 @@ class MaterialWriter {
     return "conductor";
   }
   const char* operator()(const PlasticMaterial& m) {
-    p_.approximated("Mitsuba's plastic becomes pbrt's layered coateddiffuse");
+    p_.approximated("Mitsuba's plastic becomes pbrt's layered coateddiffuse, of the same albedo");
     if (!is_one(m.specular_reflectance)) p_.approximated("the factor of its reflection becomes 1");
-    p_.albedo("reflectance", m.diffuse_reflectance);
-    p_.number("eta", m.eta / std::max(m.exterior_eta, 1e-3f));
+    const float eta = m.eta / std::max(m.exterior_eta, 1e-3f);
+    if (m.nonlinear)
+      p_.albedo("reflectance", m.diffuse_reflectance);
+    else
+      base_below(m.diffuse_reflectance, eta, DiffuseAlbedo::of_what_gets_in);
+    p_.number("eta", eta).integer("maxdepth", as_often_as_wanted);
     roughness(m.roughness, "", true);
     return "coateddiffuse";
   }
@@ -106,8 +113,9 @@ class MaterialWriter {
       roughness(surface);
       return "conductor";
     }
-    p_.approximated("the principled model becomes a coat over its base colour");
-    p_.albedo("reflectance", m.base_color).number("eta", m.eta);
+    p_.approximated("the principled model becomes a coat over a base of the same albedo");
+    base_below(m.base_color, m.eta, DiffuseAlbedo::of_all);
+    p_.number("eta", m.eta).integer("maxdepth", as_often_as_wanted);
     roughness(surface);
     return "coateddiffuse";
   }
@@ -164,6 +172,38 @@ class MaterialWriter {
   const char* operator()(const TwoSidedMaterial&) { return nullptr; }
 
  private:
+  // Of the walk below a coat: after pbrt's 10, light bases lose 5 %.
+  static constexpr int as_often_as_wanted = 100;
+
+  // The reflectance of pbrt's base; a texture as it is times a number, which is right at its mean.
+  void base_below(const SpectrumParameter& albedo, float eta, DiffuseAlbedo of) {
+    const auto base = [&](const auto& value) { return base_below_coat(value, static_cast<double>(eta), of); };
+    if (const auto* spectrum = std::get_if<Spectrum>(&albedo))
+      return void(p_.albedo("reflectance", base(*spectrum)));
+    const Id<Texture> id = std::get<Id<Texture>>(albedo);
+    const double mean = mean_of(id), factor = mean > 0 ? base(mean) / mean : 1;
+    if (factor == 1) return void(p_.albedo("reflectance", albedo));
+    p_.approximated("the texture of its colour is brightened by what is right at its mean");
+    Writer& w = p_.writer();
+    const std::string inner = w.textures.at(id.value), name = Writer::add_name(w.textures, inner + "-below");
+    w.line(fmt::format("Texture {} \"spectrum\" \"scale\" \"texture tex\" {} \"float scale\" {}",
+                       in_quotes(name), in_quotes(inner), static_cast<float>(factor)));
+    p_.texture("reflectance", name);
+  }
+  // The luminance of an image; 0.5 of what is none, or cannot be read.
+  double mean_of(Id<Texture> id) {
+    try {
+      if (const auto tinted = tinted_image(p_.writer().scene, id)) {
+        const Image image =
+            texture_values(tinted->image, read_stored_image(tinted->image.filename), ImageUse::color);
+        const double sum = std::accumulate(image.values.begin(), image.values.end(), 0.0);
+        return sum / static_cast<double>(std::max<std::size_t>(image.values.size(), 1)) *
+               srgb_to_xyz(tinted->tint).y;
+      }
+    } catch (const Error&) {
+    }
+    return 0.5;
+  }
   static FloatParameter squared(const FloatParameter& roughness) {
     const auto* value = std::get_if<float>(&roughness);
     return value ? FloatParameter{*value * *value} : roughness;
@@ -344,7 +384,7 @@ void write_materials(Writer& w) {
     }
     MaterialWriter writer(p, i);
     const char* type = std::visit(writer, material.model);
-    if (!material.two_sided && !traits[i].transmits) p.approximated("its black back becomes as its front");
+    if (!material.two_sided && !traits[i].transmits) p.approximated("its back, which is black in the scene, shows as its front does");
     if (!is_made) bumps(p, material);
     write_material(w, i, type, p);
   }

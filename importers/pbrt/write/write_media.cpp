@@ -7,14 +7,19 @@
 #include "importers/pbrt/read/media.h"
 #include "importers/pbrt/write/writer.h"
 #include "importers/writing/export_colors.h"
+#include "importers/writing/medium_grids.h"
 
 namespace vitrail::pbrt {
 
 namespace {
 
-void grid(Parameters& p, std::string_view type_and_name, const Grid& g, bool sizes) {
-  if (g.edge != GridEdge::zero)
-    p.approximated("its grids fade over half a cell at their edges, as pbrt's do");
+// pbrt's are 0 outside: what goes on at its edges has a layer of cells more, so that it is as it was within.
+void grid(Parameters& p, std::string_view type_and_name, const Grid& given, bool sizes) {
+  const Grid g = given.edge == GridEdge::held ? with_cells_around(given, false) : given;
+  if (g.edge == GridEdge::held)
+    p.approximated("its grids go on at their edges: pbrt's have one more layer of cells, and end behind it");
+  if (g.edge == GridEdge::repeated)
+    p.approximated("its grids fade over half a cell at their edges, as pbrt's do, and do not repeat");
   if (sizes) {
     p.integer("nx", g.nx).integer("ny", g.ny).integer("nz", g.nz);
     p.numbers("point3 p0", std::array{g.bounds.lower.x, g.bounds.lower.y, g.bounds.lower.z});
@@ -43,7 +48,6 @@ void coefficients(Parameters& p, const Medium& m, float scale = 1) {
   } else {  // σₛ = σₜ·albedo, σₐ = σₜ·(1 − albedo)
     const auto& e = std::get<ExtinctionAlbedo>(m.coefficients);
     const auto *t = std::get_if<Spectrum>(&e.sigma_t), *albedo = std::get_if<Spectrum>(&e.albedo);
-    if (!t || !albedo) p.approximated("the grids of its extinction and albedo become 1");
     const Spectrum one = ConstantSpectrum{1}, sigma_t = scaled(t ? *t : one, static_cast<double>(scale)),
                    a = albedo ? *albedo : one;
     p.approximated("extinction and albedo become absorption and scattering");
@@ -130,6 +134,29 @@ const char* rgb_grid(Parameters& p, const Medium& m, const AbsorptionScattering&
   return "rgbgrid";
 }
 
+// σₛ = σₜ·albedo and σₐ = σₜ·(1 − albedo) in each cell, where one of the two is a grid.
+std::optional<AbsorptionScattering> absorption_and_scattering_grids(Parameters& p, const Medium& m) {
+  const auto* e = std::get_if<ExtinctionAlbedo>(&m.coefficients);
+  if (!e) return std::nullopt;
+  const bool is_t = std::holds_alternative<Grid>(e->sigma_t),
+             is_albedo = std::holds_alternative<Grid>(e->albedo);
+  if (!is_t && !is_albedo) return std::nullopt;
+  try {
+    AbsorptionScattering both;
+    both.sigma_a = combined_cells(e->sigma_t, e->albedo, [](double t, double a) { return t * (1 - a); });
+    both.sigma_s = combined_cells(e->sigma_t, e->albedo, [](double t, double a) { return t * a; });
+    if (is_t && is_albedo)
+      p.approximated(
+          "grids of extinction and albedo become those of absorption and scattering, cell by cell");
+    if (becomes_color(e->sigma_t) || becomes_color(e->albedo))
+      p.approximated("a coefficient beside a grid becomes its colour");
+    return both;
+  } catch (const Error& error) {
+    p.approximated(fmt::format("the grids of its extinction and albedo become 1: {}", error.what()));
+    return std::nullopt;
+  }
+}
+
 const char* cloud(Parameters& p, const Medium& m, const CloudDensity& c) {
   varying_coefficients(p, m, m.scale);
   if (m.emission) p.dropped("its emission: pbrt's clouds do not shine");
@@ -192,6 +219,7 @@ const char* medium_type(Parameters& p, const Medium& m) {
   const auto* both = std::get_if<AbsorptionScattering>(&m.coefficients);
   if (both && (std::holds_alternative<Grid>(both->sigma_a) || std::holds_alternative<Grid>(both->sigma_s)))
     return rgb_grid(p, m, *both);
+  if (const auto grids = absorption_and_scattering_grids(p, m)) return rgb_grid(p, m, *grids);
   if (const auto* procedural = std::get_if<CloudDensity>(&m.density)) return cloud(p, m, *procedural);
   if (const auto* density = std::get_if<Grid>(&m.density)) {
     if (m.temperature_scale != 1) p.number("temperaturescale", m.temperature_scale);

@@ -244,7 +244,7 @@ class Builder {
       return surface_of(dielectric);
     }
     const Pigment base = pigment(m.base_color);
-    return coated(base, diffuse_share(base, m.eta, false), m.eta, alpha, {1, 1, 1});
+    return coated(base, 1, m.eta, alpha, {1, 1, 1});  // its gloss is added to its colour
   }
 
   Surface opaque_instead(const char* what, double grey) {

@@ -405,6 +405,19 @@ TEST(PbrtNames, ThatHaveEndedChangeNothingInV3) {
   EXPECT_TRUE(mentions(imported.diagnostics, "ended with its block"));
 }
 
+// So do names that never were defined; v4 stops at them.
+TEST(PbrtNames, ThatAreUnknownChangeNothingInV3) {
+  for (const bool begins : {true, false}) {
+    const ImportedScene imported =
+        import_v3(std::string(begins ? "" : "Material \"mirror\" ") + "NamedMaterial \"wood\" " + triangle);
+    const MaterialModel& model = imported.scene.materials[imported.scene.shapes[0].material.value].model;
+    EXPECT_EQ(std::holds_alternative<DiffuseMaterial>(model), begins);
+    EXPECT_EQ(std::holds_alternative<ConductorMaterial>(model), !begins);
+    EXPECT_TRUE(mentions(imported.diagnostics, "material \"wood\" is not defined"));
+  }
+  EXPECT_THROW(import_v4("NamedMaterial \"wood\" " + triangle), Error);
+}
+
 TEST(PbrtNames, AreGlobalInV4) {
   const Scene scene = import_v4(
                           "AttributeBegin Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [1 0 0] "

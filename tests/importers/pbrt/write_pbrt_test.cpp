@@ -262,6 +262,7 @@ TEST(WritePbrt, MediaHaveOnlyWhatPbrtTakesOfThem) {
   Grid cells;
   cells.nx = 2, cells.ny = cells.nz = 1;
   cells.values = {1, 2};
+  cells.edge = GridEdge::zero;
   const Medium shining = written([&](Medium& m) {
     m.density = cells;
     m.emission = emission_from_rgb({1, 2, 3});

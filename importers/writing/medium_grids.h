@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Grids of media, where a format says coefficients in another form.
+#pragma once
+
+#include <functional>
+
+#include "scene/records/medium.h"
+
+namespace vitrail {
+
+// With its values here: those of Mitsuba's volume files are read. Throws Error where the file is too short or
+// of another kind (NanoVDB).
+Grid with_values(const Grid& grid);
+
+// f(a, b) in each cell of the finer of two, the other one linear in between; at least one is a grid. Three
+// channels of linear sRGB, or one where both are numbers. Throws Error as above.
+Grid combined_cells(const VolumeParameter& a, const VolumeParameter& b,
+                    const std::function<double(double, double)>& f);
+
+// With one layer of cells more on every side, beyond its bounds: of 0, or as the edge is.
+Grid with_cells_around(const Grid& grid, bool zero);
+
+// Whether combined_cells loses something of it: a spectrum that is neither a colour nor a number.
+bool becomes_color(const VolumeParameter& value);
+
+}  // namespace vitrail
