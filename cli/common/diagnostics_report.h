@@ -7,8 +7,8 @@
 
 namespace vitrail {
 
-// What an import could not keep, for a terminal: counts, then the first few of each fidelity with their
-// places. Empty when there is nothing to say.
+// What an import could not keep, for a terminal: all of it, equal notes once with how many more there are
+// (grouped_notes.h). Empty when there is nothing to say.
 std::string summarise(const Diagnostics& diagnostics);
 
 // --strict: throws Error at the first thing that was not imported exactly.

@@ -159,6 +159,10 @@ ConversionCounts count(const std::vector<ConversionItem>& items) {
   return counts;
 }
 
+const char* fidelity_of(const ConversionItem& item) {
+  return item.notes.empty() ? "exact" : word(worst(item.notes));
+}
+
 void write_conversion_report(const std::filesystem::path& file, const std::filesystem::path& in,
                              const std::filesystem::path& out, const std::string& quadrics,
                              const std::vector<std::string>& options, const ConversionChecks& checks,
@@ -171,7 +175,7 @@ void write_conversion_report(const std::filesystem::path& file, const std::files
   if (!checks.peer.is_null()) report["peer"] = checks.peer;
   report["items"] = Json::array();
   for (const ConversionItem& item : items) {
-    Json entry{{"item", item.what}, {"fidelity", item.notes.empty() ? "exact" : word(worst(item.notes))}};
+    Json entry{{"item", item.what}, {"fidelity", fidelity_of(item)}};
     put_place(entry, item.location);
     if (!item.notes.empty()) entry["notes"] = Json::array();
     for (const Diagnostic* note : item.notes) {

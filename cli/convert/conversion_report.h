@@ -26,6 +26,8 @@ std::vector<ConversionItem> conversion_items(const Scene& scene, const Diagnosti
 struct ConversionCounts {
   std::size_t exact = 0, approximated = 0, dropped = 0;  // items
 };
+// "exact", "approximated" or "dropped".
+const char* fidelity_of(const ConversionItem& item);
 ConversionCounts count(const std::vector<ConversionItem>& items);
 
 // What was looked at; null where nothing was.

@@ -14,9 +14,11 @@
 #include "cli/convert/conversion_report.h"
 #include "cli/convert/convert_many.h"
 #include "cli/convert/peer_check.h"
+#include "cli/convert/report_page.h"
 #include "importers/export.h"
 #include "importers/import.h"
 #include "importers/reading/missing_files.h"
+#include "importers/writing/packed_files.h"
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/system/input_files.h"
 #include "scene/system/output_place.h"
@@ -30,7 +32,7 @@ struct Arguments {
   std::filesystem::path input, output, report;
   std::string format, check, peer;
   int at_once = 0;
-  bool strict = false, quiet = false, again = false;
+  bool strict = false, quiet = false, again = false, pack = false;
   ImportArguments imports;
   MeshOptions meshes;
 };
@@ -57,7 +59,11 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option(
       "--peer", a.peer,
       "of --check=peer: the Python that has Mitsuba, or povray, or pbrt; default: the one on the path");
-  app.add_option("--report", a.report, "write what became of each item as JSON");
+  app.add_option("--report", a.report,
+                 "write what became of each item: as a page to read (.html), else as JSON");
+  app.add_flag(
+      "--pack", a.pack,
+      "copy the images, tables and volumes that the scene refers to beside the output, into OUT-files/");
   declare_import_options(app, a.imports);
   declare_mesh_options(app, a.meshes);
   app.add_flag("--strict", a.strict, "exit with status 3 if anything is not exact");
@@ -112,6 +118,7 @@ int run(const Arguments& a) {
   Diagnostics edits;  // as asked for
   if (!refused) {
     edits = apply_mesh_options(a.meshes, imported.scene, MeshResources{});
+    if (a.pack) pack_files(imported.scene, a.output);
     std::ranges::move(export_scene(imported.scene, a.output), std::back_inserter(diagnostics));
   }
   const bool exact = diagnostics.empty();
@@ -122,7 +129,9 @@ int run(const Arguments& a) {
     pictures = compare_pictures(a.input, reading_options(a), a.output, imported.scene.film);
   if (a.check == "peer" && !refused)
     peer = check_in_peer({a.input, a.output, reading_options(a), a.peer}, imported.scene.film);
-  if (!a.report.empty())
+  if (a.report.extension() == ".html")
+    write_report_page(a.report, a.input, a.output, {pictures, peer}, diagnostics, items);
+  else if (!a.report.empty())
     write_conversion_report(a.report, a.input, a.output, quadrics, reading_options(a), {pictures, peer},
                             items);
   if (!a.quiet) {
@@ -140,6 +149,7 @@ int run(const Arguments& a) {
 int run_many(const Arguments& a) {
   if (a.output.empty()) throw UsageError("--to needs the folder for all: -o FOLDER");
   if (is_checked_by_us(a, "scene." + a.format)) require_checkable("scene." + a.format);
+  if (a.pack) throw UsageError("--pack takes one scene, not --to");
   if (!a.report.empty()) throw UsageError("--to gives every scene its report: leave --report out");
   ManyConversions many{a.files, a.output, a.format, a.at_once, a.again,
                        a.check, a.peer,   a.strict, a.quiet,   reading_options(a)};

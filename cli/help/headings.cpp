@@ -43,7 +43,7 @@ const std::vector<Heading> of_partition{
 
 const std::vector<Heading> of_convert{
     {"What to convert", "files=FILE to jobs again"},
-    {"What to write", "output=FILE report=FILE check peer=PROGRAM quiet"},
+    {"What to write", "output=FILE pack report=FILE check peer=PROGRAM quiet"},
     scene,
     meshes,
 };

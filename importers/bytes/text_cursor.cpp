@@ -28,6 +28,12 @@ std::string printable(std::string_view text, std::size_t longest) {
   return text.empty() ? shown : shown + "…";
 }
 
+const char* after_byte_order_mark(const char* begin, const char* end) {
+  return std::string_view(begin, static_cast<std::size_t>(end - begin)).starts_with("\xef\xbb\xbf")
+             ? begin + 3
+             : begin;
+}
+
 void TextCursor::break_line() {
   const bool two = *at_ == '\r' && at_ + 1 != end_ && at_[1] == '\n';
   at_ += two ? 2 : 1;

@@ -14,6 +14,9 @@ namespace vitrail {
 // (reports are JSON) without control characters.
 std::string printable(std::string_view text, std::size_t longest = 40);
 
+// Where the text begins behind the mark that some editors put before UTF-8.
+const char* after_byte_order_mark(const char* begin, const char* end);
+
 // Reads words and numbers of a text and knows where it is. Lines end with \n, \r\n or \r; a backslash before
 // the end of a line joins it with the next one if `continuations` is set. Cheap to copy; the text, of
 // which `begin` starts a line, and the name outlive it.

@@ -48,7 +48,7 @@ SpectrumFile parse_spectrum_text(std::string_view text, const std::string& name)
       rest.remove_prefix(word.size());
     }
   }
-  if (waits) throw Error("a spectrum's last wavelength has no value", {name, line, 0});
+  if (waits) file.repairs.emplace_back("its last wavelength has no value and is left out");
   return file;
 }
 

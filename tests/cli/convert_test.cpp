@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // vitrail convert as a user runs it: the report, --strict, the exit status.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -51,6 +52,56 @@ TEST_F(Convert, SaysWhatBecameOfEachItem) {
     EXPECT_THAT(item.at("notes").at(0).at("what").get<std::string>(), HasSubstr("plastic"));
   }
   EXPECT_TRUE(found) << report.dump(1);
+}
+
+// Five kinds of loss, one of eight materials: each kind once, what is dropped first. As a page, each with all
+// of its places.
+TEST_F(Convert, NotesAreGroupedAndNoneIsHidden) {
+  std::string text = "Film \"rgb\" PixelFilter \"box\"\nWorldBegin\n";
+  for (int i = 0; i < 8; ++i)
+    text += "MakeNamedMaterial \"coat" + std::to_string(i) + "\" \"string type\" \"coateddiffuse\"\n";
+  for (const char* kind : {"wrinkled", "marble", "dots"})
+    text += fmt::format("Texture \"{0}<&>\" \"spectrum\" \"{0}\"\n", kind);
+  text += "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb Le\" [5 5 5]\n" + triangle_;
+  const auto result =
+      convert(write("in.pbrt", text) + " " + path("out.xml") + " --report " + path("report.html"));
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("in between (and 7 more)")) << "coats";
+  for (const char* kind : {"wrinkled", "marble", "dots"})
+    EXPECT_THAT(result.output, HasSubstr(fmt::format("texture \"{}<&>\"", kind))) << "each has another mean";
+  EXPECT_THAT(result.output, ::testing::Not(HasSubstr("\n  and "))) << "nothing is hidden";
+  EXPECT_LT(result.output.find("dropped:\n"), result.output.find("approximated:\n"));
+  std::ifstream file(path("report.html"));
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(page, HasSubstr("<details><summary>and 7 more</summary>"));
+  for (int line = 3; line < 11; ++line)
+    EXPECT_THAT(page, HasSubstr("in.pbrt:" + std::to_string(line) + ":1</code>"));
+  EXPECT_THAT(page, ::testing::AllOf(HasSubstr("dots&lt;&amp;&gt;"), ::testing::Not(HasSubstr("dots<&>"))));
+}
+
+// What the scene refers to elsewhere comes along, by its name.
+TEST_F(Convert, PacksWhatTheSceneRefersTo) {
+  for (const char* folder : {"a", "b", "out"}) std::filesystem::create_directory(folder_ / folder);
+  write("a/wood.ptx", "one");
+  write("b/wood.ptx", "two");
+  write("out/near.ptx", "three");
+  std::string text = "Film \"rgb\" PixelFilter \"box\"\nWorldBegin\n";
+  for (const char* file : {"a/wood", "b/wood", "out/near"})
+    text += std::string("Texture \"") + file + "\" \"spectrum\" \"ptex\" \"string filename\" \"" + file +
+            ".ptx\"\n";
+  const std::string in = write("in.pbrt", text + triangle_);
+  const auto result = convert(in + " " + path("out/scene.pbrt") + " --pack");
+  EXPECT_EQ(result.status, 0) << result.output;
+  const auto content = [&](const char* name) {
+    std::ifstream file(path(name));
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  EXPECT_EQ(content("out/scene-files/wood.ptx"), "one");
+  EXPECT_EQ(content("out/scene-files/wood-2.ptx"), "two");
+  EXPECT_FALSE(std::filesystem::exists(path("out/scene-files/near.ptx"))) << "it is there";
+  EXPECT_THAT(content("out/scene.pbrt"),
+              ::testing::AllOf(HasSubstr("\"scene-files/wood-2.ptx\""), HasSubstr("\"near.ptx\"")));
+  EXPECT_EQ(convert(in + " --to xml -o " + path("many") + " --pack").status, 2);
 }
 
 // One rule for all formats, and inspect's too.

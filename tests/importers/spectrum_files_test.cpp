@@ -84,9 +84,15 @@ TEST_F(SpectrumFiles, ObserversHaveThreeFunctions) {
   EXPECT_THAT(error(text), HasSubstr("observer"));
 }
 
+TEST_F(SpectrumFiles, ALastWavelengthWithoutValueIsLeftOut) {
+  const SpectrumFile file = read("400 1 500 3 600");
+  ASSERT_EQ(file.rows.size(), 2u);
+  EXPECT_THAT(file.repairs, testing::ElementsAre(HasSubstr("has no value")));
+  EXPECT_THAT(error("400"), HasSubstr("no samples"));
+}
+
 TEST_F(SpectrumFiles, ErrorsSayWhere) {
   EXPECT_THAT(error("400 1\n500 one\n"), HasSubstr("x.spd:2:5: expected a number"));
-  EXPECT_THAT(error("400 1 500"), HasSubstr("has no value"));
   EXPECT_THAT(error("400 nan"), HasSubstr("expected a number"));
   EXPECT_THAT(error("# nothing"), HasSubstr("no samples"));
   EXPECT_THAT(error("<s/>"), HasSubstr("no samples"));

@@ -74,6 +74,12 @@ struct Context : ConversionNotes {
 
   UniqueNames ids;  // Mitsuba has one name space for everything
   std::vector<std::string> material_ids, medium_ids, prototype_ids;
+  // Of the meshes with each bsdf: whether the first is turned, and the bsdf for those that are not as it is.
+  struct Facing {
+    bool turned = false;
+    std::string other{};
+  };
+  std::map<std::string, Facing> facings{};
   // Masks around materials, by the material and the opacity of a shape.
   std::map<std::pair<std::uint32_t, OpacityKey>, std::string> masks;
   std::vector<WrittenTexture> textures;

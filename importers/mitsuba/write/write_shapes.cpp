@@ -39,6 +39,24 @@ const std::string& bsdf_of(const Context& context, const Shape& shape) {
   return context.masks.at({shape.material.value, opacity_key(shape.opacity)});
 }
 
+// Mitsuba joins meshes of one bsdf, and refuses those of which some are turned and some are not: the others
+// have a mask around it that hides nothing. (Of equal copies Mitsuba makes one.)
+std::string bsdf_facing(Context& context, Element parent, const std::string& id, bool turned) {
+  Context::Facing& facing = context.facings.try_emplace(id, turned).first->second;
+  if (facing.turned == turned) return id;
+  if (!facing.other.empty()) return facing.other;
+  Element root = parent.root().child("scene");
+  const Element original = root.find_child_by_attribute("bsdf", "id", id.c_str());
+  if (!original) return id;
+  facing.other = context.new_id(id + "-turned", "material", context.facings.size());
+  Element mask = root.insert_child_after("bsdf", original);
+  mask.append_attribute("type") = "mask";
+  mask.append_attribute("id") = facing.other.c_str();
+  add_float(mask, "opacity", 1.0f);
+  add_reference(mask, id);
+  return facing.other;
+}
+
 Element add_mesh(Context& context, Element parent, const Shape& shape, const MeshFile& file,
                  const std::string& id) {
   const TriangleMesh& mesh = context.scene.meshes[shape.mesh.value];
@@ -46,12 +64,11 @@ Element add_mesh(Context& context, Element parent, const Shape& shape, const Mes
   add_string(element, "filename", file.filename);
   add_transform(element, shape.object_to_world);
   add_boolean(element, "face_normals", mesh.normals.empty() && !mesh.quadric);
-  // Mitsuba joins meshes of one bsdf, and refuses those of which some are turned and some are not: where
-  // nobody sees the side, all are as they are.
+  // Where nobody sees the side, all of a bsdf are as they are, and need no copy of it.
   const bool is_turned =
       file.flip_normals && (sides_matter(context, shape) || !context.turned_both_ways[shape.material.value]);
   add_boolean(element, "flip_normals", is_turned);
-  add_reference(element, bsdf_of(context, shape), "bsdf");
+  add_reference(element, bsdf_facing(context, parent, bsdf_of(context, shape), is_turned), "bsdf");
   return element;
 }
 

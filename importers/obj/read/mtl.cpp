@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "importers/bytes/input_bytes.h"
@@ -13,17 +15,30 @@ namespace vitrail {
 
 namespace {
 
+// Programs write MTL's keywords in other letter cases: map_kd, KD.
+std::string_view in_usual_case(std::string_view keyword) {
+  static constexpr std::array<std::string_view, 31> usual{
+      "newmtl", "illum",  "Ka",        "Kd",     "Ks",     "Ke",     "Tf",    "d",
+      "Tr",     "Ni",     "Ns",        "Pr",     "Pm",     "Ps",     "Pc",    "Pcr",
+      "aniso",  "anisor", "sharpness", "map_Kd", "map_Ks", "map_Ke", "map_d", "map_Pr",
+      "map_Pm", "map_Ps", "map_bump",  "bump",   "disp",   "norm",   "map_Ka"};
+  const auto same_letter = [](char a, char b) { return obj::lower_case(a) == obj::lower_case(b); };
+  const auto found = std::ranges::find_if(
+      usual, [&](std::string_view word) { return std::ranges::equal(word, keyword, same_letter); });
+  return found == usual.end() ? keyword : *found;
+}
+
 class MtlReader {
  public:
   MtlReader(std::string_view name, const InputBytes& bytes, Diagnostics& diagnostics)
-      : cursor_(name, bytes.begin(), bytes.end(), true),
+      : cursor_(name, after_byte_order_mark(bytes.begin(), bytes.end()), bytes.end(), true),
         folder_(std::filesystem::path(name).parent_path()),
         diagnostics_(diagnostics) {}
 
   std::vector<MtlMaterial> read() {
     while (cursor_.skip_to_text()) {
       place_ = cursor_.location();
-      const std::string_view keyword = cursor_.word();
+      const std::string_view keyword = in_usual_case(cursor_.word());
       if (!keyword.starts_with('#')) read_statement(keyword);
       cursor_.skip_line();
     }

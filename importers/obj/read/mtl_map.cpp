@@ -10,6 +10,10 @@ namespace vitrail::obj {
 
 namespace {
 
+bool is_same_name(const std::string& a, const std::string& b) {
+  return std::ranges::equal(a, b, [](char x, char y) { return lower_case(x) == lower_case(y); });
+}
+
 class MapReader {
  public:
   MapReader(TextCursor& cursor, const std::string& keyword, const Drop& drop)
@@ -18,7 +22,8 @@ class MapReader {
   MtlMap read_options() {
     while (true) {
       TextCursor ahead = cursor_;
-      const std::string option(ahead.word());
+      std::string option(ahead.word());
+      std::ranges::transform(option, option.begin(), lower_case);
       if (!option.starts_with('-') || !is_option(option)) return map_;
       cursor_ = ahead;
       read_option(option);
@@ -51,7 +56,7 @@ class MapReader {
       map_.gain = number();
       if (base != 0) lost(option);
     } else if (option == "-clamp") {
-      if (cursor_.word() == "on") map_.wrap = Wrap::clamp;
+      if (is_same_name(std::string(cursor_.word()), "on")) map_.wrap = Wrap::clamp;
     } else if (option == "-boost" || option == "-texres") {
       number();  // of filtering
     } else if (option == "-imfchan") {
@@ -107,23 +112,41 @@ class MapReader {
   MtlMap map_;
 };
 
-// The name as it stands, else with the separators of Windows, else its last part alone.
-std::string find_file(std::string name, const std::filesystem::path& folder) {
-  const auto is_there = [&](const std::string& candidate) {
-    std::error_code ignored;
-    return !candidate.empty() && std::filesystem::is_regular_file(folder / candidate, ignored);
-  };
-  const auto whole = [&](const std::string& candidate) {
-    return std::filesystem::absolute(folder / candidate).lexically_normal().string();
-  };
-  if (is_there(name)) return whole(name);
-  std::ranges::replace(name, '\\', '/');
-  if (is_there(name)) return whole(name);
-  const std::string last = name.substr(name.rfind('/') + 1);
-  return is_there(last) ? whole(last) : "";
+// The one entry of its folder that differs in the letter case of its last part alone.
+std::filesystem::path in_any_case(const std::filesystem::path& file) {
+  std::error_code none;
+  std::filesystem::path found;
+  for (const auto& entry : std::filesystem::directory_iterator(file.parent_path(), none)) {
+    if (!is_same_name(entry.path().filename().string(), file.filename().string())) continue;
+    if (!found.empty()) return {};
+    found = entry.path();
+  }
+  return found;
 }
 
 }  // namespace
+
+char lower_case(char letter) {
+  return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+}
+
+std::string find_named_file(std::string name, const std::filesystem::path& folder) {
+  const auto is_file = [](const std::filesystem::path& path) {
+    std::error_code none;  // names too long for the file system are no files either
+    return std::filesystem::is_regular_file(path, none);
+  };
+  const std::string given = name;
+  std::ranges::replace(name, '\\', '/');
+  const std::array names{given, name, name.substr(name.rfind('/') + 1)};
+  for (const bool any_case : {false, true})
+    for (const std::string& candidate : names) {
+      if (candidate.empty()) continue;
+      const std::filesystem::path whole = std::filesystem::absolute(folder / candidate).lexically_normal();
+      const std::filesystem::path file = any_case ? in_any_case(whole) : whole;
+      if (is_file(file)) return file.string();
+    }
+  return "";
+}
 
 std::optional<MtlMap> read_map(TextCursor& cursor, const std::string& keyword,
                                const std::filesystem::path& folder, const Drop& drop) {
@@ -131,7 +154,7 @@ std::optional<MtlMap> read_map(TextCursor& cursor, const std::string& keyword,
   std::string name(cursor.rest_of_line());
   if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
   if (name.empty()) cursor.fail(fmt::format("{} without a file name", keyword));
-  map.filename = find_file(name, folder);
+  map.filename = find_named_file(name, folder);
   if (!map.filename.empty()) return map;
   drop(fmt::format("{} '{}': there is no such file", keyword, printable(name)));
   return {};

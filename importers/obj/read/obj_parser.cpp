@@ -93,7 +93,7 @@ constexpr std::size_t chunks_at_once = 8;
 void parse_in_parallel(InputBytes& bytes, Vector3d offset, Merger& merger) {
   std::array<Chunk, chunks_at_once> chunks;  // used in turn: no more are alive
   std::size_t count = 0;
-  const char* at = bytes.begin();
+  const char* at = after_byte_order_mark(bytes.begin(), bytes.end());
   std::atomic<bool> stopped = false;
   const auto cut = [&](tbb::flow_control& control) -> Chunk* {
     if (at == bytes.end() || stopped) {
@@ -130,7 +130,7 @@ std::optional<Geometry> parse(InputBytes& bytes, const std::string& file, const 
     parse_in_parallel(bytes, options.offset, merger);
   } else {
     Chunk chunk;
-    chunk.begin = bytes.begin();
+    chunk.begin = after_byte_order_mark(bytes.begin(), bytes.end());
     chunk.end = bytes.end();
     read_chunk(chunk, options.offset);
     merger.add(chunk);

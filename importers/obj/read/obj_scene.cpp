@@ -8,6 +8,7 @@
 
 #include "importers/bytes/text_cursor.h"
 #include "importers/obj/read/mtl.h"
+#include "importers/obj/read/mtl_map.h"
 #include "importers/obj/read/obj_meshes.h"
 #include "importers/obj/read/open_glass.h"
 
@@ -66,8 +67,8 @@ Library read_libraries(const Geometry& geometry, const std::filesystem::path& fo
     const bool is_one_name = is_file(folder / statement.name);
     for (const std::string& name : is_one_name ? std::vector{statement.name} : split_names(statement.name)) {
       if (!seen.insert(name).second) continue;
-      if (is_file(folder / name)) {
-        add_library(folder / name, library, diagnostics);
+      if (const std::string file = find_named_file(name, folder); !file.empty()) {
+        add_library(file, library, diagnostics);
       } else {
         diagnostics.push_back({Fidelity::dropped,
                                fmt::format("material library '{}': there is no such file", printable(name)),

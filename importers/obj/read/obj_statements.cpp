@@ -124,6 +124,14 @@ double StatementReader::finite_number(const char* what) {
   return value;
 }
 
+float StatementReader::component() {
+  const double value = cursor_.number("a component");
+  if (std::abs(value) <= std::numeric_limits<float>::max()) return static_cast<float>(value);
+  note("not finite", Fidelity::dropped,
+       "components of normals or texture coordinates that are not finite: 0");
+  return 0;
+}
+
 void StatementReader::read_position() {
   const double x = finite_number("a coordinate"), y = finite_number("a coordinate");
   const Point3d p{x, y, finite_number("a coordinate")};

@@ -51,7 +51,8 @@ class StatementReader {
   void use_material();
 
   double finite_number(const char* what);
-  float component() { return static_cast<float>(finite_number("a component")); }
+  // Of a normal or of texture coordinates: what is not finite is 0, and the rest of the file is kept.
+  float component();
   void read_position();
   Point2f read_uv();
 

@@ -25,6 +25,33 @@ TEST_F(RefusedByMitsuba, MeshesOfOneMaterialAreTurnedAlikeWhereNobodySeesIt) {
   }
 }
 
+// Where it shows, those that are turned have a bsdf of their own.
+TEST_F(RefusedByMitsuba, MeshesThatFaceTheOtherWayHaveABsdfOfTheirOwn) {
+  Material front, back;
+  back.model = DiffuseMaterial{.reflectance = ConstantSpectrum{0.2f}};
+  Scene scene = square_scene(front);
+  scene.materials.push_back(back);
+  Material sided;
+  sided.model = TwoSidedMaterial{Id<Material>{0}, Id<Material>{1}};
+  sided.name = "sided";
+  scene.materials.push_back(sided);
+  scene.shapes[0].material = Id<Material>{2};
+  scene.shapes.resize(4, scene.shapes[0]);
+  scene.shapes[1].flip_orientation = scene.shapes[3].flip_orientation = true;
+  const auto root = write(scene);
+  std::vector<std::string> bsdfs, turned;
+  for (const auto shape : root.children("shape")) {
+    bsdfs.push_back(reference(shape, "bsdf"));
+    turned.push_back(value(shape, "flip_normals"));
+  }
+  EXPECT_THAT(turned, testing::ElementsAre("false", "true", "false", "true"));
+  EXPECT_THAT(bsdfs, testing::ElementsAre("sided", "sided-turned", "sided", "sided-turned"));
+  const auto bsdf = [&](const char* id) { return root.find_child_by_attribute("bsdf", "id", id); };
+  EXPECT_STREQ(bsdf("sided-turned").attribute("type").value(), "mask") << "of copies Mitsuba makes one";
+  EXPECT_EQ(value(bsdf("sided-turned"), "opacity"), "1");
+  EXPECT_STREQ(bsdf("sided-turned").child("ref").attribute("id").value(), "sided");
+}
+
 // Mitsuba 3.9.1 refuses rough interfaces between equal indices, and has no brass.
 TEST_F(RefusedByMitsuba, WhatMitsubaRefusesIsWrittenOtherwise) {
   const Roughness rough{0.3f, 0.3f};

@@ -211,6 +211,35 @@ TEST_F(Obj, Deterministic) {
   EXPECT_EQ(a.scene.materials, b.scene.materials);
 }
 
+// ---- Courtesies: docs/courtesies.md -------------------------------------------------------------
+
+TEST_F(Obj, AttributesThatAreNotFiniteAreLostAlone) {
+  const ImportedScene imported =
+      read(square + "vt 0.5 nan\nvt 1 1\nvn 0 0 1\nvn inf 0 1\nf 1/1/1 2/2/1 3/2/2\n");
+  EXPECT_EQ(imported.scene.meshes.at(0).uvs.at(0), (Point2f{0.5f, 0}));
+  EXPECT_THAT(imported.diagnostics, says("not finite: 0"));
+}
+
+TEST_F(Obj, MarksLetterCasesAndPathsOfOtherSystems) {
+  const MaterialModel red = DiffuseMaterial{reflectance_from_rgb({1, 0, 0})};
+  const std::string mark = "\xef\xbb\xbf", faces = square + "usemtl m\nf 1 2 3\n";
+  folder_.write("Red.mtl", mark + "NewMtl m\nkd 1 0 0\n");
+  for (const std::string name : {"Red.mtl", ".\\Red.mtl", "C:\\models\\Red.mtl", "C:/models/red.MTL"}) {
+    const ImportedScene imported = read(mark + "mtllib " + name + "\n" + faces);
+    EXPECT_EQ(imported.scene.materials.at(0).model, red) << name;
+    EXPECT_THAT(imported.diagnostics, IsEmpty()) << name;
+  }
+  folder_.write("Wood.png", "");
+  material("map_kd -S 2 3 1 -CLAMP On textures\\wood.PNG\n");
+  const auto& texture = std::get<ImageTexture>(imported_.scene.textures.at(0).model);
+  EXPECT_TRUE(texture.filename.ends_with("/Wood.png")) << texture.filename;
+  EXPECT_EQ(texture.wrap, Wrap::clamp);
+  EXPECT_EQ(std::get<UvMapping>(texture.mapping).a, 2);
+  folder_.write("wOOD.png", "");
+  material("map_Kd WOOD.png\n");
+  EXPECT_THAT(imported_.diagnostics, says("there is no such file")) << "two may be meant";
+}
+
 // ---- What has to be refused ---------------------------------------------------------------------
 
 TEST_F(Obj, ErrorsHaveTheirPlace) {
@@ -226,8 +255,6 @@ TEST_F(Obj, ErrorsHaveTheirPlace) {
                                          {"v 0 -inf 0\n", 1, 5, "finite"},
                                          {"v 0 1e39 0\n", 1, 5, "finite"},
                                          {"v 0 1e999 0\n", 1, 5, "finite"},
-                                         {"vt nan\n", 1, 4, "finite"},
-                                         {"vn 0 0 inf\n", 1, 8, "finite"},
                                          {"v 0 0\n", 1, 6, "missing"},
                                          {"v 0 0 0x\n", 1, 7, "'0x'"},
                                          {"\n\nv 0 0, 0\n", 3, 5, "'0,'"},
