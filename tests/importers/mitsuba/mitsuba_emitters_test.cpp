@@ -116,9 +116,8 @@ TEST_F(MitsubaEmitters, WrittenAreaLightsComeBack) {
   const Shape shape = original.shapes[0];
   original.shapes.clear();
   for (const AreaLight& light :
-       {AreaLight{Spectrum{emission_from_rgb({5, 4, 3})}, 1, false, false, {}},
-        AreaLight{Spectrum{ConstantSpectrum{2}}, 1, false, true, {}},
-        AreaLight{slide, 2.5f, false, false, {}}, AreaLight{flat, 1, false, false, {}}}) {
+       {AreaLight{Spectrum{emission_from_rgb({5, 4, 3})}},
+        AreaLight{Spectrum{ConstantSpectrum{2}}, 1, false, true}, AreaLight{slide, 2.5f}, AreaLight{flat}}) {
     original.shapes.push_back(shape);
     original.shapes.back().area_light = add_to(original.area_lights, light);
   }

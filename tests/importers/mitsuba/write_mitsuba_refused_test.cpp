@@ -103,7 +103,7 @@ TEST_F(RefusedByMitsuba, ScalesOfLampsImages) {
   image.filename = (folder_ / "none.png").string();
   const Id<Texture> slide = add_to(scene.textures, Texture{image, false, "", {}});
   for (const float scale : {1.0f, 2.5f}) {
-    scene.area_lights = {AreaLight{slide, scale, false, false, {}}};
+    scene.area_lights = {AreaLight{slide, scale}};
     scene.shapes[0].area_light = Id<AreaLight>{0};
     write(scene);
     const auto said = approximates("there it is 1/2.5 as bright");

@@ -211,7 +211,7 @@ TEST_F(Obj, Deterministic) {
   EXPECT_EQ(a.scene.materials, b.scene.materials);
 }
 
-// ---- Courtesies: docs/courtesies.md -------------------------------------------------------------
+// ---- Courtesies: docs/reference/courtesies.md -------------------------------------------------------------
 
 TEST_F(Obj, AttributesThatAreNotFiniteAreLostAlone) {
   const ImportedScene imported =

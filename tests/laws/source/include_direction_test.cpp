@@ -71,9 +71,10 @@ const std::map<std::string, std::vector<std::string>>& floors() {
         "surfaces", "view", "prepared", "panes", "photons", "transport", "transport/waves"}},
       {"farm", {"scheduler", "transport", "rays", "files", "plan", "run", "conclude", "", "simulator"}},
       {"importers",
-       {"bytes", "shapes", "solids", "spectra", "reading", "writing", "images", "ply/read", "ply/write", "stl/read",
-        "obj/read", "obj/write", "pbrt/read", "pbrt/write", "mitsuba", "mitsuba/read", "mitsuba/write",
-        "povray/write", "gltf", "gltf/read", "gltf/write", ""}}};
+       {"bytes",    "shapes",       "solids",        "spectra",      "reading",   "writing",   "images",
+        "ply/read", "ply/write",    "stl/read",      "obj/read",     "obj/write", "pbrt/read", "pbrt/write",
+        "mitsuba",  "mitsuba/read", "mitsuba/write", "povray/write", "gltf",      "gltf/read", "gltf/write",
+        ""}}};
   return rooms;
 }
 
