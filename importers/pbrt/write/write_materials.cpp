@@ -384,7 +384,8 @@ void write_materials(Writer& w) {
     }
     MaterialWriter writer(p, i);
     const char* type = std::visit(writer, material.model);
-    if (!material.two_sided && !traits[i].transmits) p.approximated("its back, which is black in the scene, shows as its front does");
+    if (!material.two_sided && !traits[i].transmits)
+      p.approximated("its back, which is black in the scene, shows as its front does");
     if (!is_made) bumps(p, material);
     write_material(w, i, type, p);
   }
