@@ -210,6 +210,16 @@ void check_lights(const Checker& c, const Manifest& m) {
   c.require(m.emissive_opacities.empty() || m.emissive_opacities.size() == m.emissive_triangles.size(),
             "the opacities of what shines are not whole");
   for (const Light& light : m.lights)
+    std::visit(
+        [&](const auto& l) {
+          if constexpr (requires { l.fading; })
+            c.require(!l.fading || (l.fading->fade_distance >= 0 && l.fading->fade_power >= 0),
+                      "a light fades over a negative distance, or by a negative power");
+          if constexpr (requires { l.tightness; })
+            c.require(l.tightness >= 0, "a light has a negative tightness");
+        },
+        light.model);
+  for (const Light& light : m.lights)
     if (const auto* distant = std::get_if<DistantLight>(&light.model))
       c.require(length(distant->direction) > 0, "a distant light has no direction");
   for (const Light& light : m.lights)

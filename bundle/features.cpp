@@ -13,9 +13,10 @@ namespace vitrail {
 namespace {
 
 // By bit.
-constexpr std::array required{"normals",    "uvs",     "attributes", "instances",  "textures", "quadrics",
-                              "procedural", "motion",  "tables",     "slabs",      "hair",     "curves",
-                              "faces",      "masking", "decimals",   "media_grids"};
+constexpr std::array required{"normals",     "uvs",        "attributes", "instances", "textures",
+                              "quadrics",    "procedural", "motion",     "tables",    "slabs",
+                              "hair",        "curves",     "faces",      "masking",   "decimals",
+                              "media_grids", "fadings",    "glows",      "patterns"};
 constexpr std::array optional{"pieces"};
 
 std::vector<std::string> names(std::uint32_t bits, std::span<const char* const> known) {

@@ -15,6 +15,7 @@
 #include "bundle/loaded_domain.h"
 #include "bundle/manifest_json.h"
 #include "bundle/read_file.h"
+#include "bundle/record_fields.h"
 #include "bundle/write_file.h"
 #include "scene/system/diagnostics.h"
 
@@ -138,6 +139,17 @@ Features features_of(const Manifest& m) {
                                 return image && std::holds_alternative<AttributeMapping>(image->mapping);
                               }),
           required_feature::faces);
+  require(std::ranges::any_of(
+              m.textures, [](const Texture& t) { return std::holds_alternative<PatternTexture>(t.model); }),
+          required_feature::patterns);
+  require(std::ranges::any_of(m.lights,
+                              [](const Light& light) {
+                                return std::visit([](const auto& l) { return records::fades(l); },
+                                                  light.model);
+                              }),
+          required_feature::fadings);
+  require(std::ranges::any_of(m.area_lights, [](const AreaLight& light) { return !light.sampled; }),
+          required_feature::glows);
   require(m.requirements.motion, required_feature::motion);
   require(!m.tables.empty(), required_feature::tables);
   require(std::ranges::any_of(

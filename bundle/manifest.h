@@ -71,6 +71,11 @@ struct Surface {
   bool operator==(const Surface&) const = default;
 };
 
+// Whether it is a light that connections go to.
+inline bool is_lamp(std::span<const AreaLight> lights, const Surface& surface) {
+  return surface.area_light >= 0 && lights[static_cast<std::size_t>(surface.area_light)].sampled;
+}
+
 // One triangle that emits, replicated on every rank for light sampling. Wound so that its front emits.
 struct EmissiveTriangle {
   Point3f p[3];

@@ -27,6 +27,12 @@ template <class... Alternatives>
 void fields(auto& io, std::variant<Alternatives...>& v);
 template <class... Alternatives>
 void fields(auto& io, const std::variant<Alternatives...>& v);
+template <class... Alternatives>
+void set_kind(auto& io, std::variant<Alternatives...>& v, int index);
+template <class T>
+void fields(auto& io, std::vector<T>& value);
+template <class T>
+void fields(auto& io, const std::vector<T>& value);
 template <class T>
 void fields(auto& io, std::optional<T>& value);
 template <class T>
@@ -56,6 +62,10 @@ template <>
 inline constexpr auto last_of<GridEdge> = GridEdge::zero;
 template <>
 inline constexpr auto last_of<NoiseTexture::Kind> = NoiseTexture::Kind::marble;
+template <>
+inline constexpr auto last_of<PatternTexture::Kind> = PatternTexture::Kind::mandel;
+template <>
+inline constexpr auto last_of<PatternTexture::Wave> = PatternTexture::Wave::poly;
 template <>
 inline constexpr auto last_of<TextureFilter> = TextureFilter::anisotropic;
 template <>
@@ -157,8 +167,9 @@ void fields(auto& io, Unresolved auto&) {
 
 // Those of which bundles have other fields.
 template <class T>
-concept Reduced = IsOneOf<T, ImageTexture, PtexTexture, Roughness, SubsurfaceMaterial, MeasuredMaterial,
-                          TabulatedMaterial, GoniometricLight, EnvironmentLight>;
+concept Reduced =
+    IsOneOf<T, ImageTexture, PtexTexture, Roughness, SubsurfaceMaterial, MeasuredMaterial, TabulatedMaterial,
+            AreaLight, PointLight, SpotLight, GoniometricLight, EnvironmentLight>;
 template <HasFields T>
 requires(!Reduced<T>) void fields(auto& io, T& record) {
   visit_fields(record, [&](auto&... field) { (fields(io, field), ...); });
@@ -242,6 +253,31 @@ void fields(auto& io, Is<Medium> auto& m) {
 
 // ---- Lights
 
+// The lowest bit of a byte, and the next one, which only those of the feature `glows` have.
+void fields(auto& io, Is<AreaLight> auto& l) {
+  fields(io, l.radiance), fields(io, l.scale), fields(io, l.two_sided);
+  auto byte = static_cast<std::uint8_t>(l.directional | !l.sampled << 1);
+  io(byte);
+  if constexpr (reads<decltype(io)>) l.directional = byte & 1, l.sampled = !(byte & 2);
+}
+void fields(auto& io, Is<PointLight> auto& l) { fields(io, l.position), fields(io, l.intensity); }
+void fields(auto& io, Is<SpotLight> auto& l) {
+  fields(io, l.light_to_world), fields(io, l.intensity), fields(io, l.beam_deg), fields(io, l.cutoff_deg);
+  fields(io, l.falloff), fields(io, l.texture);
+}
+// What only lights of the feature `fadings` have, after the fields of their kind.
+bool fades(const auto& l) {
+  if constexpr (requires { l.tightness; })
+    return l.fading || l.tightness != 0;
+  else if constexpr (requires { l.fading; })
+    return l.fading.has_value();
+  else
+    return false;
+}
+void fading_fields(auto& io, auto& l) {
+  if constexpr (requires { l.fading; }) fields(io, l.fading);
+  if constexpr (requires { l.tightness; }) fields(io, l.tightness);
+}
 void fields(auto& io, Is<GoniometricLight> auto& l) {
   fields(io, l.light_to_world), fields(io, l.intensity), fields(io, l.filename);
   fields(io, l.latitude_longitude), fields(io, l.power);
@@ -250,7 +286,20 @@ void fields(auto& io, Is<EnvironmentLight> auto& l) {
   fields(io, l.filename), fields(io, l.light_to_world), fields(io, l.projection), fields(io, l.scale);
   fields(io, l.illuminance), fields(io, l.portal);
 }
-void fields(auto& io, Is<Light> auto& l) { fields(io, l.model); }
+// The kind, and in its highest bit whether something follows its fields.
+void fields(auto& io, Is<Light> auto& l) {
+  constexpr std::uint8_t fading = 0x80;
+  auto kind = static_cast<std::uint8_t>(l.model.index());
+  if (std::visit([](const auto& model) { return fades(model); }, l.model)) kind |= fading;
+  io(kind);
+  if constexpr (reads<decltype(io)>) set_kind(io, l.model, kind & (fading - 1));
+  std::visit(
+      [&](auto& model) {
+        fields(io, model);
+        if (kind & fading) fading_fields(io, model);
+      },
+      l.model);
+}
 void fields(auto& io, Is<EmissiveTriangle> auto& t) {
   for (auto& p : t.p) fields(io, p);
   for (auto& uv : t.uv) fields(io, uv);
@@ -296,22 +345,33 @@ void fields(auto& io, Is<RealisticCamera> auto& c) {
 
 // ---- Building blocks, defined
 
+template <class... Alternatives>
+void set_kind(auto& io, std::variant<Alternatives...>& v, int index) {
+  if (index >= static_cast<int>(sizeof...(Alternatives))) io.stream.fail("a record is of an unknown kind");
+  int i = 0;
+  ((i++ == index ? static_cast<void>(v = Alternatives{}) : void()), ...);
+}
 // A variant is its index in one byte, then the fields of that alternative.
 template <class... Alternatives>
 void fields(auto& io, std::variant<Alternatives...>& v) {
   auto index = static_cast<std::uint8_t>(v.index());
   io(index);
-  if constexpr (reads<decltype(io)>) {
-    if (index >= sizeof...(Alternatives)) io.stream.fail("a record is of an unknown kind");
-    std::uint8_t i = 0;
-    ((i++ == index ? static_cast<void>(v = Alternatives{}) : void()), ...);
-  }
+  if constexpr (reads<decltype(io)>) set_kind(io, v, index);
   std::visit([&](auto& alternative) { fields(io, alternative); }, v);
 }
 template <class... Alternatives>
 void fields(auto& io, const std::variant<Alternatives...>& v) {
   io(static_cast<std::uint8_t>(v.index()));
   std::visit([&](const auto& alternative) { fields(io, alternative); }, v);
+}
+
+template <class T>
+void fields(auto& io, std::vector<T>& records) {
+  list(io, records);
+}
+template <class T>
+void fields(auto& io, const std::vector<T>& records) {
+  list(io, records);
 }
 
 template <class T>

@@ -9,6 +9,7 @@
 #include "importers/obj/read/obj.h"
 #include "importers/pbrt/read/pbrt.h"
 #include "importers/ply/read/ply.h"
+#include "importers/povray/read/povray.h"
 #include "importers/reading/coincident_lamps.h"
 #include "importers/reading/default_view.h"
 #include "importers/reading/foreign_text.h"
@@ -61,6 +62,7 @@ ImportedScene read_scene(const std::filesystem::path& file, MeshMemory memory,
   if (options.camera != 0 && format != ".xml")
     throw UsageError(file.string() + ": only scenes of Mitsuba have more than one camera");
   ImportedScene imported;
+  if (format == ".pov") return read_povray(file, std::move(memory), options);
   if (format == ".pbrt" || format == ".xml") {
     imported = format == ".xml" ? read_mitsuba(file, std::move(memory), options)
                                 : read_pbrt(file, std::move(memory), std::move(progress), options);
@@ -73,7 +75,7 @@ ImportedScene read_scene(const std::filesystem::path& file, MeshMemory memory,
   } else if (format == ".ply") {
     imported = mesh_alone(file, memory);
   } else {
-    throw Error("unknown format: the name has to end in .pbrt, .xml, .obj or .ply; .gz may follow",
+    throw Error("unknown format: the name has to end in .pbrt, .xml, .pov, .obj or .ply; .gz may follow",
                 {file.string()});
   }
   add_default_view(imported, file);

@@ -65,7 +65,9 @@ Report luminance_of(const SpectrumParameter& p) {
 }
 
 struct LightDescriber {
-  Report operator()(const PointLight& l) const { return of(l.intensity, 4 * std::numbers::pi); }
+  Report operator()(const PointLight& l) const {
+    return of(l.intensity, l.fading ? 0 : 4 * std::numbers::pi);
+  }
   Report operator()(const SpotLight& l) const { return of(l.intensity); }
   Report operator()(const ProjectionLight& l) const { return of(l.scale); }
   Report operator()(const GoniometricLight& l) const { return of(l.intensity); }
@@ -93,7 +95,9 @@ Report describe_lights(const Manifest& m) {
     const double sides = l.two_sided ? 2 : 1;
     lights.push_back(
         {{"number", lights.size() + 1},
-         {"kind", l.two_sided ? "area, both sides" : "area"},
+         {"kind", !l.sampled    ? "glow"
+                  : l.two_sided ? "area, both sides"
+                                : "area"},
          {"luminance", y},
          {"area", areas[i]},
          {"power", y.is_null() ? y : Report(std::numbers::pi * areas[i] * y.get<double>() * sides)}});

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "scene/models/pattern.h"
 #include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
@@ -97,6 +99,48 @@ RGB mean_of_noise(const NoiseTexture& noise) {
   double sum = 0, weight = 1;
   for (int i = 0; i < noise.octaves; ++i, weight *= static_cast<double>(noise.roughness)) sum += weight;
   return {octave * sum, octave * sum, octave * sum};
+}
+
+RGB mean_of_pattern(const PatternTexture& t) {
+  constexpr int points = 4096;
+  constexpr double side = 16;
+  // The additive sequence of the number g, g⁴ = g + 1 (Roberts 2018).
+  constexpr double g = 1.2207440846057596;
+  constexpr std::array steps{1 / g, 1 / (g * g), 1 / (g * g * g)};
+  const auto color = [&](std::size_t place) {
+    const auto* spectrum = std::get_if<Spectrum>(&t.map[place].value);
+    return spectrum ? factor_rgb(*spectrum) : RGB{0.5, 0.5, 0.5};
+  };
+  RGB sum;
+  const auto add = [&](const RGB& c, double weight) {
+    sum = {sum.r + c.r * weight, sum.g + c.g * weight, sum.b + c.b * weight};
+  };
+  for (int i = 0; i < points; ++i) {
+    const auto coordinate = [&](std::size_t axis) {
+      const double x = 0.5 + i * steps[axis];
+      return side * (x - std::floor(x) - 0.5);
+    };
+    const Point3d p{coordinate(0), coordinate(1), coordinate(2)};
+    if (t.map.empty()) {
+      const double value = pattern_value(t, p);
+      add({value, value, value}, 1.0 / points);
+      continue;
+    }
+    const PatternMix mix = pattern_mix(t, p);
+    add(color(mix.first), (1 - mix.amount) / points);
+    add(color(mix.second), mix.amount / points);
+  }
+  return sum;
+}
+
+std::optional<CheckerboardTexture> solid_checkerboard(const PatternTexture& t) {
+  if (t.kind != PatternTexture::Kind::checker || t.map.size() != 2) return std::nullopt;
+  if (t.turbulence.amount != Vector3d{} || t.repeat != Vector3d{}) return std::nullopt;
+  CheckerboardTexture board;
+  board.even = t.map[0].value, board.odd = t.map[1].value;
+  board.solid = true;
+  board.texture_to_world = t.texture_to_world;
+  return board;
 }
 
 std::optional<RGB> mean_of_attribute(const Scene& scene, const MeshAttributeTexture& texture) {

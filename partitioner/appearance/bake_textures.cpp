@@ -185,6 +185,10 @@ struct TextureBaker::Clone {
   SpectrumParameter operator()(const NoiseTexture& t) const {
     return use == TextureUse::illuminant ? lit(t) : baker.add(t, use);
   }
+  SpectrumParameter operator()(PatternTexture t) const {
+    for (PatternStop& stop : t.map) stop.value = input(stop.value);
+    return t.map.empty() && use == TextureUse::illuminant ? lit(t) : baker.add(t, use);
+  }
   SpectrumParameter operator()(const PtexTexture& t) const { return baker.bake_ptex(id, t, use); }
 
  private:

@@ -74,6 +74,7 @@ struct Finder {
   Mean operator()(const BilinearTexture&) const { return std::nullopt; }
   Mean operator()(const DotsTexture&) const { return std::nullopt; }
   Mean operator()(const NoiseTexture&) const { return std::nullopt; }
+  Mean operator()(const PatternTexture&) const { return std::nullopt; }
   Mean operator()(const MeshAttributeTexture&) const { return std::nullopt; }
   Mean operator()(const UvTexture&) const { return std::nullopt; }
 };

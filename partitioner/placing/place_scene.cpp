@@ -124,7 +124,7 @@ SceneTally::SceneTally(const World& world) : world_(world) {
     const auto after = std::ranges::upper_bound(surfaces, p.first_triangle, {}, &Surface::first_triangle);
     surfaces_.push_back(static_cast<std::uint32_t>(after - surfaces.begin() - 1));
     const Surface& surface = surfaces[surfaces_.back()];
-    if (surface.area_light >= 0) note_opacity(surface.opacity);
+    if (is_lamp(world.manifest.area_lights, surface)) note_opacity(surface.opacity);
   }
   for (const ShiningPlacement& shining : world.shining)
     if (!shining.placement.mesh->quadric) note_opacity(shining.opacity);
@@ -150,7 +150,8 @@ void SceneTally::add(const Block& block, const PlacedTriangles& placed, std::uin
     for (const Triangle& t : std::span(placed.triangles).subspan(at, count))
       for (const Point3f& v : t) extend(bounds, v);
   Emissive emissive;
-  if (const Surface& surface = world_.manifest.surfaces[surfaces_[placement]]; surface.area_light >= 0)
+  if (const Surface& surface = world_.manifest.surfaces[surfaces_[placement]];
+      is_lamp(world_.manifest.area_lights, surface))
     take_emissive(placed, at, count, block.placement.first_triangle + block.begin,
                   static_cast<std::uint32_t>(surface.area_light), emissive_attributes_,
                   emissive_opacities_ ? &surface.opacity : nullptr, emissive);

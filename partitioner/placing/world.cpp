@@ -114,7 +114,9 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   }
   world.tessellated = std::move(plan.tessellated);
 
-  const auto shines = [&](const Placement& p) { return surface_of(p, appearance).area_light >= 0; };
+  const auto shines = [&](const Placement& p) {
+    return is_lamp(appearance.area_lights, surface_of(p, appearance));
+  };
   if (!options.keep_instances) flatten(plan);
   for (const Placement& p : expanded(plan, shines)) {
     const Surface surface = surface_of(p, appearance);

@@ -48,6 +48,16 @@ auto visit_fields(Is<NoiseTexture> auto& t, auto&& f) {
 auto visit_fields(Is<PtexTexture> auto& t, auto&& f) { return f(t.filename, t.encoding, t.gamma, t.scale); }
 auto visit_fields(Is<MeshAttributeTexture> auto& t, auto&& f) { return f(t.name, t.scale); }
 auto visit_fields(Is<UvTexture> auto& t, auto&& f) { return f(t.mapping); }
+auto visit_fields(Is<PatternTurbulence> auto& t, auto&& f) {
+  return f(t.amount, t.octaves, t.lambda, t.omega);
+}
+auto visit_fields(Is<PatternBrick> auto& b, auto&& f) { return f(b.size, b.mortar); }
+auto visit_fields(Is<PatternCrackle> auto& c, auto&& f) { return f(c.form, c.metric, c.offset, c.solid); }
+auto visit_fields(Is<PatternStop> auto& s, auto&& f) { return f(s.at, s.value); }
+auto visit_fields(Is<PatternTexture> auto& t, auto&& f) {
+  return f(t.kind, t.texture_to_world, t.repeat, t.turbulence, t.frequency, t.phase, t.wave, t.exponent,
+           t.direction, t.brick, t.crackle, t.arms, t.agate_turb, t.iterations, t.map);
+}
 
 // ---- Materials
 
@@ -113,11 +123,13 @@ auto visit_fields(Is<Material> auto& m, auto&& f) {
 // ---- Lights
 
 auto visit_fields(Is<AreaLight> auto& l, auto&& f) {
-  return f(l.radiance, l.scale, l.two_sided, l.directional);
+  return f(l.radiance, l.scale, l.two_sided, l.directional, l.sampled);
 }
-auto visit_fields(Is<PointLight> auto& l, auto&& f) { return f(l.position, l.intensity); }
+auto visit_fields(Is<Fading> auto& l, auto&& f) { return f(l.fade_distance, l.fade_power); }
+auto visit_fields(Is<PointLight> auto& l, auto&& f) { return f(l.position, l.intensity, l.fading); }
 auto visit_fields(Is<SpotLight> auto& l, auto&& f) {
-  return f(l.light_to_world, l.intensity, l.beam_deg, l.cutoff_deg, l.falloff, l.texture);
+  return f(l.light_to_world, l.intensity, l.beam_deg, l.cutoff_deg, l.falloff, l.texture, l.fading,
+           l.tightness);
 }
 auto visit_fields(Is<ProjectionLight> auto& l, auto&& f) {
   return f(l.light_to_world, l.image, l.scale, l.fov_deg, l.irradiance, l.power);

@@ -22,7 +22,7 @@ const char* kind_of(const Spectrum& spectrum) {
 
 const char* kind_of(const TextureModel& model) {
   return name_of(model, std::array{"image", "checkerboard", "product", "mix", "direction mix", "bilinear",
-                                   "dots", "noise", "ptex", "mesh attribute", "uv"});
+                                   "dots", "noise", "ptex", "mesh attribute", "uv", "pattern"});
 }
 
 const char* kind_of(const MaterialModel& model) {

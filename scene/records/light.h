@@ -16,14 +16,28 @@ struct AreaLight {
   float scale = 1;  // of a texture
   bool two_sided = false;
   bool directional = false;  // only along the normal (Mitsuba's directionalarea)
+  // Whether it is a lamp, which connections go to and photons leave from. Else it is a glow, as POV-Ray's
+  // `ambient` and `emission`: seen by the camera, in mirrors and through glass, and found by the scattered
+  // rays of `--integrator path` alone. For `direct` it lights nothing. It costs nothing but where it is seen.
+  bool sampled = true;
   Origin origin;
   bool operator==(const AreaLight&) const = default;
+};
+
+// How a lamp weakens with the distance d, as a `light_source` of POV-Ray does: the irradiance across the
+// direction to it is intensity · 2/(1 + (d/fade_distance)^fade_power), and intensity itself where either is
+// 0, as POV-Ray has it by default. The unit of the intensity is then W·m⁻²·nm⁻¹. POV-Ray's colour c, which
+// shows c·ρ·cos θ on a diffuse surface, is the intensity π·c.
+struct Fading {
+  float fade_distance = 0, fade_power = 0;
+  bool operator==(const Fading&) const = default;
 };
 
 // Radiant intensity, W·sr⁻¹·nm⁻¹, equal in all directions.
 struct PointLight {
   Point3d position;
   Spectrum intensity;
+  std::optional<Fading> fading{};  // none: as 1/d²
   bool operator==(const PointLight&) const = default;
 };
 
@@ -36,6 +50,10 @@ struct SpotLight {
   float beam_deg = 25, cutoff_deg = 30;
   Falloff falloff = Falloff::smoothstep;
   std::optional<Id<Texture>> texture;  // multiplies, over the square frame of the cutoff
+  std::optional<Fading> fading{};      // none: as 1/d²
+  // cos^tightness of the angle to the axis multiplies. POV-Ray's `radius` and `falloff` are beam_deg and
+  // cutoff_deg of a smoothstep.
+  float tightness = 0;
   bool operator==(const SpotLight&) const = default;
 };
 

@@ -9,17 +9,11 @@
 #include <variant>
 
 #include "scene/geometry/transform.h"
-#include "scene/records/id.h"
 #include "scene/records/origin.h"
-#include "scene/spectra/spectrum.h"
+#include "scene/records/parameter.h"
+#include "scene/records/pattern_texture.h"
 
 namespace vitrail {
-
-struct Texture;
-
-// A parameter that is one value, or looked up in a texture where it is used.
-using FloatParameter = std::variant<float, Id<Texture>>;
-using SpectrumParameter = std::variant<Spectrum, Id<Texture>>;
 
 // ---- From a point of a surface to the (s,t) of a texture
 
@@ -174,9 +168,9 @@ struct UvTexture {
   bool operator==(const UvTexture&) const = default;
 };
 
-using TextureVariant =
-    std::variant<ImageTexture, CheckerboardTexture, ProductTexture, MixTexture, DirectionMixTexture,
-                 BilinearTexture, DotsTexture, NoiseTexture, PtexTexture, MeshAttributeTexture, UvTexture>;
+using TextureVariant = std::variant<ImageTexture, CheckerboardTexture, ProductTexture, MixTexture,
+                                    DirectionMixTexture, BilinearTexture, DotsTexture, NoiseTexture,
+                                    PtexTexture, MeshAttributeTexture, UvTexture, PatternTexture>;
 // Copied, moved, destroyed and compared in scene/records/special_members.cpp alone: in every file that
 // handles a scene, that took up to two thirds of its compiling.
 struct TextureModel : TextureVariant {

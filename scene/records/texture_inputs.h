@@ -17,6 +17,8 @@ template <class F>
 void for_inputs(const TextureModel& model, F&& f) {
   const auto pass_on = [&]<class Field>(const Field& field) {
     if constexpr (IsOneOf<Field, FloatParameter, SpectrumParameter>) f(field);
+    if constexpr (Is<Field, std::vector<PatternStop>>)
+      for (const PatternStop& stop : field) f(stop.value);
   };
   std::visit([&](const auto& m) { visit_fields(m, [&](const auto&... field) { (pass_on(field), ...); }); },
              model);

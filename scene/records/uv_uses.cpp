@@ -31,6 +31,10 @@ struct Search {
   void in(const std::variant<T...>& field) {
     std::visit([this](const auto& alternative) { in(alternative); }, field);
   }
+  template <class T>
+  void in(const std::vector<T>& list) {
+    for (const T& item : list) in(item);
+  }
   template <HasFields Record>
   void in(const Record& record) {
     visit_fields(record, [this](const auto&... fields) { (in(fields), ...); });

@@ -63,6 +63,37 @@ TEST_F(ManifestFile, Masking) {
   EXPECT_EQ(written_and_read(m).materials, m.materials);
 }
 
+TEST_F(ManifestFile, WhatPovRayHas) {
+  using namespace required_feature;
+  Manifest m = sample_manifest();
+  const std::size_t bytes = encode_lights(m).size();
+  EXPECT_EQ(features_of(m).required & (fadings | glows | patterns), 0u);
+  m.lights.push_back({PointLight{{1, 2, 3}, ConstantSpectrum{1}, std::nullopt}, {}});
+  EXPECT_EQ(features_of(m).required & fadings, 0u);
+  const std::size_t plain = encode_lights(m).size() - bytes;
+  m.lights.push_back({PointLight{{1, 2, 3}, ConstantSpectrum{1}, Fading{4, 2}}, {}});
+  EXPECT_EQ(encode_lights(m).size(), bytes + 2 * plain + 9);  // a bool and two floats
+  SpotLight spot;
+  spot.intensity = ConstantSpectrum{1};
+  m.lights.push_back({spot, {}});
+  spot.tightness = 7;
+  m.lights.push_back({spot, {}});
+  m.area_lights.push_back({ConstantSpectrum{1}, 1, true, true, false, {}});
+  PatternTexture pattern;
+  pattern.kind = PatternTexture::Kind::wood;
+  pattern.turbulence.amount = {1, 2, 3};
+  pattern.map = {{0, ConstantSpectrum{0}}, {0.5f, Id<Texture>{0}}};
+  m.textures.push_back({pattern});
+  EXPECT_EQ(features_of(m).required & (fadings | glows | patterns), fadings | glows | patterns);
+  const Manifest r = written_and_read(m);
+  EXPECT_EQ(r.lights, m.lights);
+  EXPECT_EQ(r.area_lights, m.area_lights);
+  EXPECT_EQ(r.textures, m.textures);
+  EXPECT_NE(hash_of_records(r), hash_of_records(sample_manifest()));
+  m.lights.back() = {PointLight{{1, 2, 3}, ConstantSpectrum{1}, Fading{-1, 2}}, {}};
+  EXPECT_THROW(written_and_read(m), Error);
+}
+
 // A reflector with one coefficient a pair, and measurements of nothing in particular.
 ScatteringTable fourier_table() {
   return FourierTable{

@@ -108,6 +108,9 @@ class Renumbering {
   void use_inputs(DirectionMixTexture& t) { use(t.first), use(t.second); }
   void use_inputs(BilinearTexture& t) { use(t.v00), use(t.v01), use(t.v10), use(t.v11); }
   void use_inputs(DotsTexture& t) { use(t.inside), use(t.outside); }
+  void use_inputs(PatternTexture& t) {
+    for (PatternStop& stop : t.map) use(stop.value);
+  }
 
   void use_inputs(DiffuseMaterial& m) { use(m.reflectance), use(m.sigma_deg); }
   void use_inputs(DielectricMaterial& m) {

@@ -14,8 +14,8 @@ bool draw_emitter(const LightQuery& query, std::uint32_t emitter, LightSample& s
   if (!(distance2 > 0)) return false;
   sample.distance = std::sqrt(distance2);
   sample.to_light = towards * (1 / sample.distance);
-  sample.radiance =
-      intensity(e, -sample.to_light, s.scene.textures, query.wavelengths) * static_cast<float>(1 / distance2);
+  const auto weaken = static_cast<float>(e.fading ? weakened(e, sample.distance) : 1 / distance2);
+  sample.radiance = intensity(e, -sample.to_light, s.scene.textures, query.wavelengths) * weaken;
   sample.pdf = 1;
   sample.is_delta = true;
   sample.light = {LightKind::emitter, emitter};

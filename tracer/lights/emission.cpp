@@ -162,6 +162,7 @@ EmittedPhoton Emission::of_emitter(std::uint32_t emitter, const std::array<float
   const PointEmitter& e = lights_.emitters[emitter];
   EmittedPhoton photon;
   photon.p = e.position;
+  if (e.fading) photon.fading = &e;
   const EmitterDirections::Way chosen = directions_[emitter].sample(way[0], way[1], way[2]);
   photon.direction = chosen.direction;
   if (!(chosen.pdf > 0)) return photon;

@@ -14,11 +14,12 @@ namespace vitrail {
 
 struct EmittedPhoton {
   Point3d p;
-  Vector3d direction;            // unit, the way it travels
-  Vector3d normal{};             // of the surface it leaves, unit, on that side; 0: it leaves none
-  std::uint32_t triangle = ~0u;  // global id of that surface
-  SampledSpectrum power;         // W·nm⁻¹, over the density of all that was chosen
-  bool is_distant = false;       // of a light that has one direction
+  Vector3d direction;                    // unit, the way it travels
+  Vector3d normal{};                     // of the surface it leaves, unit, on that side; 0: it leaves none
+  std::uint32_t triangle = ~0u;          // global id of that surface
+  SampledSpectrum power;                 // W·nm⁻¹, over the density of all that was chosen
+  bool is_distant = false;               // of a light that has one direction
+  const PointEmitter* fading = nullptr;  // of a light that fades as POV-Ray's
 };
 
 class Emission {

@@ -135,6 +135,7 @@ struct LightSampler {
   // Whether sample_light may ever give something.
   bool can_sample() const { return !share.empty(); }
   bool has_discs = false;  // some distant light is a sun
+  bool fades = false;      // some emitter does, as POV-Ray's
   // Whether background's radiance may be other than 0, or that of discs.
   bool has_background() const { return !infinite.empty() || !environments.empty() || has_discs; }
 };

@@ -20,6 +20,7 @@ struct LightBounds {
   double theta_o_rad = 0, theta_e_rad = 0;
   double power = 0;        // any unit, the same for all
   bool two_sided = false;  // its normals count in both directions
+  double near = 0;         // up to this distance it does not weaken
 };
 
 enum class LightChoice : std::uint8_t { tree, power };
@@ -46,6 +47,9 @@ struct alignas(64) LightNode {
   std::array<std::uint32_t, width + 1> first{};
   std::uint32_t children = 0;  // the first node of the children of several lights, which are together
   std::array<std::uint8_t, width> below{};  // of such a child: its node after `children`
+  // Upper bits of floats: square of the distance up to which the child does not weaken.
+  using Halves = std::array<std::uint16_t, width>;
+  Halves near2{};
 };
 static_assert(sizeof(LightNode) == 256);
 

@@ -18,11 +18,21 @@ struct Cluster {
   NormalCone cone;
   double theta_e_rad = 0, power = 0, least_power = 0;
   bool two_sided = false;
+  // Σ power/near² where all have a distance up to which they do not weaken: what they send to a point amid
+  // them. ∞: not all have.
+  double amid = 0;
   bool empty = true;
 };
 
 Cluster cluster_of(const LightBounds& l) {
-  return {l.box, {l.axis, l.theta_o_rad}, l.theta_e_rad, l.power, l.power, l.two_sided, false};
+  return {l.box,
+          {l.axis, l.theta_o_rad},
+          l.theta_e_rad,
+          l.power,
+          l.power,
+          l.two_sided,
+          l.near > 0 ? l.power / (l.near * l.near) : std::numeric_limits<double>::infinity(),
+          false};
 }
 
 Cluster united(const Cluster& a, const Cluster& b) {
@@ -39,6 +49,7 @@ Cluster united(const Cluster& a, const Cluster& b) {
   c.theta_e_rad = std::max(a.theta_e_rad, b.theta_e_rad);
   c.power += b.power;
   c.least_power = std::min(a.least_power, b.least_power);
+  c.amid += b.amid;
   return c;
 }
 
@@ -251,6 +262,9 @@ class LightTreeBuilder {
     node.radius2_power[lane] = upper_bits(radius * radius) | (c.two_sided ? 0x8000u : 0u) |
                                (upper_bits(std::max(c.power / tree_.power_, 1e-30)) | (narrow ? 0x8000u : 0u))
                                    << 16;
+    // So small that the square of the largest float is not reached: no distance is.
+    const double near2 = std::min(c.power / c.amid * (tree_.scale_ * tree_.scale_), 1e30);
+    node.near2[lane] = static_cast<std::uint16_t>(upper_bits(near2));
     if (!narrow && cosine > 0 && c.least_power >= least_share * tree_.power_)
       node.below[lane] |= LightNode::alike;
   }

@@ -12,6 +12,11 @@ namespace detail {
 
 VITRAIL_LANES Floats<8> load(const LightNode::Lanes& x) { return std::bit_cast<Floats<8>>(x); }
 VITRAIL_LANES Words<8> load(const LightNode::Pairs& x) { return std::bit_cast<Words<8>>(x); }
+VITRAIL_LANES Floats<8> load(const LightNode::Halves& x) {
+  Words<8> bits;
+  for (std::size_t i = 0; i < 8; ++i) bits[i] = std::uint32_t{x[i]} << 16;
+  return cast_bits<float>(bits);
+}
 VITRAIL_LANES Floats<8> lower_integer(Words<8> pair) {
   return to_floats(cast_bits<std::int32_t>(pair << 16) >> 16);
 }
@@ -22,8 +27,8 @@ VITRAIL_LANES void store(float (&to)[8], Floats<8> x) { __builtin_memcpy(to, &x,
 
 }  // namespace detail
 
-// Power · cos θ′ / d², θ′ = θ − θ_o − θ_u the least angle between a normal of the child and the direction to
-// p, θ_u the half angle of its sphere from p; 0 where θ′ ≥ θ_e. All angles by cosines and sines.
+// Power · cos θ′ / max(d, near)², θ′ = θ − θ_o − θ_u the least angle between a normal of the child and the
+// direction to p, θ_u the half angle of its sphere from p; 0 where θ′ ≥ θ_e. All angles by cosines and sines.
 VITRAIL_LANES void weigh(const LightNode& node, Point3f p, LightWeights& result) {
   using F = Floats<8>;
   constexpr float of_unit = 1 / LightNode::unit, least_distance2 = LightNode::least_distance2;
@@ -58,7 +63,7 @@ VITRAIL_LANES void weigh(const LightNode& node, Point3f p, LightWeights& result)
   const F cos2 = select<F>(radius2 >= d2, one, cos_outside);
   const F cos_e = select<F>(power < 0, fill<F>(1 - 1e-4f), zero);
   const F reached = select<F>(cos2 > cos_e, cos2, zero);
-  const F child = abs(power) * reached / larger(d2, radius2);
+  const F child = abs(power) * reached / larger(larger(d2, radius2), detail::load(node.near2));
   detail::store(result.child, child);
   detail::store(result.alike, cosine - LightNode::alike_ratio * (sin_u + sin_o));
   double sum = 0;

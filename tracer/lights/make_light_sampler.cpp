@@ -95,7 +95,20 @@ struct Sorter {
     environment_power.push_back(4 * pi * e.mean_luminance * cross_section);
     s.environments.push_back(std::move(e));
   }
-  void add(PointEmitter e) { s.emitters.push_back(std::move(e)); }
+  void add(PointEmitter e) {
+    bound_fading(e, farthest_from(e.position));
+    s.fades = s.fades || e.fading;
+    s.emitters.push_back(std::move(e));
+  }
+  // Of the corners of the scene's bounds; 1 where it has none.
+  double farthest_from(Point3d p) const {
+    if (s.scene.bounds.empty()) return 1;
+    Vector3d most;
+    const Point3d lower = cast<double>(s.scene.bounds.lower), upper = cast<double>(s.scene.bounds.upper);
+    for (int axis = 0; axis < 3; ++axis)
+      most[axis] = std::max(std::abs(lower[axis] - p[axis]), std::abs(upper[axis] - p[axis]));
+    return std::max(length(most), 1e-15);
+  }
 };
 
 void find_variety(std::span<const LightBounds> lights, LightSampler& s) {
@@ -108,7 +121,7 @@ void find_variety(std::span<const LightBounds> lights, LightSampler& s) {
   const bool local = s.share[LightNumbers::choice_of_tree] > 0;
   s.one_is_enough = local ? s.slots.size() == 1 && s.emitters.size() == 1 : s.environments.empty();
   const bool plain = std::ranges::all_of(s.scene.area_lights, [](const AreaLight& light) {
-    return std::holds_alternative<Spectrum>(light.radiance);
+    return !light.sampled || std::holds_alternative<Spectrum>(light.radiance);
   });
   if (!local || !s.emitters.empty() || s.slots.size() > 2 || !plain) return;
   Bounds3d box;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/geometry/portable_math.h"
+#include "scene/models/fading.h"
 #include "tracer/lights/environment.h"
 #include "tracer/lights/projected_flux.h"
 #include "tracer/sampling/wavelengths.h"
@@ -31,7 +32,9 @@ struct DirectionalPart {
 
   SampledSpectrum operator()(const PointEmitter::Spot& spot) const {
     if (!(d.z > spot.cos_cutoff)) return filled(0);
-    const auto falling = static_cast<float>(falloff(spot));
+    double part = falloff(spot);
+    if (spot.tightness > 0) part *= portable_pow(d.z, spot.tightness);
+    const auto falling = static_cast<float>(part);
     if (!spot.texture || !(d.z > 0)) return filled(falling);
     const double scale = 0.5 / (d.z * spot.frame);
     const TexturePoint at{{0.5 + d.x * scale, 0.5 + d.y * scale}, {}, {}};
@@ -94,6 +97,18 @@ void bound_cone(PointEmitter& e, double half_rad) {
 
 }  // namespace
 
+double weakened(const PointEmitter& e, double distance) {
+  return e.fading ? weakened(*e.fading, distance) : 1 / (distance * distance);
+}
+
+// At d ≥ d0, 2/(1 + (d/d0)^p) ≤ 2(d0/d)² where p ≥ 2; nowhere more than 2.
+void bound_fading(PointEmitter& e, double farthest) {
+  if (!e.fading) return;
+  const bool by_squares = weakens(*e.fading) && e.fading->fade_power >= 2;
+  e.bounds.near = by_squares ? std::min(static_cast<double>(e.fading->fade_distance), farthest) : farthest;
+  e.bounds.power *= (weakens(*e.fading) ? 2 : 1) * (e.bounds.near * e.bounds.near);
+}
+
 SampledSpectrum intensity(const PointEmitter& e, Vector3d direction, const Textures* textures,
                           const SampledWavelengths& wavelengths) {
   const Vector3d local = normalize(transform_vector(e.world_to_light, direction));
@@ -107,6 +122,7 @@ PointEmitter make_emitter(const PointLight& light) {
   e.position = light.position;
   extend(e.bounds.box, e.position);
   e.intensity = light.intensity;
+  e.fading = light.fading;
   e.bounds.theta_o_rad = pi;
   e.bounds.theta_e_rad = pi / 2;
   e.bounds.power = 4 * pi * luminance(light.intensity);
@@ -117,8 +133,10 @@ PointEmitter make_emitter(const SpotLight& light, const Textures* textures,
                           std::span<const Texture> records) {
   PointEmitter e = placed(light.light_to_world);
   e.intensity = light.intensity;
+  e.fading = light.fading;
   PointEmitter::Spot spot;
   spot.falloff = light.falloff;
+  spot.tightness = static_cast<double>(light.tightness);
   spot.cutoff_rad = std::clamp(static_cast<double>(light.cutoff_deg) * radians, 0.0, pi);
   spot.beam_rad = std::clamp(static_cast<double>(light.beam_deg) * radians, 0.0, spot.cutoff_rad);
   spot.cos_cutoff = portable_cos(spot.cutoff_rad);
@@ -129,6 +147,10 @@ PointEmitter make_emitter(const SpotLight& light, const Textures* textures,
   const double mean = spot.falloff == SpotLight::Falloff::quartic ? 0.2 : 0.5;
   e.bounds.power =
       2 * pi * (1 - spot.cos_beam + mean * (spot.cos_beam - spot.cos_cutoff)) * luminance(e.intensity);
+  // As if the beam was all of the cone: ∫ 2π x^t dx.
+  if (spot.tightness > 0 && spot.cos_cutoff >= 0)
+    e.bounds.power *= (1 - portable_pow(spot.cos_cutoff, spot.tightness + 1)) /
+                      ((spot.tightness + 1) * std::max(1 - spot.cos_cutoff, 1e-12));
   if (spot.texture) e.bounds.power *= mean_over_frame(*spot.texture, textures, records);
   bound_cone(e, spot.cutoff_rad);
   e.shape = spot;

@@ -23,6 +23,7 @@ struct PointEmitter {
     double cos_beam = 1, cos_cutoff = 0, cutoff_rad = 0, beam_rad = 0;
     double frame = 1;  // half width of the texture's square at z = 1; 0: no texture
     std::optional<Id<Texture>> texture;
+    double tightness = 0;  // a power of the cosine
   };
   // A rectangle at z = 1 of half widths `half`.
   struct Projection {
@@ -42,7 +43,8 @@ struct PointEmitter {
   Transform world_to_light;  // its 3×3 block
   bool is_rigid = true;      // that turns, mirrors and scales alike
   Spectrum intensity;        // multiplies all that follows
-  float factor = 1;          // beside it
+  std::optional<Fading> fading{};
+  float factor = 1;  // beside it
   std::variant<Everywhere, Spot, Projection, Goniometric> shape;
   LightBounds bounds;  // power: luminous flux
 };
@@ -60,5 +62,12 @@ PointEmitter make_emitter(const GoniometricLight& light, std::shared_ptr<const L
 // where no emitter has one.
 SampledSpectrum intensity(const PointEmitter& emitter, Vector3d direction, const Textures* textures,
                           const SampledWavelengths& wavelengths);
+
+// The irradiance across the direction at a distance, over the intensity: 1/d², or as the light fades.
+double weakened(const PointEmitter& emitter, double distance);
+
+// Fits the bounds of a light that fades to a scene whose farthest point is that far from it: its power
+// becomes that of one that weakens as 1/d² beyond `near`, and sends nowhere less than the light.
+void bound_fading(PointEmitter& emitter, double farthest);
 
 }  // namespace vitrail

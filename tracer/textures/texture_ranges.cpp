@@ -190,6 +190,14 @@ struct TextureRanges::Rules {
     const double most = most_of(t);
     return {-most, in_the_middle(), most};
   }
+  // What is anywhere in the map may be here.
+  ValueRange operator()(const PatternTexture& t) const {
+    if (t.map.empty()) return {0, in_the_middle(), 1};
+    ValueRange range = in(t.map.front().value);
+    for (const PatternStop& stop : t.map) range = one_of(range, in(stop.value), 0.5);
+    range.mean = in_the_middle();
+    return range;
+  }
   ValueRange operator()(const MeshAttributeTexture& t) const {
     const auto scale = static_cast<double>(t.scale);
     if (!ranges.records_[id].is_float) return {0, in_the_middle(), std::max(scale, 0.0)};

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "scene/models/pattern.h"
 #include "scene/records/nesting_limits.h"
 #include "scene/records/texture_inputs.h"
 #include "scene/system/diagnostics.h"
@@ -29,7 +30,7 @@ struct Node {
   const BakedImage* image = nullptr;
   PreparedMapping mapping;
   MappedPoint stretch;       // of images
-  Transform world_to_solid;  // of solid checkerboards and noise
+  Transform world_to_solid;  // of solid checkerboards, noise and patterns
   std::size_t slot = 0;      // of mesh attributes, and of mappings by them
   Nesting nesting;
 };
@@ -241,6 +242,12 @@ struct Evaluation {
     if (t.kind == NoiseTexture::Kind::marble) return lookup.marble(marble_weights(t, p));
     return lookup.constant(static_cast<float>(noise_value(t, p)));
   }
+  Value operator()(const PatternTexture& t) const {
+    const Point3d p = transform_point(node.world_to_solid, lookup.at.p);
+    if (t.map.empty()) return lookup.constant(static_cast<float>(pattern_value(t, p)));
+    const PatternMix mix = pattern_mix(t, p);
+    return mixed(t.map[mix.first].value, t.map[mix.second].value, mix.amount);
+  }
   // Not in bundles.
   Value operator()(const PtexTexture&) const { return {}; }
   Value operator()(const UvTexture&) const { return {}; }
@@ -311,6 +318,10 @@ struct Textures::Implementation {
     if (const auto* t = std::get_if<NoiseTexture>(&texture.model)) {
       node.world_to_solid = checked_inverse(t->texture_to_world, id);
       if (t->octaves < 0 || t->octaves > most_octaves) fail(id, "has an impossible number of octaves");
+    }
+    if (const auto* t = std::get_if<PatternTexture>(&texture.model)) {
+      node.world_to_solid = checked_inverse(t->texture_to_world, id);
+      if (const char* fault = fault_of(*t)) fail(id, fault);
     }
     if (const auto* t = std::get_if<MeshAttributeTexture>(&texture.model)) node.slot = slot_of(t->name, id);
     return node;

@@ -94,10 +94,17 @@ bool scatter(const Tracing& tracing, PhotonPath& photon, const Event& event) {
   return true;
 }
 
+// Light that fades has no energy, but where it first meets what scatters it, it is as bright there as
+// connections would have it. From there on it travels as all photons do.
+float share_at_first_surface(const Tracing& tracing, const PhotonPath& photon, Point3d p) {
+  const EmittedPhoton emitted = emission_of(tracing, photon);
+  if (!emitted.fading) return 1;
+  const Vector3d way = p - emitted.p;
+  return static_cast<float>(weakened(*emitted.fading, length(way)) * dot(way, way));
+}
+
 // False when it ends here.
-bool shade(Tracing& tracing, PhotonPath& photon) {
-  if (!photon.meets_surface()) return false;
-  const Event event = event_of(tracing, photon);
+bool shade_event(Tracing& tracing, PhotonPath& photon, const Event& event) {
   const Interaction& at = event.at;
   if (!event.is_there || event.kind.is_nothing(at)) {
     pass_straight(tracing, photon, at, &event.surface);
@@ -113,6 +120,17 @@ bool shade(Tracing& tracing, PhotonPath& photon) {
   if (is_spent(tracing, photon)) return end_at_surface(tracing, photon, event);
   if (event.kind.smooth_dielectric) return scatter_dielectric(tracing, photon, event);
   return scatter(tracing, photon, event);
+}
+
+bool shade(Tracing& tracing, PhotonPath& photon) {
+  if (!photon.meets_surface()) return false;
+  const Event event = event_of(tracing, photon);
+  const auto is_straight = [&] { return !photon.refracted && !photon.scattered; };
+  const bool fades = tracing.scene.lights.fades && is_straight();
+  if (!shade_event(tracing, photon, event)) return false;
+  if (fades && !is_straight())
+    photon.throughput = photon.throughput * share_at_first_surface(tracing, photon, event.at.p);
+  return true;
 }
 
 void follow(Tracing& tracing, PhotonPath& photon, std::optional<Arrival> at) {

@@ -145,6 +145,7 @@ bool shade_surface(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
 
 void add_emission(Tracing& tracing, const CameraPath& path, const Interaction& at, std::uint32_t light) {
   const LightSampler& lights = tracing.scene.lights;
+  if (!lights.scene.area_lights[light].sampled && path.connected && tracing.settings().direct_only) return;
   const double cosine = dot(at.out, at.geometric);
   const SampledSpectrum radiance =
       emitted(lights, light, at.texture_point(), cosine, path.wavelengths, path.lamp);

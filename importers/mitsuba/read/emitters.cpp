@@ -251,7 +251,8 @@ std::optional<Id<AreaLight>> add_area_light(Builder& builder, const Object& emit
   emitter.ignore({"sampling_weight"});
   emitter.children("medium");
   Image image = image_of(builder, emitter, "radiance");
-  AreaLight light{image.colors, 1, false, directional, emitter.origin};
+  AreaLight light{image.colors, 1, false, directional};
+  light.origin = emitter.origin;
   if (const auto* factor = std::get_if<ConstantSpectrum>(&image.scale)) {
     light.scale = factor->value;
   } else {

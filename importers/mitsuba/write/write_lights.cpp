@@ -11,6 +11,7 @@
 #include "importers/images/joined_surroundings.h"
 #include "importers/mitsuba/write/write_images.h"
 #include "importers/writing/export_colors.h"
+#include "importers/writing/physical_light.h"
 #include "importers/writing/spot_falloff.h"
 #include "scene/spectra/flat_emission.h"
 
@@ -37,16 +38,24 @@ std::optional<SpectrumParameter> flat_image(const Scene& scene, const AreaLight&
 
 constexpr const char* brightness = "the brightness of this light";
 
-void write(Context&, Element root, const PointLight& light) {
+Spectrum intensity_of(Context& context, const auto& light, Point3d position) {
+  const PhysicalLight physical = physical_light(context.scene, light.fading, position);
+  if (!physical.note.empty()) context.approximated(physical.note);
+  return physical.factor == 1 ? light.intensity : scaled(light.intensity, physical.factor);
+}
+
+void write(Context& context, Element root, const PointLight& light) {
   Element element = add(root, "emitter", "point");
   add_coordinates(element, "point", "position", light.position);
-  add_spectrum(element, "intensity", light.intensity, Meaning::emission);
+  add_spectrum(element, "intensity", intensity_of(context, light, light.position), Meaning::emission);
 }
 
 void write(Context& context, Element root, const SpotLight& light) {
   Element element = add(root, "emitter", "spot");
   add_transform(element, light.light_to_world);
-  add_spectrum(element, "intensity", light.intensity, Meaning::emission);
+  const Point3d position = transform_point(light.light_to_world, {0, 0, 0});
+  add_spectrum(element, "intensity", intensity_of(context, light, position), Meaning::emission);
+  if (light.tightness > 0) context.approximated(fmt::format("its tightness {} is left out", light.tightness));
   const MatchedSpot spot = matched_spot(light, SpotLight::Falloff::linear);
   add_float(element, "cutoff_angle", static_cast<float>(spot.cutoff_deg));
   add_float(element, "beam_width", static_cast<float>(spot.beam_deg));
@@ -249,6 +258,7 @@ void write_lights(Context& context, Element root) {
 
 void write_area_light(Context& context, Element shape, const AreaLight& light) {
   context.begin(RecordKind::area_light, light.origin);
+  if (!light.sampled) context.approximated("it lights the scene: Mitsuba has none that shines and does not");
   Element element = add(shape, "emitter", light.directional ? "directionalarea" : "area");
   if (light.directional)
     context.approximated("Mitsuba's path tracers show nothing of a directionalarea; its ptracer does");

@@ -53,6 +53,7 @@ RGB mean_of(const Context& context, const TextureModel& model) {
             return mix(mean(t.outside), mean(t.inside), covered);
           },
           [](const NoiseTexture& t) { return mean_of_noise(t); },
+          [](const PatternTexture& t) { return mean_of_pattern(t); },
           [](const PtexTexture& t) { return mean_of_ptex(t).color; },
           [](const UvTexture&) {
             return RGB{0.5, 0.5, 0};

@@ -8,6 +8,7 @@
 #include "importers/images/sky_image.h"
 #include "importers/pbrt/write/write_images.h"
 #include "importers/writing/export_colors.h"
+#include "importers/writing/physical_light.h"
 #include "importers/writing/spot_falloff.h"
 
 namespace vitrail::pbrt {
@@ -23,11 +24,13 @@ class LightWriter {
 
   const char* operator()(const PointLight& l) {
     p_.numbers("point3 from", std::array{l.position.x, l.position.y, l.position.z})
-        .emission("I", l.intensity);
+        .emission("I", intensity(l, l.position));
     return "point";
   }
-  const char* operator()(const SpotLight& l) {
+  const char* operator()(SpotLight l) {
     light_to_world_ = l.light_to_world;
+    l.intensity = intensity(l, transform_point(l.light_to_world, {0, 0, 0}));
+    if (l.tightness > 0) p_.approximated(fmt::format("its tightness {} is left out", l.tightness));
     if (l.texture && textured_spot(l)) return "projection";
     const MatchedSpot spot = matched_spot(l, SpotLight::Falloff::smoothstep);
     if (spot.difference > 0)
@@ -97,6 +100,11 @@ class LightWriter {
   const char* operator()(const SkyLight&) { return nullptr; }  // its parts are written
 
  private:
+  Spectrum intensity(const auto& l, Point3d position) {
+    const PhysicalLight light = physical_light(p_.writer().scene, l.fading, position);
+    if (!light.note.empty()) p_.approximated(light.note);
+    return light.factor == 1 ? l.intensity : scaled(l.intensity, light.factor);
+  }
   // A projection of its texture, dark beyond its edge; false where that is no image.
   bool textured_spot(const SpotLight& l) {
     ImageChange change{emission_rgb(l.intensity)};

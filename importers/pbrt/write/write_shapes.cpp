@@ -176,6 +176,7 @@ class ShapeWriter {
     if (!line.empty()) return line;
     const AreaLight& light = w_.scene.area_lights.at(id.value);
     Parameters p(w_, "area light", light.origin, RecordKind::area_light);
+    if (!light.sampled) p.approximated("lights the scene: pbrt has no surface that shines and does not");
     if (light.directional) p.approximated("shines in all directions, not along its normal alone");
     if (const auto* radiance = std::get_if<Spectrum>(&light.radiance)) {
       p.emission("L", *radiance);

@@ -88,13 +88,22 @@ class TextureWriter {
     noise(p_, t);
     return name_of(t.kind);
   }
+  const char* operator()(const PatternTexture& t) {
+    texture_to_world_ = t.texture_to_world;
+    if (const auto board = solid_checkerboard(t)) return (*this)(*board);
+    const RGB mean = mean_of_pattern(t);
+    p_.dropped(
+        fmt::format("pbrt has no patterns of POV-Ray's; the mean stands for it, rgb {:.3g} {:.3g} {:.3g}",
+                    mean.r, mean.g, mean.b));
+    input("value", constant(mean));
+    return "constant";
+  }
   const char* operator()(const MeshAttributeTexture& t) {
     const RGB mean = mean_of_attribute(p_.writer().scene, t).value_or(RGB{0.5, 0.5, 0.5});
     p_.dropped(fmt::format(
         "pbrt has no attributes of meshes; the mean of \"{}\" stands for it, rgb {:.3g} {:.3g} {:.3g}",
         t.name, mean.r, mean.g, mean.b));
-    input("value", is_float_ ? Spectrum{ConstantSpectrum{static_cast<float>((mean.r + mean.g + mean.b) / 3)}}
-                             : reflectance_from_rgb(mean));
+    input("value", constant(mean));
     return "constant";
   }
   const char* operator()(const UvTexture&) {
@@ -103,6 +112,10 @@ class TextureWriter {
   }
 
  private:
+  Spectrum constant(RGB mean) const {
+    if (is_float_) return ConstantSpectrum{static_cast<float>((mean.r + mean.g + mean.b) / 3)};
+    return reflectance_from_rgb(mean);
+  }
   bool is_number(const SpectrumParameter& value) const {
     const auto* spectrum = std::get_if<Spectrum>(&value);
     return spectrum ? std::holds_alternative<ConstantSpectrum>(*spectrum)

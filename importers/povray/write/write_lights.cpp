@@ -6,6 +6,7 @@
 #include "importers/images/sky_image.h"
 #include "importers/povray/write/write_environment.h"
 #include "importers/writing/export_colors.h"
+#include "scene/models/fading.h"
 
 namespace vitrail::povray {
 
@@ -29,13 +30,24 @@ std::string intensity_color(const Context& context, RGB intensity) {
 
 std::string at(const Context& context, Point3d p) { return vector(transform_point(context.units.to_pov, p)); }
 
+// Colour and fading of a point or spot light.
+std::string strength(const Context& context, const auto& light) {
+  const RGB intensity = emission_rgb(light.intensity);
+  if (!light.fading) return fmt::format("{} {}", intensity_color(context, intensity), fading(context));
+  const std::string shade = color(intensity * (1 / pi));
+  if (!weakens(*light.fading)) return shade;
+  return fmt::format("{} fade_distance {} fade_power {}", shade,
+                     static_cast<double>(light.fading->fade_distance) * context.units.scale,
+                     light.fading->fade_power);
+}
+
 std::string point(Context& context, Point3d position, RGB intensity) {
   return fmt::format("light_source {{ {} {} {} }}\n", at(context, position),
                      intensity_color(context, intensity), fading(context));
 }
 
 std::string text_of(Context& context, const PointLight& light, const Origin&) {
-  return point(context, light.position, emission_rgb(light.intensity));
+  return fmt::format("light_source {{ {} {} }}\n", at(context, light.position), strength(context, light));
 }
 
 std::string text_of(Context& context, const SpotLight& light, const Origin& origin) {
@@ -46,10 +58,10 @@ std::string text_of(Context& context, const SpotLight& light, const Origin& orig
   const Vector3d axis = normalize(transform_vector(light.light_to_world, {0, 0, 1}));
   if (light.cutoff_deg > 90)
     context.approximated("spot light of more than 90 degrees: POV-Ray's end there", origin);
-  return fmt::format("light_source {{ {} {} spotlight radius {} falloff {} tightness 0 point_at {} {} }}\n",
-                     at(context, from), intensity_color(context, emission_rgb(light.intensity)),
-                     std::min(light.beam_deg, 90.0f), std::min(light.cutoff_deg, 90.0f),
-                     at(context, from + axis * context.units.radius), fading(context));
+  return fmt::format("light_source {{ {} {} spotlight radius {} falloff {} tightness {} point_at {} }}\n",
+                     at(context, from), strength(context, light), std::min(light.beam_deg, 90.0f),
+                     std::min(light.cutoff_deg, 90.0f), light.tightness,
+                     at(context, from + axis * context.units.radius));
 }
 
 std::string text_of(Context& context, const DistantLight& light, const Origin&) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "images/ptex_means.h"
+#include "importers/povray/write/write_patterns.h"
 #include "importers/writing/export_colors.h"
 #include "scene/records/texture_inputs.h"
 
@@ -148,6 +149,15 @@ Pigment checkerboard(Context& context, const CheckerboardTexture& texture, const
   return p;
 }
 
+Pigment pattern(Context& context, const PatternTexture& texture, const Use& use) {
+  std::vector<std::string> values;
+  for (const PatternStop& stop : texture.map) values.push_back(entry(context, stop.value, use));
+  const Transform t = from_pov(context, inverse(texture.texture_to_world));
+  Pigment p;
+  p.text = pattern_text(texture, values) + (is_invertible(t) ? undoing(t) : "");
+  return p;
+}
+
 Pigment mix(Context& context, const MixTexture& texture, const Use& use) {
   const std::string first = entry(context, texture.first, use), second = entry(context, texture.second, use);
   Pigment p;
@@ -213,6 +223,7 @@ Pigment build(Context& context, Id<Texture> id, const Use& use) {
     return image(context, *t, texture.is_float, origin, use);
   if (const auto* t = std::get_if<CheckerboardTexture>(&texture.model))
     return checkerboard(context, *t, origin, use);
+  if (const auto* t = std::get_if<PatternTexture>(&texture.model)) return pattern(context, *t, use);
   if (const auto* t = std::get_if<ProductTexture>(&texture.model)) return product(context, *t, use);
   if (const auto* t = std::get_if<MixTexture>(&texture.model)) return mix(context, *t, use);
   if (const auto* t = std::get_if<BilinearTexture>(&texture.model)) return bilinear(context, *t, origin, use);

@@ -161,7 +161,7 @@ class Writer {
   std::string world_shape(const Shape& shape) {
     const MeshText mesh = text_of(shape, context_.units.to_pov);
     const AreaLight* const light = light_of(shape);
-    if (!light) return shape_text(shape, mesh, "");
+    if (!light || !light->sampled) return shape_text(shape, mesh, "");
     const auto rectangle = rectangle_of(mesh);
     const auto* share = std::get_if<float>(&shape.opacity);
     const bool is_unseen = is_gone(shape);

@@ -44,6 +44,7 @@ Lit of_light(std::string name, LightModel model, std::vector<Lit::Part> parts, b
 std::vector<Lit> point_lights(const std::string& image) {
   const std::vector<Lit::Part> parts{{lamp, 1 / (height * height)}};
   std::vector<Lit> all{of_light("point", PointLight{lamp, one}, parts)};
+  all.push_back(of_light("point without fall-off", PointLight{lamp, one, Fading{}}, {{lamp, 1}}));
   SpotLight beam;
   beam.light_to_world = look_at(lamp, spot, {0, 1, 0});
   beam.intensity = one;

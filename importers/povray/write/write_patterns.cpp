@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/povray/write/write_patterns.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace vitrail::povray {
+
+namespace {
+
+using Kind = PatternTexture::Kind;
+using Wave = PatternTexture::Wave;
+
+std::string triple(Vector3d v) { return fmt::format("<{},{},{}>", v.x, v.y, v.z); }
+
+const char* name_of(Kind kind) {
+  constexpr std::array names{
+      "checker", "hexagon", "brick",   "gradient", "boxed",   "cylindrical", "planar", "spherical", "cells",
+      "leopard", "marble",  "onion",   "radial",   "spiral1", "wood",        "agate",  "bozo",      "bumps",
+      "crackle", "dents",   "granite", "ripples",  "waves",   "wrinkles",    "mandel"};
+  static_assert(names.size() == static_cast<std::size_t>(Kind::mandel) + 1);
+  return names.at(static_cast<std::size_t>(kind));
+}
+
+std::string kind_text(const PatternTexture& t) {
+  std::string text = name_of(t.kind);
+  if (t.kind == Kind::gradient) text += " " + triple(t.direction);
+  if (t.kind == Kind::spiral1) text += fmt::format(" {}", t.arms);
+  if (t.kind == Kind::mandel) text += fmt::format(" {}", t.iterations);
+  if (t.kind == Kind::agate) text += fmt::format(" agate_turb {}", t.agate_turb);
+  if (t.kind == Kind::crackle)
+    text += fmt::format(" form {} metric {} offset {}{}", triple(t.crackle.form), t.crackle.metric,
+                        t.crackle.offset, t.crackle.solid ? " solid" : "");
+  return text;
+}
+
+std::string wave_text(const PatternTexture& t) {
+  constexpr std::array waves{"ramp", "triangle", "sine", "scallop", "cubic", "poly"};
+  std::string text = fmt::format(" {}_wave", waves.at(static_cast<std::size_t>(t.wave)));
+  if (t.wave == Wave::poly) text += fmt::format(" {}", t.exponent);
+  if (t.frequency != 1) text += fmt::format(" frequency {}", t.frequency);
+  if (t.phase != 0) text += fmt::format(" phase {}", t.phase);
+  return text;
+}
+
+// A warp is an axis, and the way along it.
+std::string tiles(Vector3d size) {
+  std::string text;
+  if (size.x > 0) text += fmt::format(" warp {{ repeat x*{} }}", size.x);
+  if (size.y > 0) text += fmt::format(" warp {{ repeat y*{} }}", size.y);
+  if (size.z > 0) text += fmt::format(" warp {{ repeat z*{} }}", size.z);
+  return text;
+}
+
+std::string turbulence_text(const PatternTexture& t) {
+  const PatternTurbulence& u = t.turbulence;
+  if (u.amount == Vector3d{} && t.kind != Kind::agate) return "";
+  return fmt::format(" turbulence {} octaves {} lambda {} omega {}", triple(u.amount), u.octaves, u.lambda,
+                     u.omega);
+}
+
+}  // namespace
+
+std::string pattern_text(const PatternTexture& t, const std::vector<std::string>& values) {
+  std::string text = kind_text(t);
+  if (is_of_places(t.kind)) {
+    for (const std::string& value : values) text += fmt::format(" pigment {{ {} }}", value);
+    if (t.kind == Kind::brick)
+      text += fmt::format(" brick_size {} mortar {}", triple(t.brick.size), t.brick.mortar);
+    return text + turbulence_text(t) + tiles(t.repeat);
+  }
+  text += wave_text(t) + turbulence_text(t) + " pigment_map {";
+  for (std::size_t i = 0; i < values.size(); ++i) text += fmt::format(" [{} {}]", t.map[i].at, values[i]);
+  if (values.empty()) text += " [0 rgb 0] [1 rgb 1]";
+  return text + " }" + tiles(t.repeat);
+}
+
+}  // namespace vitrail::povray

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/records/pattern_texture.h"
+
+namespace vitrail::povray {
+
+// A pattern with its modifiers, and `values` of its map: pigments, as they are written. Without a map it goes
+// from 0 to 1.
+std::string pattern_text(const PatternTexture& pattern, const std::vector<std::string>& values);
+
+}  // namespace vitrail::povray

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What POV-Ray's patterns have at a point. The same bits on every machine. Those without noise are POV-Ray's
+// own to the last digit of its pictures, the others have its means and deviations.
+#pragma once
+
+#include <cstddef>
+
+#include "scene/records/pattern_texture.h"
+
+namespace vitrail {
+
+// Two values of the map, by their places: (1 − amount)·first + amount·second. The map is not empty.
+struct PatternMix {
+  std::size_t first = 0, second = 0;
+  double amount = 0;  // 0 … 1
+};
+
+// `p`: of the pattern's space, before tiles and turbulence.
+PatternMix pattern_mix(const PatternTexture& pattern, Point3d p);
+// 0 … 1, by the wave. Of kinds by places: the place over the greatest one of the kind.
+double pattern_value(const PatternTexture& pattern, Point3d p);
+
+// What makes no sense of it, for a message: "has …"; null: nothing.
+const char* fault_of(const PatternTexture& pattern);
+
+}  // namespace vitrail

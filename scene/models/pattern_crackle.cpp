@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "scene/geometry/portable_math.h"
+#include "scene/models/lattice_noise.h"
+#include "scene/models/pattern_shapes.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::uint64_t points = 4;  // of the numbers of a cell
+// The nearest point is at most √3 away. So are the next ones, almost always.
+constexpr int reach = 2;
+
+double distance(Vector3d d, double metric) {
+  if (metric == 2) return length(d);
+  if (metric == 1) return std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+  const auto power = [&](double x) { return portable_pow(std::abs(x), metric); };
+  return portable_pow(power(d.x) + power(d.y) + power(d.z), 1 / metric);
+}
+
+struct Nearest {
+  std::array<double, 3> distance{std::numeric_limits<double>::infinity(),
+                                 std::numeric_limits<double>::infinity(),
+                                 std::numeric_limits<double>::infinity()};
+  Point3d point;  // the nearest
+
+  void add(double d, Point3d p) {
+    if (d < distance[0]) point = p;
+    for (double& kept : distance)
+      if (d < kept) std::swap(d, kept);
+  }
+};
+
+}  // namespace
+
+double crackle(const PatternCrackle& c, Point3d p) {
+  constexpr double greatest = 0x1p52;
+  if (!(std::abs(p.x) < greatest && std::abs(p.y) < greatest && std::abs(p.z) < greatest)) return 0;
+  const auto metric = static_cast<double>(c.metric);
+  const auto cell = [](double x) { return static_cast<std::int64_t>(std::floor(x)); };
+  const std::int64_t x = cell(p.x), y = cell(p.y), z = cell(p.z);
+  // How far the cells at that step along an axis are, at least.
+  const auto gap = [](double at, std::int64_t from, int step) {
+    const double offset = at - static_cast<double>(from);
+    return step > 0 ? step - offset : step < 0 ? offset - step - 1 : 0;
+  };
+  Nearest nearest;
+  for (int ring = 0; ring <= reach; ++ring)
+    for (int i = -ring; i <= ring; ++i)
+      for (int j = -ring; j <= ring; ++j)
+        for (int k = -ring; k <= ring; ++k) {
+          if (std::max({std::abs(i), std::abs(j), std::abs(k)}) != ring) continue;
+          if (std::max({gap(p.x, x, i), gap(p.y, y, j), gap(p.z, z, k)}) > nearest.distance[2]) continue;
+          const CellNumbers n = numbers_of_cell(x + i, y + j, z + k, points);
+          const Point3d q{static_cast<double>(x + i) + n.x, static_cast<double>(y + j) + n.y,
+                          static_cast<double>(z + k) + n.z};
+          nearest.add(distance(q - p, metric), q);
+        }
+  if (c.solid) return narrow_noise(nearest.point);
+  const auto& d = nearest.distance;
+  const double sum = c.form.x * d[0] + c.form.y * d[1] + c.form.z * d[2] + static_cast<double>(c.offset);
+  return std::min(std::abs(sum), 1.0);
+}
+
+}  // namespace vitrail

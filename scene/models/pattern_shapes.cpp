@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/models/pattern_shapes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scene/geometry/portable_math.h"
+#include "scene/models/lattice_noise.h"
+
+namespace vitrail {
+
+namespace {
+
+using Kind = PatternTexture::Kind;
+
+double rest(double x) { return x - std::floor(x); }
+double up_and_down(double x) { return 1 - std::abs(2 * rest(x) - 1); }
+bool is_odd(double whole) { return whole - 2 * std::floor(whole / 2) != 0; }
+double radius(Point3d p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
+double below_one(double distance) { return std::max(1 - distance, 0.0); }
+// sin 2πt
+double sine(double t) { return sin_pi(2 * rest(t)); }
+
+// The hexagon of the lattice that (x,z) is in, by rounding in three coordinates whose sum is 0.
+std::size_t hexagon(Point3d p) {
+  const double q = 2.0 / 3 * p.x, r = p.z / std::sqrt(3.0) - p.x / 3, s = -q - r;
+  double i = std::nearbyint(q), j = std::nearbyint(r);
+  const double k = std::nearbyint(s), off_i = std::abs(i - q), off_j = std::abs(j - r),
+               off_k = std::abs(k - s);
+  if (off_i > off_j && off_i > off_k)
+    i = -j - k;
+  else if (off_j > off_k)
+    j = -i - k;
+  const double turn = 2 * i + j;
+  return static_cast<std::size_t>(turn - 3 * std::floor(turn / 3));
+}
+
+// Mortar lies at the end of each brick. Layers of y are half a brick on along x and along z in turn.
+std::size_t brick(const PatternBrick& b, Point3d p) {
+  const auto mortar = static_cast<double>(b.mortar);
+  const double y = (p.y + mortar) / b.size.y;
+  const bool odd = is_odd(std::floor(y));
+  const double x = (p.x + mortar) / b.size.x + (odd ? 0.5 : 0),
+               z = (p.z + mortar) / b.size.z + (odd ? 0 : 0.5);
+  const bool is_mortar =
+      rest(x) * b.size.x < mortar || rest(y) * b.size.y < mortar || rest(z) * b.size.z < mortar;
+  return is_mortar ? 0 : 1;
+}
+
+Octaves octaves_of(const PatternTurbulence& t) {
+  return {t.octaves, static_cast<double>(t.lambda), static_cast<double>(t.omega)};
+}
+
+double agate(const PatternTexture& t, Point3d p) {
+  const double noise = static_cast<double>(t.agate_turb) * scalar_turbulence(p, octaves_of(t.turbulence));
+  return portable_pow(0.5 * (1 + sine(1.3 * noise + 1.1 * p.z)), 0.77);
+}
+
+double granite(Point3d p) {
+  double sum = 0, scale = 4, weight = 1;
+  for (int i = 0; i < 6; ++i, scale *= 2, weight *= 0.5)
+    sum += weight * std::abs(0.5 - wide_noise({p.x * scale, p.y * scale, p.z * scale}));
+  return std::min(sum, 1.0);
+}
+
+constexpr int sources = 10;
+constexpr std::uint64_t numbers_of_sources = 5;  // of the numbers of a cell
+
+// The mean over sources of the sines of their distances, in 0 … 1. frequency_and_weight(i): of a source.
+template <class F>
+double rings(const PatternTexture& t, Point3d p, F&& frequency_and_weight) {
+  double sum = 0, weights = 0;
+  for (int i = 0; i < sources; ++i) {
+    const CellNumbers n = numbers_of_cell(i, 0, 0, numbers_of_sources);
+    const auto [frequency, weight] = frequency_and_weight(i);
+    const double turns = radius({p.x - n.x, p.y - n.y, p.z - n.z}) * frequency;
+    sum += weight * sine(turns * static_cast<double>(t.frequency) + static_cast<double>(t.phase));
+    weights += weight;
+  }
+  return 0.5 * (1 + sum / weights);
+}
+
+struct FrequencyAndWeight {
+  double frequency, weight;
+};
+
+double mandel(int iterations, Point3d p) {
+  double x = p.x, y = p.y;
+  for (int i = 0; i < iterations; ++i) {
+    const double next = x * x - y * y + p.x;
+    y = 2 * x * y + p.y, x = next;
+    if (x * x + y * y > 4) return static_cast<double>(i) / iterations;
+  }
+  return 1;
+}
+
+}  // namespace
+
+std::size_t places_of(Kind kind) { return kind == Kind::hexagon ? 3 : 2; }
+
+std::size_t place_of_pattern(const PatternTexture& t, Point3d p) {
+  if (t.kind == Kind::hexagon) return hexagon(p);
+  if (t.kind == Kind::brick) return brick(t.brick, p);
+  return is_odd(std::floor(p.x) + std::floor(p.y) + std::floor(p.z)) ? 1 : 0;
+}
+
+double number_of_pattern(const PatternTexture& t, Point3d p) {
+  switch (t.kind) {
+    case Kind::checker:
+    case Kind::hexagon:
+    case Kind::brick:
+      break;  // by places
+    case Kind::gradient: {
+      const double along = dot(Vector3d{p.x, p.y, p.z}, normalize(t.direction));
+      return along - std::trunc(along);
+    }
+    case Kind::boxed:
+      return below_one(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
+    case Kind::cylindrical:
+      return below_one(std::sqrt(p.x * p.x + p.z * p.z));
+    case Kind::planar:
+      return below_one(std::abs(p.y));
+    case Kind::spherical:
+      return below_one(radius(p));
+    case Kind::cells: {
+      constexpr std::uint64_t values = 6;  // of the numbers of a cell
+      constexpr double greatest = 0x1p52;
+      if (!(radius(p) < greatest)) return 0;
+      const auto cell = [](double x) { return static_cast<std::int64_t>(std::floor(x)); };
+      return numbers_of_cell(cell(p.x), cell(p.y), cell(p.z), values).w;
+    }
+    case Kind::leopard: {
+      const double sum = (portable_sin(p.x) + portable_sin(p.y) + portable_sin(p.z)) / 3;
+      return sum * sum;
+    }
+    case Kind::marble: {
+      const double amount = t.turbulence.amount.x;
+      return amount == 0 ? p.x : p.x + amount * scalar_turbulence(p, octaves_of(t.turbulence));
+    }
+    case Kind::onion:
+      return rest(radius(p));
+    case Kind::radial:
+      return rest(0.75 + portable_atan2(p.x, p.z) / (2 * pi));
+    case Kind::spiral1: {
+      const double turn = portable_atan2(p.y, p.x) / (2 * pi) + 0.25;
+      return up_and_down(std::sqrt(p.x * p.x + p.y * p.y) + p.z + t.arms * turn);
+    }
+    case Kind::wood:
+      return std::sqrt(p.x * p.x + p.y * p.y);
+    case Kind::agate:
+      return agate(t, p);
+    case Kind::bozo:
+    case Kind::bumps:
+      return narrow_noise(p);
+    case Kind::crackle:
+      return crackle(t.crackle, p);
+    case Kind::dents: {
+      const double noise = narrow_noise(p);
+      return noise * noise * noise;
+    }
+    case Kind::granite:
+      return granite(p);
+    case Kind::ripples:
+      return rings(t, p, [](int) { return FrequencyAndWeight{1, 1}; });
+    case Kind::waves:
+      return rings(t, p, [](int i) {
+        const double frequency = 0.1 * (i + 1);
+        return FrequencyAndWeight{frequency, 1 / std::sqrt(frequency)};
+      });
+    case Kind::wrinkles:
+      return std::min(0.5 * scalar_turbulence(p, {10, 2, 0.5}), 1.0);
+    case Kind::mandel:
+      return mandel(t.iterations, p);
+  }
+  return 0;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// Patterns against their closed forms, and noise against the statistics that POV-Ray's pictures show.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "scene/geometry/portable_math.h"
+#include "scene/models/lattice_noise.h"
+#include "scene/models/pattern.h"
+
+namespace vitrail {
+namespace {
+
+using Kind = PatternTexture::Kind;
+using Wave = PatternTexture::Wave;
+
+PatternTexture of(Kind kind, Wave wave = Wave::ramp) {
+  PatternTexture t;
+  t.kind = kind, t.wave = wave;
+  return t;
+}
+
+double rest(double x) { return x - std::floor(x); }
+
+// At points that are not on any edge.
+void for_points(const std::function<void(Point3d)>& f) {
+  for (int i = 0; i < 500; ++i) {
+    const auto coordinate = [&](double step) { return 12 * rest(0.123 + i * step) - 6; };
+    f({coordinate(0.8191725), coordinate(0.6710436), coordinate(0.5497005)});
+  }
+}
+
+void expect_values(const PatternTexture& t, const std::function<double(Point3d)>& expected) {
+  for_points([&](Point3d p) {
+    EXPECT_NEAR(pattern_value(t, p), expected(p), 1e-9) << p.x << " " << p.y << " " << p.z;
+  });
+}
+
+TEST(Patterns, ThoseOfDistances) {
+  const auto r = [](Point3d p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); };
+  expect_values(of(Kind::spherical), [&](Point3d p) { return std::max(1 - r(p), 0.0); });
+  expect_values(of(Kind::cylindrical), [](Point3d p) { return std::max(1 - std::hypot(p.x, p.z), 0.0); });
+  expect_values(of(Kind::planar), [](Point3d p) { return std::max(1 - std::abs(p.y), 0.0); });
+  expect_values(of(Kind::boxed), [](Point3d p) {
+    return std::max(1 - std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 0.0);
+  });
+  expect_values(of(Kind::onion), [&](Point3d p) { return rest(r(p)); });
+  expect_values(of(Kind::wood, Wave::triangle),
+                [](Point3d p) { return 1 - std::abs(2 * rest(std::hypot(p.x, p.y)) - 1); });
+}
+
+TEST(Patterns, ThoseOfCoordinates) {
+  expect_values(of(Kind::marble, Wave::triangle), [](Point3d p) { return 1 - std::abs(2 * rest(p.x) - 1); });
+  PatternTexture slanted = of(Kind::gradient);
+  slanted.direction = {2, 1, 0};
+  expect_values(slanted, [](Point3d p) { return rest((2 * p.x + p.y) / std::sqrt(5.0)); });
+  expect_values(of(Kind::leopard), [](Point3d p) {
+    const double sum = (std::sin(p.x) + std::sin(p.y) + std::sin(p.z)) / 3;
+    return sum * sum;
+  });
+  expect_values(of(Kind::radial), [](Point3d p) { return rest(0.75 + std::atan2(p.x, p.z) / (2 * pi)); });
+  PatternTexture arms = of(Kind::spiral1);
+  arms.arms = 3;
+  expect_values(arms, [](Point3d p) {
+    const double turns = std::hypot(p.x, p.y) + p.z + 3 * (std::atan2(p.y, p.x) / (2 * pi) + 0.25);
+    return 1 - std::abs(2 * rest(turns) - 1);
+  });
+}
+
+TEST(Patterns, Waves) {
+  const auto with = [](Wave wave) {
+    PatternTexture t = of(Kind::gradient, wave);
+    t.frequency = 2, t.phase = 0.3f, t.exponent = 3;
+    return t;
+  };
+  const auto x = [](Point3d p) { return rest(2 * (p.x - std::trunc(p.x)) + static_cast<double>(0.3f)); };
+  expect_values(with(Wave::ramp), x);
+  expect_values(with(Wave::triangle), [&](Point3d p) { return 1 - std::abs(2 * x(p) - 1); });
+  expect_values(with(Wave::sine), [&](Point3d p) { return (1 + std::sin(2 * pi * x(p))) / 2; });
+  expect_values(with(Wave::scallop), [&](Point3d p) { return std::abs(std::sin(pi * x(p))); });
+  expect_values(with(Wave::cubic), [&](Point3d p) { return x(p) * x(p) * (3 - 2 * x(p)); });
+  expect_values(with(Wave::poly), [&](Point3d p) { return x(p) * x(p) * x(p); });
+}
+
+TEST(Patterns, ThoseOfPlaces) {
+  const auto place = [](Kind kind, Point3d p) {
+    PatternTexture t = of(kind);
+    t.map.resize(3);
+    return pattern_mix(t, p).first;
+  };
+  for_points([&](Point3d p) {
+    const int cells = static_cast<int>(std::floor(p.x)) + static_cast<int>(std::floor(p.y)) +
+                      static_cast<int>(std::floor(p.z));
+    EXPECT_EQ(place(Kind::checker, p), static_cast<std::size_t>(cells & 1));
+  });
+  // As POV-Ray's picture: the hexagon around 0 is the first, those around it are the others in turn.
+  EXPECT_EQ(place(Kind::hexagon, {0, 5, 0}), 0u);
+  const double across = std::sqrt(3.0);
+  for (int i = 0; i < 6; ++i) {
+    const double angle = pi / 6 + i * pi / 3;
+    EXPECT_EQ(place(Kind::hexagon, {across * std::cos(angle), 0, across * std::sin(angle)}),
+              i % 2 == 0 ? 2u : 1u)
+        << i;
+  }
+  // Just within the corner of the first, and beyond it.
+  EXPECT_EQ(place(Kind::hexagon, {0.99, 0, 0}), 0u);
+  EXPECT_NE(place(Kind::hexagon, {1.01, 0, 0.1}), 0u);
+  // Bricks of 8 × 3 × 4.5 that end in mortar of ½; layers are half a brick on along x and along z in turn, as
+  // in POV-Ray's pictures.
+  EXPECT_EQ(place(Kind::brick, {3, 1, 1}), 1u);
+  EXPECT_EQ(place(Kind::brick, {-0.25, 1, 1}), 0u);
+  EXPECT_EQ(place(Kind::brick, {3, -0.25, 1}), 0u);
+  EXPECT_EQ(place(Kind::brick, {3, 1, -0.25}), 1u);
+  EXPECT_EQ(place(Kind::brick, {3, 1, 2}), 0u);
+  EXPECT_EQ(place(Kind::brick, {-0.25, 4, 1}), 1u);
+  EXPECT_EQ(place(Kind::brick, {3.75, 4, 1}), 0u);
+  EXPECT_EQ(place(Kind::brick, {2, 4, -0.25}), 0u);
+  EXPECT_EQ(place(Kind::brick, {2, 4, 2}), 1u);
+}
+
+TEST(Patterns, MapsAreMixedBetweenTheirStops) {
+  PatternTexture t = of(Kind::gradient);
+  t.map = {{0.25f, ConstantSpectrum{0}}, {0.75f, ConstantSpectrum{1}}, {0.75f, ConstantSpectrum{0.5f}}};
+  const auto expect = [&](double x, std::size_t first, std::size_t second, double amount) {
+    const PatternMix mix = pattern_mix(t, {x, 0, 0});
+    EXPECT_EQ(mix.first, first) << x;
+    EXPECT_EQ(mix.second, second) << x;
+    EXPECT_NEAR(mix.amount, amount, 1e-12) << x;
+  };
+  expect(0.1, 0, 0, 0);
+  expect(0.25, 0, 1, 0);
+  expect(0.5, 0, 1, 0.5);
+  expect(0.75, 2, 2, 0);
+  expect(0.9, 2, 2, 0);
+}
+
+TEST(Patterns, TilesAndTurbulence) {
+  PatternTexture t = of(Kind::gradient);
+  t.direction = {0, 1, 0};
+  t.repeat = {0, 0.25, 0};
+  EXPECT_NEAR(pattern_value(t, {7, 3.3, 1}), rest(3.3 / 0.25) * 0.25, 1e-12);
+  // Of one octave, by a noise of deviation 0.234 along each axis, times the amount.
+  PatternTexture moved = of(Kind::gradient);
+  moved.turbulence.amount = {0.2, 5, 5};
+  moved.turbulence.octaves = 1;
+  double squares = 0, sum = 0;
+  constexpr int n = 20000;
+  for (int i = 0; i < n; ++i) {
+    const auto coordinate = [&](double step) { return 5 + 100 * rest(i * step); };
+    const Point3d p{coordinate(0.8191725), coordinate(0.6710436), coordinate(0.5497005)};
+    const double way = rest(pattern_value(moved, p) - rest(p.x) + 0.5) - 0.5;
+    sum += way, squares += way * way;
+  }
+  EXPECT_NEAR(sum / n, 0, 0.002);
+  EXPECT_NEAR(std::sqrt(squares / n), 0.2 * 0.234, 0.003);
+}
+
+// Mean and standard deviation over a cube.
+struct Statistics {
+  double mean = 0, deviation = 0;
+};
+Statistics statistics(const std::function<double(Point3d)>& value) {
+  constexpr int n = 40000;
+  double sum = 0, squares = 0;
+  for (int i = 0; i < n; ++i) {
+    const auto coordinate = [&](double step) { return 80 * rest(0.5 + i * step); };
+    const double v = value({coordinate(0.8191725), coordinate(0.6710436), coordinate(0.5497005)});
+    sum += v, squares += v * v;
+  }
+  return {sum / n, std::sqrt(squares / n - sum / n * (sum / n))};
+}
+
+void expect_statistics(const char* what, const PatternTexture& t, double mean, double deviation) {
+  const Statistics s = statistics([&](Point3d p) { return pattern_value(t, p); });
+  EXPECT_NEAR(s.mean, mean, 0.04) << what;
+  EXPECT_NEAR(s.deviation, deviation, 0.03) << what;
+}
+
+// Those of 480 × 480 pixels of a plane of 80 × 80 units by POV-Ray 3.7.
+TEST(Patterns, StatisticsOfNoise) {
+  expect_statistics("bozo", of(Kind::bozo), 0.505, 0.117);
+  expect_statistics("dents", of(Kind::dents), 0.150, 0.098);
+  expect_statistics("granite", of(Kind::granite), 0.395, 0.160);
+  expect_statistics("wrinkles", of(Kind::wrinkles), 0.511, 0.134);
+  expect_statistics("agate", of(Kind::agate), 0.521, 0.341);
+  expect_statistics("ripples", of(Kind::ripples), 0.500, 0.123);
+  expect_statistics("waves", of(Kind::waves), 0.500, 0.122);
+  expect_statistics("crackle", of(Kind::crackle), 0.205, 0.161);
+  expect_statistics("cells", of(Kind::cells), 0.506, 0.285);
+  PatternTexture nearest = of(Kind::crackle);
+  nearest.crackle.form = {1, 0, 0};
+  expect_statistics("crackle's first", nearest, 0.513, 0.168);
+  nearest.crackle.form = {0, 1, 0};
+  expect_statistics("crackle's second", nearest, 0.717, 0.137);
+}
+
+TEST(Patterns, NoiseIsSmoothAndForgets) {
+  const Statistics all = statistics([](Point3d p) { return lattice_noise(p); });
+  EXPECT_NEAR(all.mean, 0, 0.005);
+  EXPECT_NEAR(all.deviation, 0.117, 0.004);
+  const auto correlation = [&](double way) {
+    const Statistics product = statistics([&](Point3d p) {
+      return lattice_noise(p) * lattice_noise({p.x + way, p.y, p.z});
+    });
+    return product.mean / (all.deviation * all.deviation);
+  };
+  EXPECT_NEAR(correlation(0.5), 0.57, 0.05);
+  EXPECT_NEAR(correlation(1), 0.086, 0.04);
+  EXPECT_NEAR(correlation(256), 0, 0.04);
+  // Value and slope go on through the faces of cells.
+  for (int i = 0; i < 200; ++i) {
+    const double y = rest(i * 0.618034) * 50, z = rest(i * 0.7548777) * 50;
+    const auto at = [&](double x) { return lattice_noise({i - 100 + x, y, z}); };
+    EXPECT_NEAR(at(-1e-7), at(1e-7), 1e-6);
+    EXPECT_NEAR((at(0) - at(-1e-5)) / 1e-5, (at(1e-5) - at(0)) / 1e-5, 1e-3);
+  }
+  EXPECT_EQ(lattice_noise({1e300, 0, 0}), 0);
+  EXPECT_EQ(lattice_noise({std::nan(""), 0, 0}), 0);
+}
+
+// By a search of all cells around.
+TEST(Patterns, CrackleFindsTheNearest) {
+  const auto by_search = [](Point3d p) {
+    double best = 1e9;
+    for (int i = -4; i <= 4; ++i)
+      for (int j = -4; j <= 4; ++j)
+        for (int k = -4; k <= 4; ++k) {
+          const auto x = static_cast<std::int64_t>(std::floor(p.x)) + i,
+                     y = static_cast<std::int64_t>(std::floor(p.y)) + j,
+                     z = static_cast<std::int64_t>(std::floor(p.z)) + k;
+          const CellNumbers n = numbers_of_cell(x, y, z, 4);
+          best = std::min(best, length(Point3d{static_cast<double>(x) + n.x, static_cast<double>(y) + n.y,
+                                               static_cast<double>(z) + n.z} -
+                                       p));
+        }
+    return std::min(best, 1.0);
+  };
+  PatternTexture t = of(Kind::crackle);
+  t.crackle.form = {1, 0, 0};
+  expect_values(t, by_search);
+}
+
+TEST(Patterns, WhatMakesNoSense) {
+  EXPECT_EQ(fault_of(PatternTexture{}), nullptr);
+  PatternTexture t;
+  t.turbulence.octaves = 11;
+  EXPECT_NE(fault_of(t), nullptr);
+  t = {};
+  t.map = {{0.5f, ConstantSpectrum{1}}, {0.25f, ConstantSpectrum{1}}};
+  EXPECT_NE(fault_of(t), nullptr);
+  t = of(Kind::gradient);
+  t.direction = {0, 0, 0};
+  EXPECT_NE(fault_of(t), nullptr);
+}
+
+}  // namespace
+}  // namespace vitrail
