@@ -12,6 +12,7 @@
 #include "importers/obj/read/obj.h"
 #include "importers/pbrt/read/pbrt.h"
 #include "importers/ply/read/ply.h"
+#include "importers/povray/read/povray.h"
 #include "importers/stl/read/stl.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
@@ -98,6 +99,14 @@ const std::vector<Reader>& readers() {
        .adds_view = true,
        .has_definitions = false,
        .has_many_cameras = true},
+      {.name = "POV-Ray",
+       .suffixes = {".pov"},
+       .gzipped = true,
+       .sniff = nullptr,
+       .read = [](ReadRequest r) { return read_povray(r.file, std::move(r.memory), r.options); },
+       .adds_view = true,
+       .has_definitions = false,
+       .has_many_cameras = false},
       {.name = "Wavefront OBJ",
        .suffixes = {".obj"},
        .gzipped = true,

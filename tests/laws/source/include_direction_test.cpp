@@ -73,7 +73,7 @@ const std::map<std::string, std::vector<std::string>>& floors() {
       {"importers",
        {"bytes",    "shapes",       "solids",        "spectra",      "reading",   "writing",   "images",
         "ply/read", "ply/write",    "stl/read",      "obj/read",     "obj/write", "pbrt/read", "pbrt/write",
-        "mitsuba",  "mitsuba/read", "mitsuba/write", "povray/write", "gltf",      "gltf/read", "gltf/write",
+        "mitsuba",  "mitsuba/read", "mitsuba/write", "povray/read", "povray/write", "gltf",      "gltf/read", "gltf/write",
         ""}}};
   return rooms;
 }

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "importers/povray/read/token.h"
+#include "importers/solids/grids.h"
+
+namespace vitrail::pov {
+
+class Reader;
+
+// Heights of an image, from 0 to 1: of one of 16 bits its grey, else its red.
+void read_heights(const std::string& file, solids::HeightField& field, Reader& reader, const Place& place);
+
+}  // namespace vitrail::pov

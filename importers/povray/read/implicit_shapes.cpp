@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "importers/povray/read/function.h"
+#include "importers/povray/read/height_image.h"
+#include "importers/povray/read/reader.h"
+#include "importers/povray/read/solid_shapes.h"
+#include "importers/solids/implicit.h"
+
+namespace vitrail::pov {
+
+namespace {
+
+// A set without end is looked at within a box; on its own, within this one.
+const Bounds3d alone{{-20, -20, -20}, {20, 20, 20}};
+
+SolidShape endless(Reader& reader, const Place& place, int order, std::vector<double> coefficients) {
+  const auto within = [order, coefficients](const Bounds3d& box) {
+    solids::Implicit implicit;
+    implicit.field = solids::polynomial(order, coefficients);
+    implicit.container = box;
+    implicit.open = true;
+    return solids::implicit(implicit);
+  };
+  reader.notes.approximated("a surface of a polynomial: what is within 20 of the origin, or of what it is cut by",
+                            reader.location(place));
+  return {[within] { return within(alone); }, within};
+}
+
+std::vector<double> coefficients(Reader& reader, int order) {
+  const int count = (order + 1) * (order + 2) * (order + 3) / 6;
+  reader.expect('<', "before coefficients");
+  std::vector<double> result;
+  for (int i = 0; i < count; ++i) {
+    result.push_back(reader.number("a coefficient"));
+    reader.comma();
+  }
+  reader.expect('>', "behind coefficients");
+  return result;
+}
+
+SolidShape quadric(Reader& reader, const Place& place) {
+  std::array<double, 10> abc;
+  for (std::size_t group = 0; group < 3; ++group) {
+    const Vector3d v = reader.vector("coefficients of a quadric");
+    for (int i = 0; i < 3; ++i) abc[3 * group + static_cast<std::size_t>(i)] = v[i];
+    reader.comma();
+  }
+  abc[9] = reader.number("a coefficient of a quadric");
+  return endless(reader, place, 2, solids::quadric_coefficients(abc));
+}
+
+SolidShape poly(Reader& reader, const Place& place, int order) {
+  if (order == 0) {
+    order = reader.integer("the order of a polynomial");
+    reader.comma();
+  }
+  if (order < 1 || order > 35) reader.fail(fmt::format("the order of a polynomial is {}", order), place);
+  return endless(reader, place, order, coefficients(reader, order));
+}
+
+SolidShape blob(Reader& reader, Object& object) {
+  solids::Blob blob;
+  for (;;) {
+    reader.comma();
+    const Token t = reader.next();
+    if (t.is(Word::threshold_)) {
+      blob.threshold = reader.number("the threshold of a blob");
+      continue;
+    }
+    if (!t.is(Word::sphere_) && !t.is(Word::cylinder_) && !t.is(Word::component_)) {
+      reader.put_back(t);
+      break;
+    }
+    solids::BlobComponent part;
+    const auto strength = [&] {
+      reader.comma();
+      reader.accept(Word::strength_);
+      part.strength = reader.number("the strength of a blob's part");
+    };
+    if (t.is(Word::component_)) {  // of old scenes: strength, radius, place
+      part.strength = reader.number("the strength of a blob's part");
+      reader.comma();
+      part.radius = reader.number("the radius of a blob's part");
+      reader.comma();
+      part.end1 = part.end2 = reader.point("the place of a blob's part");
+      blob.components.push_back(part);
+      continue;
+    }
+    reader.expect('{', "behind a part of a blob");
+    part.end1 = reader.point("the place of a blob's part");
+    reader.comma();
+    part.end2 = part.end1;
+    if (t.is(Word::cylinder_)) part.end2 = reader.point("the place of a blob's part"), reader.comma();
+    part.radius = reader.number("the radius of a blob's part");
+    strength();
+    Object modified;
+    int layers = 0;
+    while (read_object_modifier(reader, modified, layers)) {
+    }
+    reader.expect('}', "at the end of a blob's part");
+    if (modified.texture) {
+      reader.notes.approximated("textures of a blob's parts: one for all", reader.location(t.place));
+      if (!object.texture) object.texture = modified.texture;
+    }
+    part.to_blob = modified.to_parent;
+    blob.components.push_back(part);
+  }
+  return {[blob] { return solids::blob(blob); }, {}};
+}
+
+solids::Container read_container(Reader& reader) {
+  reader.expect('{', "behind contained_by");
+  solids::Container container;
+  if (reader.accept(Word::sphere_)) {
+    reader.expect('{', "behind sphere");
+    solids::ContainingSphere sphere;
+    sphere.center = reader.point("the centre of a sphere");
+    reader.comma();
+    sphere.radius = reader.number("the radius of a sphere");
+    container = sphere;
+  } else {
+    if (!reader.accept(Word::box_)) reader.unexpected(reader.next(), "box or sphere");
+    reader.expect('{', "behind box");
+    Bounds3d box;
+    extend(box, reader.point("a corner of a box"));
+    reader.comma();
+    extend(box, reader.point("a corner of a box"));
+    container = box;
+  }
+  reader.expect('}', "at the end of a container");
+  reader.expect('}', "at the end of contained_by");
+  return container;
+}
+
+// `function { … }`, or the name of one.
+Shared<Function> function_block(Reader& reader) {
+  if (!reader.accept(Word::function_)) reader.unexpected(reader.next(), "function");
+  return read_function(reader);
+}
+
+SolidShape isosurface(Reader& reader) {
+  const Shared<Function> function = function_block(reader);
+  solids::Implicit implicit;
+  double threshold = 0;
+  for (;;) {
+    reader.comma();
+    const Token t = reader.next();
+    if (t.is(Word::contained_by_)) implicit.container = read_container(reader);
+    else if (t.is(Word::threshold_)) threshold = reader.number("the threshold of an isosurface");
+    else if (t.is(Word::max_gradient_)) implicit.max_gradient = reader.number("max_gradient");
+    else if (t.is(Word::open_)) implicit.open = true;
+    else if (t.is(Word::accuracy_) || t.is(Word::max_trace_)) reader.numbers();
+    else if (t.is(Word::evaluate_)) {
+      for (int i = 0; i < 3; ++i) reader.numbers(), reader.comma();
+    } else if (!t.is(Word::all_intersections_)) {
+      reader.put_back(t);
+      break;
+    }
+  }
+  implicit.max_gradient = 0;  // scenes give less than it is
+  implicit.field = [function, threshold](const Point3d& p) {
+    const double at[3] = {p.x, p.y, p.z};
+    return evaluate(*function, at) - threshold;
+  };
+  return {[implicit] { return solids::implicit(implicit); }, {}};
+}
+
+SolidShape parametric(Reader& reader) {
+  std::array<Shared<Function>, 3> functions;
+  for (auto& function : functions) {
+    reader.comma();
+    function = function_block(reader);
+  }
+  solids::Parametric surface;
+  reader.comma();
+  const Point2d from = reader.point2("where (u,v) begin");
+  reader.comma();
+  const Point2d to = reader.point2("where (u,v) end");
+  surface.from = {from.x, from.y}, surface.to = {to.x, to.y};
+  for (;;) {
+    reader.comma();
+    const Token t = reader.next();
+    if (t.is(Word::contained_by_)) surface.contained_by = read_container(reader);
+    else if (t.is(Word::max_gradient_) || t.is(Word::accuracy_)) reader.numbers();
+    else if (t.is(Word::precompute_)) {
+      reader.numbers();
+      while (reader.accept(',') || reader.peek().is(Word::x_) || reader.peek().is(Word::y_) || reader.peek().is(Word::z_))
+        reader.numbers();
+    } else {
+      reader.put_back(t);
+      break;
+    }
+  }
+  surface.place = [functions](double u, double v) {
+    const double at[3] = {u, v, 0};
+    return Point3d{evaluate(*functions[0], at), evaluate(*functions[1], at), evaluate(*functions[2], at)};
+  };
+  return {[surface] { return solids::parametric(surface); }, {}};
+}
+
+SolidShape height_field(Reader& reader, const Place& place) {
+  solids::HeightField field;
+  std::string file;
+  Shared<Function> function;
+  if (reader.accept(Word::function_)) {
+    field.columns = reader.integer("the width of a height field");
+    reader.comma();
+    field.rows = reader.integer("the height of a height field");
+    function = read_function(reader);
+  } else {
+    while (reader.peek().kind == TokenKind::word && reader.peek().symbol->word != Word::none &&
+           !names_text(reader.peek().symbol->word))
+      reader.next();  // the format, which the file itself says
+    file = reader.find_file(reader.text("the name of an image"), place).string();
+  }
+  for (;;) {
+    reader.comma();
+    const Token t = reader.next();
+    if (t.is(Word::smooth_)) field.smooth = reader.flag();
+    else if (t.is(Word::water_level_)) field.water_level = reader.number("water_level");
+    else if (t.is(Word::gamma_)) { if (!reader.accept(Word::srgb_)) reader.numbers(); }
+    else if (!t.is(Word::premultiplied_)) {
+      reader.put_back(t);
+      break;
+    } else {
+      reader.flag();
+    }
+  }
+  if (function) {
+    constexpr int most = 4096;
+    if (field.columns < 2 || field.rows < 2 || field.columns > most || field.rows > most)
+      reader.fail(fmt::format("a height field has {} by {} points", field.columns, field.rows), place);
+    for (int row = field.rows - 1; row >= 0; --row)
+      for (int column = 0; column < field.columns; ++column) {
+        const double at[3] = {column / (field.columns - 1.0), row / (field.rows - 1.0), 0};
+        const double height = function->pigment ? 0.5 : evaluate(*function, at);
+        field.heights.push_back(std::clamp(height, 0.0, 1.0));
+      }
+  } else {
+    read_heights(file, field, reader, place);
+  }
+  return {[field] { return solids::height_field(field); }, {}};
+}
+
+}  // namespace
+
+bool read_implicit(Reader& reader, Word word, Object& object) {
+  switch (word) {
+    case Word::quadric_:
+      object.shape = quadric(reader, object.place);
+      return true;
+    case Word::cubic_:
+      object.shape = poly(reader, object.place, 3);
+      return true;
+    case Word::quartic_:
+      object.shape = poly(reader, object.place, 4);
+      return true;
+    case Word::poly_:
+      object.shape = poly(reader, object.place, 0);
+      return true;
+    case Word::blob_:
+      object.shape = blob(reader, object);
+      return true;
+    case Word::isosurface_:
+      object.shape = isosurface(reader);
+      return true;
+    case Word::parametric_:
+      object.shape = parametric(reader);
+      return true;
+    case Word::height_field_:
+      object.shape = height_field(reader, object.place);
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace vitrail::pov

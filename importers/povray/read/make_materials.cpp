@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finishes as BSDFs.
+//
+// A lamp of colour c shows ρ·c·cos θ on a diffuse surface of reflectance ρ = pigment · diffuse, as its intensity is π·c
+// here. A highlight s·(n·h)^m adds a lobe of Beckmann's microfacets of α² = 2/(m + 2), whose share w is such that its
+// peak is as high: π·c·w/(4π·α²) = s·c.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "importers/povray/read/reader.h"
+#include "importers/povray/read/surfaces.h"
+#include "scene/spectra/rgb_to_spectrum.h"
+
+namespace vitrail::pov {
+
+namespace {
+
+const Finish& default_finish() {
+  static const Finish finish;
+  return finish;
+}
+
+double greatest(const Numbers& color) { return std::max({color.v[0], color.v[1], color.v[2]}); }
+
+// Lobes beside the diffuse one, with their shares of all light.
+struct Lobe {
+  MaterialModel model;
+  double share = 0;
+};
+
+struct Highlight {
+  double strength = 0, exponent = 1;
+};
+
+// Of (n·h): a phong exponent is of the mirrored direction, whose angle is twice as wide.
+Highlight highlight_of(const Finish& finish) {
+  if (finish.specular > 0) return {finish.specular, 1 / std::max(finish.roughness, 1e-4)};
+  if (finish.phong > 0) return {finish.phong, 4 * std::max(finish.phong_size, 0.1)};
+  return {};
+}
+
+std::string key_of(const Numbers& n) { return fmt::format("{},{},{},{},{};", n.v[0], n.v[1], n.v[2], n.v[3], n.v[4]); }
+
+std::string key_of(const Finish& f) {
+  return key_of(f.ambient) + key_of(f.emission) + key_of(f.reflection_min) + key_of(f.reflection_max) +
+         fmt::format("{},{},{},{},{},{},{},{},{},{},{};", f.diffuse, f.brilliance, f.phong, f.phong_size, f.specular,
+                     f.roughness, f.metallic, f.fresnel, f.reflection_metallic, f.diffuse_back, f.subsurface);
+}
+
+std::string key_of(const Look& look) {
+  std::string key = fmt::format("{},{};", static_cast<const void*>(look.interior.get()), look.by_uv);
+  if (!look.texture) return key;
+  const pov::Texture& t = *look.texture;
+  if (t.layers.empty() && !t.pattern && t.pigment && t.pigment->color) {
+    key += "c" + key_of(*t.pigment->color);
+    return key + key_of(t.finish ? *t.finish : default_finish());
+  }
+  key += fmt::format("{};{};{};", static_cast<const void*>(t.pigment.get()), static_cast<const void*>(t.finish.get()),
+                     static_cast<const void*>(t.map.get()));
+  if (t.pattern || !t.layers.empty()) key += fmt::format("t{};", static_cast<const void*>(look.texture.get()));
+  if (is_plain(t)) return key;
+  const Transform placed = look.to_world * t.to_object;
+  for (const auto& row : placed.m) key += fmt::format("{},{},{},{};", row[0], row[1], row[2], row[3]);
+  return key;
+}
+
+}  // namespace
+
+bool is_plain(const Pigment& pigment) {
+  if (pigment.color || pigment.pattern.kind == Word::none) return true;
+  return pigment.pattern.uv_mapping;
+}
+
+bool is_plain(const pov::Texture& texture) {
+  if (texture.pattern) return false;
+  for (const auto& layer : texture.layers)
+    if (!is_plain(*layer)) return false;
+  return !texture.pigment || is_plain(*texture.pigment);
+}
+
+void Surfaces::approximated(const std::string& message, const Place& place) {
+  reader_.notes.approximated(message, reader_.location(place));
+}
+void Surfaces::dropped(const std::string& message, const Place& place) {
+  reader_.notes.dropped(message, reader_.location(place));
+}
+
+Id<Material> Surfaces::add(MaterialModel model, const Place& place) {
+  Material material;
+  material.model = std::move(model);
+  material.origin = origin(place);
+  return append(scene_.materials, std::move(material));
+}
+
+Surface Surfaces::of(const Look& look) {
+  const std::string key = key_of(look);
+  if (const auto known = made_.find(key); known != made_.end()) return known->second;
+  kept_.push_back(look.texture);
+  return made_[key] = made(look);
+}
+
+Surface Surfaces::made(const Look& look) {
+  static const auto black = std::make_shared<pov::Texture>();
+  const pov::Texture& texture = look.texture ? *look.texture : *black;
+  const Transform to_world = look.to_world * texture.to_object;
+  Layer result;
+  if (texture.layers.empty()) {
+    result = texture.pattern ? blended(texture, to_world, look) : layer_of(texture, to_world, look);
+  } else {
+    for (std::size_t i = 0; i < texture.layers.size(); ++i) {
+      const pov::Texture& one = *texture.layers[i];
+      const Transform at = to_world * one.to_object;
+      const Layer above = one.pattern ? blended(one, at, look) : layer_of(one, at, look);
+      const float* const opacity = std::get_if<float>(&above.opacity);
+      if (i == 0 || (opacity && *opacity >= 1)) {
+        result = above;
+        continue;
+      }
+      Layer both;
+      both.material = add(BlendMaterial{result.material, above.material, above.opacity}, one.place);
+      // What is behind shows through both.
+      const float* const below = std::get_if<float>(&result.opacity);
+      both.opacity = below && *below >= 1 ? FloatParameter{1.0f} : above.opacity;
+      both.glow = above.glow, both.glow_scale = above.glow_scale;
+      if (result.glow_scale > both.glow_scale) both.glow = result.glow, both.glow_scale = result.glow_scale;
+      result = both;
+    }
+  }
+  Surface surface{result.material, std::nullopt, result.opacity};
+  if (result.glow_scale > 0) {
+    AreaLight glow;
+    glow.radiance = result.glow;
+    glow.two_sided = true;
+    glow.sampled = false;
+    glow.origin = origin(texture.place);
+    surface.glow = append(scene_.area_lights, std::move(glow));
+  }
+  return surface;
+}
+
+Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform& to_world, const Look& look) {
+  static const auto black = [] {
+    auto pigment = std::make_shared<Pigment>();
+    pigment->color = Finish::grey(0);
+    return Shared<Pigment>(pigment);
+  }();
+  const Pigment& pigment = texture.pigment ? *texture.pigment : *black;
+  const Finish& finish = texture.finish ? *texture.finish : default_finish();
+  if (texture.normal) dropped("normal: the surface is smooth", texture.normal->place);
+  const Transform placed = to_world * pigment.to_object;
+  Layer layer;
+  layer.opacity = opacity_of(pigment, placed, look.by_uv);
+  layer.material = material_of(pigment, finish, placed, look);
+  const float* const opacity = std::get_if<float>(&layer.opacity);
+  const bool clear = opacity && *opacity < 1 && look.interior && look.interior->ior > 1.0001;
+  const bool colored = opacity && *opacity < 1 && pigment.color && pigment.color->v[3] > 0;
+  if (clear || colored) {  // light goes through the material itself
+    const Id<Material> through = clear_material(pigment, finish, look.interior.get());
+    layer.material = *opacity > 0.001f
+                         ? add(BlendMaterial{through, layer.material, *opacity}, texture.place)
+                         : through;
+    layer.opacity = 1.0f;
+  }
+  const Numbers& a = finish.ambient;
+  std::array<double, 3> factors;
+  for (std::size_t i = 0; i < 3; ++i)
+    factors[i] = reader_.linear(a.v[i] * ambient_.v[i]) + reader_.linear(finish.emission.v[i]);
+  const double factor = std::max({factors[0], factors[1], factors[2]});
+  if (factor > 0) {
+    if (factors[0] != factors[1] || factors[1] != factors[2])
+      if (!pigment.color) approximated("a colour of ambient or emission upon a pattern: its greatest component", finish.place);
+    const double share = opacity && (clear || colored) ? *opacity : 1;
+    if (pigment.color) {
+      RGB glow;
+      glow.r = reader_.linear(pigment.color->v[0]) * factors[0] * share;
+      glow.g = reader_.linear(pigment.color->v[1]) * factors[1] * share;
+      glow.b = reader_.linear(pigment.color->v[2]) * factors[2] * share;
+      layer.glow = Spectrum{emission_from_rgb(glow)};
+      layer.glow_scale = static_cast<float>(std::max({glow.r, glow.g, glow.b}));
+    } else {
+      layer.glow = color_texture(pigment, placed, Part::radiance, factor, look.by_uv);
+      layer.glow_scale = static_cast<float>(factor);
+    }
+  }
+  return layer;
+}
+
+Id<Material> Surfaces::clear_material(const Pigment& pigment, const Finish& finish, const Interior* interior) {
+  const Numbers color = pigment.color.value_or(Finish::grey(1));
+  const double filter = std::max(color.v[3], 0.0), transmit = std::max(color.v[4], 0.0);
+  const double all = std::max(filter + transmit, 1e-6);
+  RGB through;
+  const auto component = [&](std::size_t i) {
+    return std::clamp((reader_.linear(color.v[i]) * filter + transmit) / all, 0.0, 1.0);
+  };
+  through = {component(0), component(1), component(2)};
+  const float reflects = finish.has_reflection ? 1 : 0;
+  if (interior && interior->ior > 1.0001) {
+    DielectricMaterial glass;
+    glass.eta = ConstantSpectrum{static_cast<float>(interior->ior)};
+    glass.transmittance_factor = Spectrum{unbounded_from_rgb(through)};
+    glass.reflectance_factor = Spectrum{ConstantSpectrum{reflects}};
+    approximated("a clear surface with ior: a dielectric, whose reflection is Fresnel's and whose shadow is dark",
+                 finish.place.line ? finish.place : pigment.place);
+    return add(glass, pigment.place);
+  }
+  ThinDielectricMaterial sheet;
+  sheet.eta = ConstantSpectrum{1};
+  sheet.transmittance_factor = Spectrum{unbounded_from_rgb(through)};
+  sheet.reflectance_factor = Spectrum{ConstantSpectrum{0}};
+  return add(sheet, pigment.place);
+}
+
+Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish, const Transform& to_world,
+                                   const Look& look) {
+  std::vector<Lobe> lobes;
+  const auto metal = [&](double metallic) -> Metal {
+    if (!(metallic > 0)) return PerfectReflector{};
+    return NormalReflectance{color_texture(pigment, to_world, Part::reflectance, 1, look.by_uv)};
+  };
+  if (const Highlight h = highlight_of(finish); h.strength > 0) {
+    const double alpha2 = 2 / (h.exponent + 2);
+    Roughness roughness;
+    roughness.alpha_u = roughness.alpha_v = static_cast<float>(std::sqrt(alpha2));
+    roughness.distribution = Roughness::Distribution::beckmann;
+    const double share = std::min(4 * alpha2 * reader_.linear(h.strength), 0.9);
+    lobes.push_back({ConductorMaterial{metal(finish.metallic), roughness}, share});
+    approximated("phong or specular: microfacets with a highlight as high", finish.place);
+  }
+  const double reflection = greatest(finish.reflection_max);
+  const bool fresnel = finish.fresnel && reflection > 0;
+  const double diffuse = reader_.linear(finish.diffuse);
+  if (finish.brilliance != 1) approximated("brilliance: 1", finish.place);
+  if (finish.crand > 0) dropped("crand", finish.place);
+  if (finish.irid > 0) dropped("irid", finish.place);
+  if (finish.subsurface) dropped("subsurface", finish.place);
+  if (reflection > 0 && !fresnel) {
+    // Between what it is straight on and at grazing angles: nearer to the first, as most of a surface is seen so.
+    Numbers mean = finish.reflection_max;
+    constexpr double grazing = 0.15;
+    for (std::size_t i = 0; i < 3; ++i)
+      mean.v[i] = reader_.linear(finish.reflection_min.v[i]) * (1 - grazing) + reader_.linear(finish.reflection_max.v[i]) * grazing;
+    const double share = std::min(greatest(mean), 0.98);
+    if (greatest(finish.reflection_min) != reflection) approximated("reflection by angle: its mean", finish.place);
+    ConductorMaterial mirror{metal(finish.reflection_metallic), {}};
+    if (!(finish.reflection_metallic > 0) && share > 0)
+      mirror.reflectance_factor =
+          Spectrum{unbounded_from_rgb({mean.v[0] / share, mean.v[1] / share, mean.v[2] / share})};
+    if (share > 0) lobes.push_back({mirror, share});
+  }
+  double shares = 0;
+  for (const Lobe& lobe : lobes) shares += lobe.share;
+  if (shares > 0.98) {
+    for (Lobe& lobe : lobes) lobe.share *= 0.98 / shares;
+    shares = 0.98;
+  }
+  const double left = 1 - shares;
+  const SpectrumParameter reflectance = color_texture(pigment, to_world, Part::reflectance, diffuse / left, look.by_uv);
+  MaterialModel base;
+  if (fresnel) {
+    PlasticMaterial coat;
+    coat.diffuse_reflectance = reflectance;
+    coat.eta = static_cast<float>(look.interior && look.interior->ior > 1.01 ? look.interior->ior : 1.5);
+    coat.exterior_eta = 1;
+    coat.specular_reflectance = Spectrum{ConstantSpectrum{static_cast<float>(std::min(reader_.linear(reflection), 1.0))}};
+    approximated("reflection with fresnel: the coat of a dielectric", finish.place);
+    base = coat;
+  } else if (finish.diffuse_back > 0) {
+    DiffuseTransmissionMaterial sheet;
+    sheet.reflectance = reflectance;
+    sheet.transmittance = color_texture(pigment, to_world, Part::reflectance, reader_.linear(finish.diffuse_back) / left, look.by_uv);
+    base = sheet;
+  } else {
+    base = DiffuseMaterial{reflectance};
+  }
+  Id<Material> result = add(std::move(base), pigment.place);
+  double held = left;  // the share of what `result` is by now
+  for (Lobe& lobe : lobes) {
+    const Id<Material> other = add(std::move(lobe.model), pigment.place);
+    held += lobe.share;
+    result = add(BlendMaterial{result, other, static_cast<float>(lobe.share / held)}, pigment.place);
+  }
+  return result;
+}
+
+// A pattern between textures: each piece of its map is a blend.
+Surfaces::Layer Surfaces::blended(const pov::Texture& texture, const Transform& to_world, const Look& look) {
+  std::vector<std::pair<double, Layer>> layers;
+  if (texture.map)
+    for (const BlendEntry& entry : texture.map->entries)
+      if (entry.texture) {
+        const Transform at = to_world * entry.texture->to_object;
+        layers.emplace_back(entry.at, entry.texture->pattern ? blended(*entry.texture, at, look)
+                                      : entry.texture->layers.empty()
+                                          ? layer_of(*entry.texture, at, look)
+                                          : layer_of(*entry.texture->layers.back(), at * entry.texture->layers.back()->to_object, look));
+      }
+  if (layers.empty()) {
+    dropped("a pattern of textures without textures: black", texture.place);
+    return layer_of({}, to_world, look);
+  }
+  Layer result = layers.front().second;
+  const bool list = texture.pattern->kind == Word::checker_ || texture.pattern->kind == Word::brick_ ||
+                    texture.pattern->kind == Word::hexagon_;
+  for (std::size_t i = 1; i < layers.size(); ++i) {
+    const FloatParameter amount = amount_texture(*texture.pattern, to_world, layers[i - 1].first, layers[i].first,
+                                                 texture.place, list, i);
+    result.material = add(BlendMaterial{result.material, layers[i].second.material, amount}, texture.place);
+    if (layers[i].second.glow_scale > result.glow_scale)
+      result.glow = layers[i].second.glow, result.glow_scale = layers[i].second.glow_scale;
+  }
+  if (layers.size() > 1 && result.glow_scale > 0)
+    approximated("ambient and emission of a pattern of textures: those of the brightest", texture.place);
+  return result;
+}
+
+}  // namespace vitrail::pov

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pigments as textures.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "importers/povray/read/pattern_kinds.h"
+#include "importers/povray/read/reader.h"
+#include "importers/povray/read/surfaces.h"
+#include "scene/spectra/rgb_to_spectrum.h"
+
+namespace vitrail::pov {
+
+Id<vitrail::Texture> Surfaces::add(TextureModel model, bool is_float, const Place& place) {
+  vitrail::Texture texture;
+  texture.model = std::move(model);
+  texture.is_float = is_float;
+  texture.origin = origin(place);
+  return append(scene_.textures, std::move(texture));
+}
+
+float Surfaces::opacity_of(const Numbers& color) const {
+  return static_cast<float>(std::clamp(1 - color.v[3] - color.v[4], 0.0, 1.0));
+}
+
+Spectrum Surfaces::spectrum_of(const Numbers& color, Part part, double factor) const {
+  if (part == Part::opacity) return ConstantSpectrum{opacity_of(color)};
+  const RGB c{reader_.linear(color.v[0]) * factor, reader_.linear(color.v[1]) * factor,
+              reader_.linear(color.v[2]) * factor};
+  return part == Part::radiance ? Spectrum{emission_from_rgb(c)} : Spectrum{reflectance_from_rgb(c)};
+}
+
+FloatParameter Surfaces::opacity_of(const Pigment& pigment, const Transform& to_world, bool by_uv) {
+  if (pigment.color) return opacity_of(*pigment.color);
+  if (pigment.pattern.image) {
+    const double clear = pigment.pattern.image->filter_all + pigment.pattern.image->transmit_all;
+    return static_cast<float>(std::clamp(1 - clear, 0.0, 1.0));
+  }
+  if (!pigment.map) return 1.0f;
+  float least = 1, most = 0;
+  for (const BlendEntry& entry : pigment.map->entries) {
+    const float opacity = entry.pigment ? opacity_of(mean_color(*entry.pigment)) : opacity_of(entry.color);
+    least = std::min(least, opacity), most = std::max(most, opacity);
+  }
+  if (least >= most) return pigment.map->entries.empty() ? 1.0f : least;
+  const SpectrumParameter texture = color_texture(pigment, to_world, Part::opacity, 1, by_uv);
+  if (const auto* id = std::get_if<Id<vitrail::Texture>>(&texture)) return *id;
+  return opacity_of(mean_color(pigment));
+}
+
+SpectrumParameter Surfaces::radiance_of(const Pigment& pigment, const Transform& to_world) {
+  return color_texture(pigment, to_world * pigment.to_object, Part::radiance, 1, false);
+}
+
+Numbers mean_color(const Pigment& pigment) {
+  if (pigment.color) return *pigment.color;
+  if (!pigment.map || pigment.map->entries.empty()) return Finish::grey(0.5);
+  const auto& entries = pigment.map->entries;
+  const auto color = [](const BlendEntry& e) { return e.pigment ? mean_color(*e.pigment) : e.color; };
+  Numbers sum = Finish::grey(0);
+  double weights = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const double before = i ? entries[i - 1].at : std::min(entries[i].at, 0.0);
+    const double after = i + 1 < entries.size() ? entries[i + 1].at : std::max(entries[i].at, 1.0);
+    const double weight = std::max((after - before) / 2, 1e-6);
+    const Numbers c = color(entries[i]);
+    for (std::size_t k = 0; k < 5; ++k) sum.v[k] += weight * c.v[k];
+    weights += weight;
+  }
+  for (double& v : sum.v) v /= weights;
+  return sum;
+}
+
+SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transform& to_world, Part part, double factor,
+                                          bool by_uv) {
+  if (pigment.color || pigment.pattern.kind == Word::none) return spectrum_of(mean_color(pigment), part, factor);
+  const Pattern& pattern = pigment.pattern;
+  if (pattern.image && pattern.kind == Word::image_map_)
+    return image_texture(*pattern.image, pattern, to_world, by_uv || pattern.uv_mapping, factor, pigment.place);
+  auto made = pattern_texture(pattern, to_world, pigment.place);
+  if (!made) return spectrum_of(pigment.quick_color.value_or(mean_color(pigment)), part, factor);
+  std::vector<BlendEntry> entries = pigment.map ? pigment.map->entries : default_entries(pattern.kind);
+  for (const BlendEntry& entry : entries) {
+    PatternStop stop;
+    stop.at = static_cast<float>(std::clamp(entry.at, 0.0, 1.0));
+    if (is_of_places(made->kind)) stop.at = 0;
+    if (!made->map.empty() && !is_of_places(made->kind)) stop.at = std::max(stop.at, made->map.back().at);
+    if (!entry.pigment) {
+      stop.value = spectrum_of(entry.color, part, factor);
+    } else {
+      const Transform inner = to_world * entry.pigment->to_object;
+      stop.value = color_texture(*entry.pigment, inner, part, factor, by_uv);
+    }
+    made->map.push_back(std::move(stop));
+  }
+  return add(std::move(*made), part == Part::opacity, pigment.place);
+}
+
+FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform& to_world, double from, double to,
+                                        const Place& place, bool list, std::size_t index) {
+  auto made = pattern_texture(pattern, to_world, place);
+  if (!made) return 0.5f;
+  const auto stop = [&](double at, float value) {
+    made->map.push_back({static_cast<float>(std::clamp(at, 0.0, 1.0)), Spectrum{ConstantSpectrum{value}}});
+  };
+  if (list) {
+    for (std::size_t i = 0; i <= std::max<std::size_t>(index, 1); ++i) stop(0, i == index ? 1.0f : 0.0f);
+    if (made->kind == PatternTexture::Kind::hexagon && index < 2) stop(0, 0);
+  } else {
+    stop(from, 0);
+    stop(to, 1);
+  }
+  return add(std::move(*made), true, place);
+}
+
+std::optional<PatternTexture> Surfaces::pattern_texture(const Pattern& pattern, const Transform& to_world,
+                                                        const Place& place) {
+  const auto kind = pattern_kind(pattern.kind);
+  if (!kind) {
+    dropped(fmt::format("this pattern ({}): the mean of its colours", name_of(pattern.kind)), place);
+    return std::nullopt;
+  }
+  PatternTexture t;
+  t.kind = *kind;
+  t.texture_to_world = to_world;
+  if (!is_invertible(to_world)) return std::nullopt;
+  t.turbulence = {pattern.turbulence, std::clamp(pattern.octaves, 1, 10), static_cast<float>(pattern.lambda),
+                  static_cast<float>(pattern.omega)};
+  for (const Warp& warp : pattern.warps) {
+    if (warp.kind == Warp::Kind::turbulence && t.turbulence.amount == Vector3d{0, 0, 0}) {
+      t.turbulence = {warp.amount, std::clamp(warp.octaves, 1, 10), static_cast<float>(warp.lambda),
+                      static_cast<float>(warp.omega)};
+    } else if (warp.kind == Warp::Kind::repeat && t.repeat == Vector3d{0, 0, 0}) {
+      t.repeat = warp.amount;
+    } else {
+      dropped("a warp of this kind", place);
+    }
+  }
+  t.frequency = static_cast<float>(pattern.frequency);
+  t.phase = static_cast<float>(pattern.phase);
+  t.wave = wave_of(pattern.wave, pattern.kind);
+  t.exponent = static_cast<float>(pattern.wave_exponent);
+  t.direction = pattern.direction;
+  t.brick = {pattern.brick_size, static_cast<float>(pattern.mortar)};
+  t.crackle = {pattern.crackle_form, static_cast<float>(std::max(pattern.crackle_metric, 0.1)),
+               static_cast<float>(pattern.crackle_offset), pattern.crackle_solid};
+  t.arms = pattern.arms;
+  t.agate_turb = static_cast<float>(pattern.agate_turb);
+  t.iterations = std::clamp(pattern.iterations, 1, 10000);
+  if (is_of_noise(t)) approximated("noise: of the same statistics as POV-Ray's, and in other places", place);
+  return t;
+}
+
+SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern&, const Transform& to_world, bool by_uv,
+                                          double factor, const Place& place) {
+  if (image.filename.empty()) return Spectrum{ConstantSpectrum{static_cast<float>(0.5 * factor)}};
+  ImageTexture texture;
+  texture.filename = std::filesystem::absolute(image.filename).string();
+  texture.wrap = image.once ? Wrap::black : Wrap::repeat;
+  texture.filter = image.interpolate > 0 ? TextureFilter::bilinear : TextureFilter::nearest;
+  texture.scale = static_cast<float>(factor);
+  if (by_uv) {
+    texture.mapping = UvMapping{};
+  } else if (image.map_type == 0) {
+    texture.mapping = PlanarMapping{to_world};
+  } else {
+    approximated("an image around a sphere, cylinder or torus: by (u,v) of the surface", place);
+    texture.mapping = UvMapping{};
+  }
+  return add(std::move(texture), false, place);
+}
+
+}  // namespace vitrail::pov

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/povray/read/objects.h"
+
+#include <fmt/format.h>
+
+#include "importers/povray/read/reader.h"
+
+namespace vitrail::pov {
+
+bool names_object(Word word) {
+  switch (word) {
+    case Word::bicubic_patch_:
+    case Word::blob_:
+    case Word::box_:
+    case Word::cone_:
+    case Word::cubic_:
+    case Word::cylinder_:
+    case Word::difference_:
+    case Word::disc_:
+    case Word::height_field_:
+    case Word::intersection_:
+    case Word::isosurface_:
+    case Word::julia_fractal_:
+    case Word::lathe_:
+    case Word::light_group_:
+    case Word::light_source_:
+    case Word::merge_:
+    case Word::mesh_:
+    case Word::mesh2_:
+    case Word::object_:
+    case Word::ovus_:
+    case Word::parametric_:
+    case Word::plane_:
+    case Word::poly_:
+    case Word::polygon_:
+    case Word::polynomial_:
+    case Word::prism_:
+    case Word::quadric_:
+    case Word::quartic_:
+    case Word::smooth_triangle_:
+    case Word::sor_:
+    case Word::sphere_:
+    case Word::sphere_sweep_:
+    case Word::superellipsoid_:
+    case Word::text_:
+    case Word::torus_:
+    case Word::triangle_:
+    case Word::union_:
+      return true;
+    default:
+      return false;
+  }
+}
+
+namespace {
+
+// The texture that a part of one goes to.
+std::shared_ptr<Texture> changed(Reader& reader, const Object& object) {
+  if (object.texture) return std::make_shared<Texture>(*object.texture);
+  auto texture = reader.defaults.texture ? std::make_shared<Texture>(*reader.defaults.texture)
+                                         : std::make_shared<Texture>();
+  texture->place = reader.here();
+  return texture;
+}
+
+// Textures lie on those that are there.
+void add_layer(Object& object, const Shared<Texture>& texture, int& layers) {
+  if (!object.texture || layers == 0) {
+    object.texture = texture;
+  } else {
+    auto layered = std::make_shared<Texture>();
+    layered->place = texture->place;
+    if (object.texture->layers.empty())
+      layered->layers.push_back(object.texture);
+    else
+      *layered = *object.texture;
+    if (!texture->layers.empty())
+      layered->layers.insert(layered->layers.end(), texture->layers.begin(), texture->layers.end());
+    else
+      layered->layers.push_back(texture);
+    object.texture = layered;
+  }
+  ++layers;
+}
+
+void move(Object& object, const Transform& by) {
+  object.to_parent = by * object.to_parent;
+  if (object.texture) object.texture = moved(object.texture, by);
+  if (object.interior_texture) object.interior_texture = moved(object.interior_texture, by);
+  for (Shared<Object>& clip : object.clipped_by) {
+    auto copy = std::make_shared<Object>(*clip);
+    copy->to_parent = by * copy->to_parent;
+    clip = copy;
+  }
+}
+
+Object copy_of(const Shared<Object>& object) {
+  Object copy = *object;
+  copy.declared = false;
+  if (!copy.original) copy.original = object;
+  return copy;
+}
+
+void read_clips(Reader& reader, Object& object) {
+  reader.expect('{', "behind clipped_by");
+  if (reader.accept(Word::bounded_by_)) {
+    reader.notes.dropped("clipped_by { bounded_by }", reader.location(reader.here()));
+    reader.expect('}', "at the end of clipped_by");
+    return;
+  }
+  while (!reader.accept('}')) object.clipped_by.push_back(read_object(reader));
+}
+
+void skip_bounds(Reader& reader) {
+  reader.expect('{', "behind bounded_by");
+  if (!reader.accept(Word::clipped_by_))
+    while (!reader.at('}')) read_object(reader);
+  reader.expect('}', "at the end of bounded_by");
+}
+
+}  // namespace
+
+bool read_object_modifier(Reader& reader, Object& object, int& layers) {
+  reader.comma();
+  Transform step;
+  if (read_transform(reader, step)) {
+    move(object, step);
+    return true;
+  }
+  const Token token = reader.next();
+  if (token.kind != TokenKind::word) {
+    reader.put_back(token);
+    return false;
+  }
+  switch (token.symbol->word) {
+    case Word::texture_:
+      add_layer(object, read_texture_block(reader), layers);
+      return true;
+    case Word::pigment_: {
+      auto texture = changed(reader, object);
+      texture->pigment = read_pigment_block(reader);
+      if (object.texture && !object.texture->layers.empty()) texture->layers.clear();
+      texture->pattern.reset();
+      object.texture = texture;
+      return true;
+    }
+    case Word::normal_: {
+      auto texture = changed(reader, object);
+      texture->normal = read_normal_block(reader);
+      object.texture = texture;
+      return true;
+    }
+    case Word::finish_: {
+      auto texture = changed(reader, object);
+      texture->finish = read_finish_block(reader, texture->finish);
+      object.texture = texture;
+      return true;
+    }
+    case Word::interior_texture_:
+      object.interior_texture = read_texture_block(reader);
+      return true;
+    case Word::interior_:
+      object.interior = read_interior_block(reader);
+      return true;
+    case Word::material_: {
+      const auto material = read_material_block(reader);
+      if (material->texture) add_layer(object, material->texture, layers);
+      if (material->interior_texture) object.interior_texture = material->interior_texture;
+      if (material->interior) object.interior = material->interior;
+      return true;
+    }
+    case Word::clipped_by_:
+      read_clips(reader, object);
+      return true;
+    case Word::bounded_by_:
+      skip_bounds(reader);
+      return true;
+    case Word::no_shadow_:
+      object.no_shadow = true;
+      return true;
+    case Word::no_image_:
+      object.no_image = reader.flag();
+      return true;
+    case Word::inverse_:
+      object.inverse = !object.inverse;
+      return true;
+    case Word::hollow_:
+      object.hollow = reader.flag();
+      return true;
+    case Word::uv_mapping_:
+      object.uv_mapping = true;
+      return true;
+    case Word::no_reflection_:
+    case Word::no_radiosity_:
+    case Word::double_illuminate_:
+    case Word::sturm_:
+    case Word::hierarchy_:
+    case Word::split_union_:
+    case Word::cutaway_textures_:
+    case Word::global_lights_:
+      reader.flag();
+      return true;
+    case Word::photons_:
+    case Word::radiosity_:
+      skip_block(reader);
+      return true;
+    default:
+      reader.put_back(token);
+      return false;
+  }
+}
+
+Shared<Object> read_object_in(Reader& reader) {
+  auto object = std::make_shared<Object>();
+  object->place = reader.peek().place;
+  int layers = 0;
+  if (const auto named = reader.identifier<Shared<Object>>()) {
+    // A copy of a group refers to it, so that many copies of it can be one prototype.
+    if (const auto* group = std::get_if<GroupShape>(&(*named)->shape);
+        group && (*named)->declared && (*named)->children.size() > 1 && group->kind == Word::union_) {
+      object->children.push_back(*named);
+      object->texture = nullptr;
+      object->inverse = false;
+    } else {
+      *object = copy_of(*named);
+      layers = object->texture ? 1 : 0;
+    }
+  } else {
+    const Token token = reader.peek();
+    if (token.kind != TokenKind::word || !names_object(token.symbol->word))
+      reader.unexpected(reader.next(), "an object");
+    *object = *read_object(reader);
+    layers = object->texture ? 1 : 0;
+  }
+  while (read_object_modifier(reader, *object, layers)) {
+  }
+  return object;
+}
+
+Shared<Object> read_object(Reader& reader) {
+  if (const auto named = reader.identifier<Shared<Object>>()) return *named;
+  const Token token = reader.next();
+  if (token.kind != TokenKind::word || !names_object(token.symbol->word)) reader.unexpected(token, "an object");
+  const Reader::Deeper deeper(reader, token.place);
+  const Word word = token.symbol->word;
+  reader.expect('{', "behind the word of an object");
+  if (word == Word::object_) {
+    auto object = read_object_in(reader);
+    reader.expect('}', "at the end of an object");
+    return object;
+  }
+  auto object = std::make_shared<Object>();
+  object->place = token.place;
+  int layers = 0;
+  // "sphere { Name scale 2 }", too, is a copy.
+  if (const auto named = reader.identifier<Shared<Object>>()) {
+    const bool adds = word == Word::union_ || word == Word::merge_ || word == Word::intersection_ ||
+                      word == Word::difference_ || word == Word::light_group_;
+    if (!adds) {
+      *object = copy_of(*named);
+      object->place = token.place;
+      layers = object->texture ? 1 : 0;
+    } else {
+      object->shape = GroupShape{word};
+      object->children.push_back(*named);
+    }
+  }
+  switch (word) {
+    case Word::union_:
+    case Word::merge_:
+    case Word::intersection_:
+    case Word::difference_:
+    case Word::light_group_:
+      object->shape = GroupShape{word};
+      for (;;) {
+        reader.comma();
+        const Token next = reader.peek();
+        const bool names = next.kind == TokenKind::word &&
+                           (names_object(next.symbol->word) ||
+                            (next.symbol->value() && next.symbol->word == Word::none));
+        if (!names) break;
+        object->children.push_back(read_object(reader));
+      }
+      break;
+    case Word::light_source_:
+      if (!layers && object->children.empty()) read_light(reader, *object);
+      break;
+    default:
+      if (std::holds_alternative<GroupShape>(object->shape)) read_shape(reader, word, *object);
+  }
+  while (read_object_modifier(reader, *object, layers)) {
+  }
+  reader.expect('}', "at the end of an object");
+  return object;
+}
+
+}  // namespace vitrail::pov

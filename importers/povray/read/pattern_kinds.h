@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "importers/povray/read/surface.h"
+#include "scene/records/pattern_texture.h"
+
+namespace vitrail::pov {
+
+// The record's kind of a pattern's word; none: it has no such.
+std::optional<PatternTexture::Kind> pattern_kind(Word word);
+// `none` is what the pattern has by default.
+PatternTexture::Wave wave_of(Word wave, Word pattern);
+// Whether noise shows in it.
+bool is_of_noise(const PatternTexture& texture);
+// The colours of a pattern that is given none.
+std::vector<BlendEntry> default_entries(Word pattern);
+
+}  // namespace vitrail::pov

@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/povray/read/patterns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "importers/povray/read/function.h"
+#include "importers/povray/read/objects.h"
+#include "importers/povray/read/reader.h"
+
+namespace vitrail::pov {
+
+bool names_pattern(Word word) {
+  switch (word) {
+    case Word::agate_:
+    case Word::average_:
+    case Word::boxed_:
+    case Word::bozo_:
+    case Word::brick_:
+    case Word::bumps_:
+    case Word::cells_:
+    case Word::checker_:
+    case Word::crackle_:
+    case Word::cylindrical_:
+    case Word::density_file_:
+    case Word::dents_:
+    case Word::facets_:
+    case Word::function_:
+    case Word::gradient_:
+    case Word::granite_:
+    case Word::hexagon_:
+    case Word::image_pattern_:
+    case Word::julia_:
+    case Word::leopard_:
+    case Word::magnet_:
+    case Word::mandel_:
+    case Word::marble_:
+    case Word::object_:
+    case Word::onion_:
+    case Word::pavement_:
+    case Word::pigment_pattern_:
+    case Word::planar_:
+    case Word::quilted_:
+    case Word::radial_:
+    case Word::ripples_:
+    case Word::slope_:
+    case Word::spherical_:
+    case Word::spiral1_:
+    case Word::spiral2_:
+    case Word::spotted_:
+    case Word::square_:
+    case Word::tiling_:
+    case Word::triangular_:
+    case Word::waves_:
+    case Word::wood_:
+    case Word::wrinkles_:
+      return true;
+    default:
+      return false;
+  }
+}
+
+Word map_kind(Word word) {
+  switch (word) {
+    case Word::color_map_:
+    case Word::colour_map_:
+      return Word::color_map_;
+    case Word::pigment_map_:
+    case Word::texture_map_:
+    case Word::normal_map_:
+    case Word::slope_map_:
+    case Word::density_map_:
+      return word;
+    default:
+      return Word::none;
+  }
+}
+
+namespace {
+
+// Up to three colours, pigments, normals or textures behind checker, brick, hexagon …
+void read_list(Reader& reader, Shared<BlendMap>& map) {
+  BlendMap list;
+  for (;;) {
+    reader.comma();
+    BlendEntry entry;
+    const Token token = reader.peek();
+    if (token.is(Word::pigment_)) {
+      reader.next();
+      entry.pigment = read_pigment_block(reader);
+      list.kind = Word::pigment_map_;
+    } else if (token.is(Word::texture_)) {
+      reader.next();
+      entry.texture = read_texture_block(reader);
+      list.kind = Word::texture_map_;
+    } else if (token.is(Word::normal_)) {
+      reader.next();
+      entry.bump = read_normal_block(reader);
+      list.kind = Word::normal_map_;
+    } else if (reader.number_follows()) {
+      entry.color = reader.color();
+    } else {
+      break;
+    }
+    entry.at = static_cast<double>(list.entries.size());
+    list.entries.push_back(std::move(entry));
+  }
+  if (!list.entries.empty()) map = std::make_shared<BlendMap>(std::move(list));
+}
+
+void read_numbers_of(Reader& reader, Word word, Pattern& pattern) {
+  if (word == Word::gradient_) pattern.direction = reader.vector("the direction of a gradient");
+  if (word == Word::spiral1_ || word == Word::spiral2_) pattern.arms = reader.integer("the number of arms");
+  if (word == Word::mandel_ || word == Word::magnet_ || word == Word::julia_) {
+    if (word == Word::magnet_) {
+      reader.integer("the kind of magnet");
+      if (!reader.accept(Word::mandel_) && reader.accept(Word::julia_)) reader.numbers();
+      reader.comma();
+    }
+    if (word == Word::julia_) {
+      reader.numbers();
+      reader.comma();
+    }
+    pattern.iterations = reader.integer("the number of iterations");
+  }
+  if ((word == Word::pavement_ || word == Word::tiling_) && reader.number_follows()) reader.numbers();
+  if (word == Word::facets_ && reader.accept(Word::coords_)) reader.numbers();
+  if (word == Word::facets_ && reader.accept(Word::size_)) reader.numbers();
+}
+
+}  // namespace
+
+void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>& map) {
+  pattern.kind = word;
+  switch (word) {
+    case Word::checker_:
+    case Word::brick_:
+    case Word::hexagon_:
+    case Word::square_:
+    case Word::triangular_:
+      read_list(reader, map);
+      break;
+    case Word::function_:
+      pattern.function = read_function(reader);
+      break;
+    case Word::image_pattern_:
+      pattern.image = read_image_map(reader);
+      break;
+    case Word::object_:
+      reader.expect('{', "behind object");
+      read_object_in(reader);
+      reader.expect('}', "at the end of an object");
+      read_list(reader, map);
+      break;
+    case Word::pigment_pattern_:
+      read_pigment_block(reader);
+      break;
+    case Word::density_file_:
+      reader.accept(Word::df3_);
+      reader.text("the name of a file");
+      if (reader.accept(Word::interpolate_)) reader.numbers();
+      break;
+    case Word::slope_:
+      if (reader.accept('{')) {
+        reader.put_back([&] { Token t; t.kind = TokenKind::sign, t.sign = '{'; return t; }());
+        skip_block(reader);
+      } else {
+        reader.numbers();
+        while (reader.accept(',')) reader.numbers();
+      }
+      break;
+    default:
+      read_numbers_of(reader, word, pattern);
+  }
+}
+
+namespace {
+
+void read_warp(Reader& reader, Pattern& pattern) {
+  reader.expect('{', "behind warp");
+  Warp warp;
+  bool flat = false;
+  while (!reader.accept('}')) {
+    const Token token = reader.next();
+    if (token.kind != TokenKind::word) {
+      if (!token.is(',')) reader.unexpected(token, "a part of warp");
+      continue;
+    }
+    switch (token.symbol->word) {
+      case Word::turbulence_:
+        warp.kind = Warp::Kind::turbulence;
+        warp.amount = reader.vector("turbulence");
+        break;
+      case Word::octaves_:
+        warp.octaves = reader.integer("octaves");
+        break;
+      case Word::lambda_:
+        warp.lambda = reader.number("lambda");
+        break;
+      case Word::omega_:
+        warp.omega = reader.number("omega");
+        break;
+      case Word::repeat_:
+        warp.kind = Warp::Kind::repeat;
+        warp.amount = reader.vector("the step of a repetition");
+        break;
+      case Word::offset_:
+      case Word::flip_:
+        flat = true;
+        reader.numbers();
+        break;
+      case Word::black_hole_:
+        warp.kind = Warp::Kind::black_hole;
+        reader.numbers();
+        reader.comma();
+        reader.numbers();
+        break;
+      case Word::transform_:
+        warp.kind = Warp::Kind::transform;
+        warp.transform = read_transform_block(reader);
+        break;
+      default:
+        if (warp.kind != Warp::Kind::black_hole) warp.kind = Warp::Kind::other;
+        while (reader.number_follows()) {
+          reader.numbers();
+          reader.comma();
+        }
+    }
+  }
+  if (flat && warp.kind == Warp::Kind::repeat)
+    reader.notes.approximated("flip and offset of a repetition: without them", reader.location(reader.here()));
+  pattern.warps.push_back(warp);
+}
+
+}  // namespace
+
+bool read_pattern_modifier(Reader& reader, Pattern& pattern, Shared<BlendMap>& map, Transform& to_object) {
+  if (read_transform(reader, to_object)) return true;
+  const Token token = reader.next();
+  if (token.kind != TokenKind::word) {
+    reader.put_back(token);
+    return false;
+  }
+  const Word word = token.symbol->word;
+  if (const Word kind = map_kind(word); kind != Word::none) {
+    map = read_map_block(reader, kind);
+    return true;
+  }
+  switch (word) {
+    case Word::turbulence_:
+      pattern.turbulence = reader.vector("turbulence");
+      return true;
+    case Word::octaves_:
+      pattern.octaves = reader.integer("octaves");
+      return true;
+    case Word::lambda_:
+      pattern.lambda = reader.number("lambda");
+      return true;
+    case Word::omega_:
+      pattern.omega = reader.number("omega");
+      return true;
+    case Word::frequency_:
+      pattern.frequency = reader.number("frequency");
+      return true;
+    case Word::phase_:
+      pattern.phase = reader.number("phase");
+      return true;
+    case Word::ramp_wave_:
+    case Word::triangle_wave_:
+    case Word::sine_wave_:
+    case Word::scallop_wave_:
+    case Word::cubic_wave_:
+      pattern.wave = word;
+      return true;
+    case Word::poly_wave_:
+      pattern.wave = word;
+      if (reader.number_follows()) pattern.wave_exponent = reader.number("an exponent");
+      return true;
+    case Word::warp_:
+      read_warp(reader, pattern);
+      return true;
+    case Word::brick_size_:
+      pattern.brick_size = reader.vector("brick_size");
+      return true;
+    case Word::mortar_:
+      pattern.mortar = reader.number("mortar");
+      return true;
+    case Word::form_:
+      pattern.crackle_form = reader.vector("form");
+      return true;
+    case Word::metric_:
+      pattern.crackle_metric = reader.number("metric");
+      return true;
+    case Word::offset_:
+      pattern.crackle_offset = reader.number("offset");
+      return true;
+    case Word::solid_:
+      pattern.crackle_solid = true;
+      return true;
+    case Word::agate_turb_:
+      pattern.agate_turb = reader.number("agate_turb");
+      return true;
+    case Word::control0_:
+      pattern.control0 = reader.number("control0");
+      return true;
+    case Word::control1_:
+      pattern.control1 = reader.number("control1");
+      return true;
+    case Word::uv_mapping_:
+      pattern.uv_mapping = true;
+      return true;
+    case Word::noise_generator_:
+    case Word::number_of_waves_:
+    case Word::turb_depth_:
+    case Word::accuracy_:
+    case Word::interpolate_:
+      reader.numbers();
+      return true;
+    case Word::use_color_:
+    case Word::use_colour_:
+    case Word::use_index_:
+    case Word::no_bump_scale_:
+      return true;
+    case Word::exponent_:
+    case Word::exterior_:
+    case Word::interior_:
+      reader.numbers();
+      while (reader.accept(',')) reader.numbers();
+      return true;
+    default:
+      reader.put_back(token);
+      return false;
+  }
+}
+
+ImageMap read_image_map(Reader& reader, double* bump_size) {
+  reader.expect('{', "behind an image");
+  ImageMap image;
+  const Token first = reader.peek();
+  if (first.is(Word::function_)) {
+    reader.next();
+    reader.numbers(), reader.comma(), reader.numbers();
+    skip_block(reader);
+    reader.notes.dropped("an image that is made of a function: grey", reader.location(first.place));
+  }
+  while (!reader.accept('}')) {
+    const Token token = reader.next();
+    if (token.kind == TokenKind::text || (token.kind == TokenKind::word && token.symbol->word == Word::none) ||
+        (token.kind == TokenKind::word && names_text(token.symbol->word))) {
+      reader.put_back(token);
+      const std::string name = reader.text("the name of an image");
+      image.filename = reader.find_file(name, token.place).string();
+      continue;
+    }
+    if (token.is(',')) continue;
+    if (token.kind != TokenKind::word) reader.unexpected(token, "a part of an image");
+    switch (token.symbol->word) {
+      case Word::map_type_:
+        image.map_type = reader.integer("map_type");
+        break;
+      case Word::once_:
+        image.once = true;
+        break;
+      case Word::interpolate_:
+        image.interpolate = reader.integer("interpolate");
+        break;
+      case Word::filter_:
+      case Word::transmit_: {
+        double& all = token.symbol->word == Word::filter_ ? image.filter_all : image.transmit_all;
+        if (reader.accept(Word::all_)) {
+          all = reader.number("a share");
+        } else {
+          reader.numbers(), reader.comma(), reader.numbers();
+          reader.notes.dropped("filter and transmit of one colour of an image's palette",
+                               reader.location(token.place));
+        }
+        break;
+      }
+      case Word::gamma_:
+        if (reader.accept(Word::srgb_)) break;
+        image.gamma = reader.number("gamma");
+        break;
+      case Word::bump_size_: {
+        const double size = reader.number("bump_size");
+        if (bump_size) *bump_size = size;
+        break;
+      }
+      case Word::premultiplied_:
+      case Word::use_alpha_:
+      case Word::use_color_:
+      case Word::use_colour_:
+      case Word::use_index_:
+        if (reader.number_follows()) reader.numbers();
+        break;
+      default:  // the format, which the file itself says
+        break;
+    }
+  }
+  return image;
+}
+
+}  // namespace vitrail::pov

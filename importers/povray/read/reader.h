@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads POV-Ray's scene language in one pass: tokens with directives carried out and macros put in place, and
+// the expressions above them. What reads objects and textures takes a Reader.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "importers/bytes/included_text.h"
+#include "importers/bytes/input_bytes.h"
+#include "importers/povray/read/lexer.h"
+#include "importers/povray/read/notes.h"
+#include "importers/povray/read/number_words.h"
+#include "importers/povray/read/search.h"
+#include "scene/geometry/vec.h"
+
+namespace vitrail::pov {
+
+// What a scene may ask for before it is refused.
+struct Limits {
+  std::uint64_t tokens = 2'000'000'000;
+  std::uint64_t written_bytes = 256 << 20;  // by #write, kept in memory
+  std::size_t open_calls = 20'000;          // of macros and loops within each other
+  int nested = 200;                         // expressions and objects within each other
+  std::uint64_t include_bytes = 1 << 30;    // of text that is included again
+};
+
+struct Macro {
+  std::string name;
+  std::vector<Symbol*> parameters;
+  std::shared_ptr<const TokenBuffer> buffer;
+  std::size_t begin = 0, end = 0;
+};
+
+// What `#default` says of objects to come.
+struct Defaults {
+  Shared<Texture> texture;
+};
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& file, const Search& search, const Limits& limits);
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  // ---- Tokens. Directives are carried out on the way.
+  Token next();
+  Token peek();
+  void put_back(const Token& token) { put_back_.push_back(token); }
+  bool accept(char sign);
+  bool accept(Word word);
+  // The next token must be it.
+  void expect(char sign, const char* where);
+  // Whether the next token is it. Directives that set something stay where they are: what is before them may not be
+  // complete.
+  bool at(char sign) { return peek_operator().is(sign); }
+  bool at(Word word) { return peek_operator().is(word); }
+  // A comma, if there is one.
+  void comma() {
+    if (at(',')) next();
+  }
+  // Counts how deep objects and expressions lie within each other; throws Error above the limit.
+  class Deeper;
+
+  // ---- Errors, with the macros and files that lead there.
+  [[noreturn]] void fail(const std::string& message, const Place& place);
+  [[noreturn]] void unexpected(const Token& token, const std::string& wanted);
+  SourceLocation location(const Place& place) const;
+  // Of the token that was read last.
+  Place here() const { return last_; }
+
+  // ---- Expressions (expressions.cpp).
+  // Any value that an identifier, an array's element or an expression gives.
+  Value evaluate();
+  // Numbers: comparisons only where a bracket is around, as "0 <1,2,3>" are a number and a vector.
+  Numbers numbers();
+  // A number without operators behind it.
+  double operand() { return primary().v[0]; }
+  double number(const char* what);
+  int integer(const char* what);
+  bool flag();  // "on", "off", 1, or nothing, which is on
+  // Of three terms.
+  Vector3d vector(const char* what);
+  Point3d point(const char* what);
+  Point2d point2(const char* what);
+  std::string text(const char* what);
+  // Linear red, green, blue, filter, transmit.
+  Numbers color();
+  // Whether what comes can begin an expression of numbers.
+  bool number_follows();
+
+  // ---- Identifiers.
+  Symbols& symbols() { return symbols_; }
+  // A value of kind T if the next word stands for one; it is read then.
+  template <class T>
+  std::optional<T> identifier() {
+    const Token token = next();
+    if (token.kind == TokenKind::word && token.symbol->word == Word::none)
+      if (Value* value = token.symbol->value()) {
+        if (const T* held = std::get_if<T>(value)) return *held;
+        if (std::holds_alternative<std::shared_ptr<Array>>(*value)) {
+          Value element = postfixed(token);
+          if (const T* held = std::get_if<T>(&element)) return std::move(*held);
+          fail(std::string("this is ") + kind_of(element), token.place);
+        }
+      }
+    put_back(token);
+    return std::nullopt;
+  }
+
+  // ---- What the scene sets.
+  Defaults defaults;
+  Notes notes;
+  double version = 0;  // 0: the file does not say
+  std::optional<double> assumed_gamma;
+  int image_width = 640, image_height = 480;
+
+  // The exponent that makes light of the numbers of colours; none: they are encoded as sRGB.
+  std::optional<double> gamma() const;
+  // A number of a colour, factor or light, as light.
+  double linear(double value) const;
+
+  // A file of the scene, written by it or found by the search; throws Error at `place`.
+  std::filesystem::path find_file(const std::string& name, const Place& place);
+  const std::deque<std::string>& files() const { return files_; }
+  std::uint64_t tokens_read() const { return tokens_; }
+
+ private:
+  // Of #if and #switch.
+  struct Block {
+    bool is_switch = false;
+    double value = 0;
+    Place place;
+    std::uint32_t match = 0;
+  };
+  enum class FrameKind { file, macro, while_loop, for_loop };
+  struct Source {
+    Source(const std::filesystem::path& path, Symbols& symbols, std::deque<std::string>& texts, std::uint16_t file);
+    Source(std::string content, Symbols& symbols, std::deque<std::string>& texts, std::uint16_t file);
+    std::string content;
+    std::optional<InputBytes> bytes;
+    Lexer lexer;
+  };
+  struct Frame {
+    FrameKind kind = FrameKind::file;
+    Place call;
+    std::unique_ptr<Source> source;  // of a file
+    std::shared_ptr<const TokenBuffer> buffer;
+    std::size_t begin = 0, at = 0, end = 0;
+    std::string name;
+    std::vector<Block> blocks;
+    std::shared_ptr<Value> variable;  // of #for
+    double last = 0, step = 0;
+  };
+
+  // Sources (sources.cpp).
+  Token raw();
+  bool end_frame();
+  void open_file(const std::filesystem::path& path, const std::string& name, const Place& place);
+  void push(Frame frame);
+  void pop_frame();
+  std::uint16_t file_index(const std::string& name);
+  std::string excerpt(const Place& place) const;
+
+  // Directives (directives.cpp).
+  void execute(const Token& directive);
+  void include(const Token& directive);
+  void define_macro(const Token& directive);
+  void invoke(const Token& name, const Shared<Macro>& macro);
+  void open_while(const Token& directive);
+  void open_for(const Token& directive);
+  void open_if(const Token& directive);
+  void open_switch(const Token& directive);
+  void part(const Token& directive);
+  void break_out(const Token& directive);
+  void declare(bool local);
+  void undefine();
+  void set_version(const Place& place);
+  void set_defaults();
+  void open_text_file(const Token& directive);
+  void close_text_file();
+  void write_text();
+  void read_text();
+  std::string message_text();
+  bool condition();
+  bool test_defined();
+  Symbol* raw_name(const char* what);
+  // The tokens up to the #end of a block, whose directive was just read.
+  struct Body {
+    std::shared_ptr<const TokenBuffer> buffer;
+    std::size_t begin, end;
+  };
+  Body body(const Token& directive);
+  // Goes to the directive that parts or ends the block at the same level, and reads it.
+  Token skip_part(std::uint32_t match, const Place& opened);
+  void choose(const Block& block, Token part, bool taken);
+  Frame& frame() { return frames_.back(); }
+  void count_token();
+
+  // Expressions.
+  Numbers conditional();
+  Numbers disjunction();
+  Numbers conjunction();
+  Numbers relation();
+  Numbers sum();
+  Numbers product();
+  Numbers unary();
+  Numbers primary();
+  Numbers color_of_terms(Word word);
+  Numbers bracketed_vector();
+  Numbers with_component(Numbers n);
+  std::optional<Numbers> constant_of(Word word);
+  std::optional<Numbers> function_of(const Token& word);
+  std::optional<Numbers> query_of(const Token& word);
+  std::optional<std::string> text_function(Word word);
+  double defined_value();
+  double argument(bool first = false);
+  Numbers vector_argument(bool first = false);
+  Token peek_operator();
+  // The value of an identifier with what follows it: [index], (arguments).
+  Value postfixed(const Token& name);
+  Value* variable_of(const Token& name);
+  Value call(const Value& callee, const Token& name);
+
+  Symbols symbols_;
+  std::deque<std::string> texts_, files_;
+  Search search_;
+  Limits limits_;
+  IncludedText included_;
+  std::vector<Frame> frames_;
+  std::vector<Token> put_back_;
+  Place last_;
+  bool declaring_ = true;   // directives that set something are carried out
+  bool expanding_ = true;   // macros are put in place
+  bool comparing_ = false;  // < and > compare
+  std::optional<Numbers> first_;  // an operand that has been read already
+  std::uint64_t tokens_ = 0, written_ = 0;
+  int depth_ = 0;
+  std::vector<std::uint32_t> random_;  // states of rand()'s streams
+  std::map<std::string, std::string> written_files_;
+};
+
+class Reader::Deeper {
+ public:
+  Deeper(Reader& reader, const Place& place) : reader_(reader) {
+    if (++reader_.depth_ > reader_.limits_.nested) {
+      --reader_.depth_;
+      reader_.fail("too deep: objects, textures and brackets may lie 200 within each other", place);
+    }
+  }
+  ~Deeper() { --reader_.depth_; }
+  Deeper(const Deeper&) = delete;
+  Deeper& operator=(const Deeper&) = delete;
+
+ private:
+  Reader& reader_;
+};
+
+// A value of any kind, as #declare and arguments take it (values.cpp).
+Value read_value(Reader& reader);
+
+}  // namespace vitrail::pov

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes a Scene of what was read.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "importers/povray/read/surfaces.h"
+#include "importers/povray/read/world.h"
+#include "scene/records/scene.h"
+#include "scene/shapes/deferred_mesh.h"
+
+namespace vitrail::pov {
+
+class SceneMaker {
+ public:
+  SceneMaker(Reader& reader, const World& world, MeshMemory& memory);
+
+  Scene make();
+
+ private:
+  // A part of an object that has one texture, in the object's own space.
+  struct Piece {
+    Id<TriangleMesh> mesh;
+    Transform to_object;
+    std::optional<Look> look;  // of its own
+    bool faces_out = true;
+  };
+  // Where shapes go to: the scene, or a prototype.
+  struct Target {
+    std::vector<Shape>& shapes;
+    std::vector<Instance>& instances;
+  };
+
+  // Shapes (make_shapes.cpp).
+  void add(const Object& object, const Transform& parent_to_world, Look look, Target target);
+  void add_group(const Object& object, const Transform& to_world, const Look& look, Target target);
+  void add_plane(const Object& object, const PlaneShape& plane, const Transform& to_world, const Look& look,
+                 Target target);
+  void add_piece(const Object& object, const Piece& piece, const Transform& to_world, const Look& look,
+                 Target target);
+  std::vector<Piece> pieces_of(const Object& object);
+  std::vector<Piece> round_pieces(const ConeShape& cone);
+  Id<TriangleMesh> add_mesh(TriangleMesh mesh);
+  Id<TriangleMesh> quadric_mesh(const Quadric& quadric);
+  std::optional<Id<Prototype>> prototype_of(const Shared<Object>& object);
+  bool is_plain(const Object& object);
+  // Sets of points (make_csg.cpp).
+  std::vector<Piece> set_pieces(const Object& object);
+  std::vector<Piece> clipped_pieces(const Object& object);
+  std::optional<solids::Csg> csg_of(const Object& object, const Transform& parent_to_set, const Look& look,
+                                    std::vector<Look>& looks);
+  std::optional<solids::Csg> shape_csg(const Object& object, std::uint32_t surface);
+  std::vector<Piece> evaluated(const solids::Csg& csg, const std::vector<Look>& looks, const Object& object);
+
+  // Lights and surroundings (make_lights.cpp).
+  void add_light(const Object& object, const LightShape& light, const Transform& to_world);
+  void add_surroundings();
+  // The view (make_view.cpp).
+  void set_view();
+
+  Origin origin(const Place& place) const { return {place.file, place.line, place.column}; }
+
+  Reader& reader_;
+  const World& world_;
+  MeshMemory& memory_;
+  Scene scene_;
+  Surfaces surfaces_;
+  std::map<const Object*, std::vector<Piece>> pieces_;
+  std::map<const Object*, std::optional<Id<Prototype>>> prototypes_;
+  std::map<const Object*, bool> plain_;
+  std::vector<std::pair<Quadric, Id<TriangleMesh>>> quadrics_;
+  std::vector<Shared<Object>> kept_;  // what the maps' keys point to
+  double reach_ = 1;                  // beyond all that is finite
+};
+
+}  // namespace vitrail::pov

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "importers/povray/read/objects.h"
+#include "importers/povray/read/spline.h"
+
+namespace vitrail::pov {
+
+// Shapes where a function is negative: quadrics, polynomials, blobs, isosurfaces; and height fields and parametrics.
+// False: the word begins none of these.
+bool read_implicit(Reader& reader, Word word, Object& object);
+
+}  // namespace vitrail::pov

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures as scenes say them: pigments, normals, finishes; and interiors. What they become in the Scene is decided
+// once they are on an object.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "importers/povray/read/symbols.h"
+#include "importers/povray/read/token.h"
+#include "importers/povray/read/transforms.h"
+
+namespace vitrail::pov {
+
+class Reader;
+
+// An entry of a map: of its kinds one is there.
+struct BlendEntry {
+  double at = 0;
+  Numbers color;
+  Shared<Pigment> pigment;
+  Shared<Texture> texture;
+  Shared<Bump> bump;
+};
+struct BlendMap {
+  Word kind = Word::color_map_;  // color_map_, pigment_map_, texture_map_, normal_map_, slope_map_, density_map_
+  std::vector<BlendEntry> entries;
+};
+
+struct ImageMap {
+  std::string filename;
+  int map_type = 0;  // 0 planar, 1 spherical, 2 cylindrical, 5 torus
+  bool once = false;
+  int interpolate = 0;
+  double filter_all = 0, transmit_all = 0;
+  std::optional<double> gamma;  // of the file
+};
+
+// What is done to the point before the pattern is looked up, in the order of the file.
+struct Warp {
+  enum class Kind { turbulence, transform, repeat, black_hole, other };
+  Kind kind = Kind::transform;
+  Vector3d amount;  // of turbulence; of a repetition, its step
+  int octaves = 6;
+  double lambda = 2, omega = 0.5;
+  Transform transform;
+};
+
+// A pattern with its modifiers; `kind` none: there is none.
+struct Pattern {
+  Word kind = Word::none;
+  Vector3d direction{1, 0, 0};  // of a gradient
+  std::optional<ImageMap> image;
+  Vector3d turbulence;
+  int octaves = 6;
+  double lambda = 2, omega = 0.5;
+  double frequency = 1, phase = 0;
+  Word wave = Word::none;  // none: what the kind has
+  double wave_exponent = 1;
+  Vector3d brick_size{8, 3, 4.5};
+  double mortar = 0.5;
+  Vector3d crackle_form{-1, 1, 0};
+  double crackle_metric = 2, crackle_offset = 0;
+  bool crackle_solid = false;
+  int arms = 1, iterations = 10;
+  double agate_turb = 1, control0 = 1, control1 = 1;
+  Shared<Function> function;
+  std::vector<Warp> warps;
+  bool uv_mapping = false;
+};
+
+struct Pigment {
+  Place place;
+  std::optional<Numbers> color;  // of one colour
+  Pattern pattern;
+  Shared<BlendMap> map;
+  std::optional<Numbers> quick_color;
+  Transform to_object;  // of the pattern's space
+};
+
+struct Bump {
+  Place place;
+  Pattern pattern;
+  double size = 0.5;
+  Transform to_object;
+};
+
+struct Finish {
+  Numbers ambient = grey(0.1), emission = grey(0);
+  double diffuse = 0.6, diffuse_back = 0, brilliance = 1;
+  double phong = 0, phong_size = 40, specular = 0, roughness = 0.05;
+  double metallic = 0;
+  Numbers reflection_min = grey(0), reflection_max = grey(0);
+  bool has_reflection = false, fresnel = false, conserve_energy = false;
+  double reflection_metallic = 0, reflection_falloff = 1, reflection_exponent = 1;
+  double crand = 0, irid = 0;
+  bool subsurface = false;
+  Place place;
+
+  static Numbers grey(double value) {
+    Numbers n = Numbers(value).promoted(3);
+    n.terms = 5, n.is_color = true;
+    return n;
+  }
+};
+
+struct Texture {
+  Place place;
+  Shared<Pigment> pigment;
+  Shared<Bump> normal;
+  Shared<Finish> finish;
+  // Of textures: a pattern with a map of textures; else of layers, the lowest first, if there is more than one.
+  std::optional<Pattern> pattern;
+  Shared<BlendMap> map;
+  std::vector<Shared<Texture>> layers;
+  Transform to_object;  // of all of it
+};
+
+struct Interior {
+  Place place;
+  double ior = 1, fade_distance = 0, fade_power = 0;
+  Numbers fade_color = Finish::grey(0);
+  double dispersion = 1, caustics = 0;
+  bool has_media = false;
+};
+
+// Of `material {}`.
+struct MaterialParts {
+  Shared<Texture> texture, interior_texture;
+  Shared<Interior> interior;
+};
+
+// Behind the word, a block or, where that may be, the name of one.
+Shared<Pigment> read_pigment_block(Reader& reader, Shared<Pigment> from = {});
+Shared<Pigment> read_pattern_block(Reader& reader);
+Shared<Bump> read_normal_block(Reader& reader);
+Shared<Finish> read_finish_block(Reader& reader, Shared<Finish> from = {});
+Shared<Texture> read_texture_block(Reader& reader);
+Shared<Interior> read_interior_block(Reader& reader);
+Shared<MaterialParts> read_material_block(Reader& reader);
+Shared<BlendMap> read_map_block(Reader& reader, Word kind);
+
+// The texture under a transform of the object that has it.
+Shared<Texture> moved(const Shared<Texture>& texture, const Transform& by);
+
+// The mean of the colours that it may have: of a map weighted by the length of its pieces.
+Numbers mean_color(const Pigment& pigment);
+
+// Skips a block in braces, with all in it.
+void skip_block(Reader& reader);
+
+}  // namespace vitrail::pov

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials, glows and opacities of textures.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "importers/povray/read/surface.h"
+#include "scene/records/scene.h"
+
+namespace vitrail::pov {
+
+// A texture where it is: `to_world` takes its space to that of the scene, or of a prototype.
+struct Look {
+  Shared<Texture> texture;
+  Transform to_world;
+  Shared<Interior> interior;
+  bool by_uv = false;  // images lie by (u,v)
+};
+
+// What a Shape takes of it.
+struct Surface {
+  Id<Material> material;
+  std::optional<Id<AreaLight>> glow;
+  FloatParameter opacity = 1.0f;
+};
+
+class Surfaces {
+ public:
+  // `ambient`: what the light of `ambient` is multiplied by; 0 with radiosity.
+  Surfaces(Reader& reader, Scene& scene, Numbers ambient) : reader_(reader), scene_(scene), ambient_(ambient) {}
+
+  Surface of(const Look& look);
+  // Radiance by a pigment, as of a sky: a colour or a texture.
+  SpectrumParameter radiance_of(const Pigment& pigment, const Transform& to_world);
+
+ private:
+  struct Layer {  // a material with its share of what is behind
+    Id<Material> material;
+    FloatParameter opacity = 1.0f;
+    SpectrumParameter glow = Spectrum{ConstantSpectrum{0}};
+    float glow_scale = 0;
+  };
+
+  Surface made(const Look& look);
+  Layer layer_of(const Texture& texture, const Transform& to_world, const Look& look);
+  Layer blended(const Texture& texture, const Transform& to_world, const Look& look);
+  Id<Material> material_of(const Pigment& pigment, const Finish& finish, const Transform& to_world, const Look& look);
+  Id<Material> clear_material(const Pigment& pigment, const Finish& finish, const Interior* interior);
+
+  // Textures (make_textures.cpp). `what` of a colour becomes the value.
+  enum class Part { reflectance, radiance, opacity };
+  SpectrumParameter color_texture(const Pigment& pigment, const Transform& to_world, Part part, double factor,
+                                  bool by_uv);
+  FloatParameter opacity_of(const Pigment& pigment, const Transform& to_world, bool by_uv);
+  SpectrumParameter image_texture(const ImageMap& image, const Pattern& pattern, const Transform& to_world,
+                                  bool by_uv, double factor, const Place& place);
+  std::optional<PatternTexture> pattern_texture(const Pattern& pattern, const Transform& to_world, const Place& place);
+  FloatParameter amount_texture(const Pattern& pattern, const Transform& to_world, double from, double to,
+                                const Place& place, bool second_of_list, std::size_t index);
+
+  Spectrum spectrum_of(const Numbers& color, Part part, double factor) const;
+  float opacity_of(const Numbers& color) const;
+  template <class T>
+  auto append(std::vector<T>& records, T record) {
+    records.push_back(std::move(record));
+    return Id<T>{static_cast<std::uint32_t>(records.size() - 1)};
+  }
+  Id<Material> add(MaterialModel model, const Place& place);
+  Id<vitrail::Texture> add(TextureModel model, bool is_float, const Place& place);
+  Origin origin(const Place& place) const { return {place.file, place.line, place.column}; }
+  void approximated(const std::string& message, const Place& place);
+  void dropped(const std::string& message, const Place& place);
+
+  Reader& reader_;
+  Scene& scene_;
+  Numbers ambient_;
+  std::map<std::string, Surface> made_;
+  std::vector<Shared<Texture>> kept_;
+};
+
+// Whether it is the same wherever it is.
+bool is_plain(const Texture& texture);
+bool is_plain(const Pigment& pigment);
+
+}  // namespace vitrail::pov

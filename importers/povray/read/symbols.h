@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The names of a scene: reserved words, and identifiers with what they stand for at the moment.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "importers/povray/read/value.h"
+
+namespace vitrail::pov {
+
+// A reserved word; `none` is an identifier's. The enumerators end in _, as many are words of C++.
+enum class Word : std::uint16_t {
+  none,
+#define VITRAIL_POV_WORD(name) name##_,
+#include "importers/povray/read/words.inc"
+#undef VITRAIL_POV_WORD
+};
+
+// As scenes write it.
+const char* name_of(Word word);
+
+// Identifiers are looked up in the innermost scope that has them.
+struct Symbol {
+  struct Binding {
+    std::size_t scope = 0;  // 0: global
+    std::shared_ptr<Value> value;
+  };
+  std::string name;
+  Word word = Word::none;
+  std::vector<Binding> bindings;  // the innermost last
+
+  Value* value() const { return bindings.empty() ? nullptr : bindings.back().value.get(); }
+};
+
+class Symbols {
+ public:
+  Symbols();
+  Symbol* find(std::string_view name);  // made where it is new
+
+  // Scopes of macros and included files.
+  void open_scope() { scopes_.emplace_back(); }
+  void close_scope();
+  std::size_t depth() const { return scopes_.size(); }
+
+  // The variable of that scope, which is made where there is none.
+  std::shared_ptr<Value> variable(Symbol* symbol, std::size_t scope);
+  // The variable that the name stands for; a global one is made where there is none.
+  std::shared_ptr<Value> visible(Symbol* symbol);
+  // In the innermost scope, the name stands for another's variable.
+  void alias(Symbol* symbol, std::shared_ptr<Value> value);
+  // The innermost variable of the name goes.
+  void undefine(Symbol* symbol);
+
+  // Names of identifiers that stand for something.
+  std::vector<std::string> defined() const;
+
+ private:
+  std::deque<Symbol> symbols_;
+  std::unordered_map<std::string_view, Symbol*> by_name_;
+  std::vector<std::vector<Symbol*>> scopes_;  // what each has bound; without the global one
+};
+
+}  // namespace vitrail::pov

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/povray/read/world.h"
+
+#include <fmt/format.h>
+
+#include "importers/povray/read/objects.h"
+#include "importers/povray/read/reader.h"
+
+namespace vitrail::pov {
+
+namespace {
+
+void read_global_settings(Reader& reader, World& world) {
+  reader.expect('{', "behind global_settings");
+  for (;;) {
+    reader.comma();
+    const Token token = reader.next();
+    if (token.is('}')) return;
+    if (token.kind != TokenKind::word) reader.unexpected(token, "a part of global_settings");
+    switch (token.symbol->word) {
+      case Word::assumed_gamma_:
+        if (reader.accept(Word::srgb_)) {
+          reader.assumed_gamma.reset();
+          break;
+        }
+        reader.assumed_gamma = reader.number("assumed_gamma");
+        if (!(*reader.assumed_gamma > 0)) reader.fail("assumed_gamma has to be above 0", token.place);
+        if (*reader.assumed_gamma != 1)
+          reader.notes.approximated(
+              "assumed_gamma: colours and lights become linear, in which shading differs from POV-Ray's",
+              reader.location(token.place));
+        break;
+      case Word::max_trace_level_:
+        world.max_trace_level = std::max(1, reader.integer("max_trace_level"));
+        break;
+      case Word::ambient_light_:
+        world.ambient_light = reader.color();
+        break;
+      case Word::radiosity_:
+        world.radiosity = true;
+        skip_block(reader);
+        break;
+      case Word::photons_:
+        skip_block(reader);
+        reader.notes.approximated("photons: paths find what they light, or do not", reader.location(token.place));
+        break;
+      case Word::subsurface_:
+        skip_block(reader);
+        break;
+      case Word::charset_:
+        reader.next();
+        break;
+      default:
+        if (reader.at('{'))
+          skip_block(reader);
+        else if (reader.number_follows())
+          reader.numbers();
+    }
+  }
+}
+
+void drop(Reader& reader, const Token& token) {
+  reader.notes.dropped(token.symbol->name, reader.location(token.place));
+  if (!reader.identifier<Dropped>()) skip_block(reader);
+}
+
+// False: the file ends.
+bool read_statement(Reader& reader, World& world) {
+  if (const auto named = reader.identifier<Shared<Object>>()) {
+    world.objects.push_back(*named);
+    return true;
+  }
+  const Token token = reader.peek();
+  if (token.kind == TokenKind::end) return false;
+  if (token.is(';') || token.is(',')) {
+    reader.next();
+    return true;
+  }
+  if (token.kind != TokenKind::word) reader.unexpected(token, "an object or a directive");
+  const Word word = token.symbol->word;
+  if (names_object(word)) {
+    world.objects.push_back(read_object(reader));
+    return true;
+  }
+  if (word == Word::none && reader.number_follows()) {  // a macro has left a value
+    reader.numbers();
+    return true;
+  }
+  reader.next();
+  switch (word) {
+    case Word::camera_:
+      world.camera = read_camera_block(reader);
+      return true;
+    case Word::global_settings_:
+      read_global_settings(reader, world);
+      return true;
+    case Word::background_:
+      reader.expect('{', "behind background");
+      world.background = reader.color();
+      world.background_place = token.place;
+      reader.expect('}', "at the end of background");
+      return true;
+    case Word::sky_sphere_:
+      world.sky = read_sky_sphere_block(reader);
+      return true;
+    case Word::fog_:
+    case Word::rainbow_:
+    case Word::media_:
+      drop(reader, token);
+      return true;
+    case Word::max_trace_level_:  // of version 1
+      world.max_trace_level = reader.integer("max_trace_level");
+      return true;
+    default:
+      reader.unexpected(token, "an object or a directive");
+  }
+}
+
+}  // namespace
+
+World read_world(Reader& reader) {
+  World world;
+  while (read_statement(reader, world)) {
+  }
+  return world;
+}
+
+void Reader::set_defaults() {
+  expect('{', "behind #default");
+  auto texture = defaults.texture ? std::make_shared<Texture>(*defaults.texture) : std::make_shared<Texture>();
+  while (!accept('}')) {
+    const Token token = next();
+    if (token.is(Word::texture_)) {
+      *texture = *read_texture_block(*this);
+    } else if (token.is(Word::pigment_)) {
+      texture->pigment = read_pigment_block(*this);
+    } else if (token.is(Word::normal_)) {
+      texture->normal = read_normal_block(*this);
+    } else if (token.is(Word::finish_)) {
+      texture->finish = read_finish_block(*this, texture->finish);
+    } else if (token.is(Word::radiosity_) || token.is(Word::camera_)) {
+      skip_block(*this);
+    } else {
+      unexpected(token, "texture, pigment, normal or finish");
+    }
+  }
+  defaults.texture = texture;
+}
+
+}  // namespace vitrail::pov

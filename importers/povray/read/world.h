@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene as its file says it, before it becomes a Scene.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "importers/povray/read/object.h"
+#include "importers/povray/read/view.h"
+
+namespace vitrail::pov {
+
+class Reader;
+
+struct World {
+  std::vector<Shared<Object>> objects;
+  Shared<CameraView> camera;
+  Shared<SkySphere> sky;
+  std::optional<Numbers> background;
+  std::optional<Numbers> ambient_light;
+  bool radiosity = false;
+  int max_trace_level = 5;
+  Place background_place;
+};
+
+// Reads the file to its end.
+World read_world(Reader& reader);
+
+}  // namespace vitrail::pov

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// POV-Ray's scene language, and what its objects become. Values were printed by povray 3.7 where they are not obvious.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "importers/povray/read/povray.h"
+#include "importers/povray/read/reader.h"
+#include "tests/importers/temporary_folder.h"
+
+namespace vitrail {
+namespace {
+
+class ReadPovray : public ::testing::Test {
+ protected:
+  std::filesystem::path file(const std::string& text, const std::string& name = "scene.pov") {
+    const auto path = folder_.path() / name;
+    std::ofstream(path) << text;
+    return path;
+  }
+  ImportedScene read(const std::string& text) { return read_povray(file(text)); }
+  // What an expression gives, behind statements.
+  pov::Numbers value(const std::string& expression, const std::string& before = "") {
+    pov::Reader reader(file(before + "\n#declare Result_ = " + expression + ";\n"), {{folder_.path()}}, {});
+    while (reader.next().kind != pov::TokenKind::end) {
+    }
+    return std::get<pov::Numbers>(*reader.symbols().find("Result_")->value());
+  }
+  double number(const std::string& expression, const std::string& before = "") {
+    return value(expression, before).v[0];
+  }
+  Error error(const std::string& text) {
+    try {
+      read(text);
+    } catch (const Error& e) {
+      return e;
+    }
+    ADD_FAILURE() << "no error: " << text;
+    return Error("");
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReadPovray, Expressions) {
+  EXPECT_DOUBLE_EQ(number("1 + 2*3 - 4/2"), 5);
+  EXPECT_DOUBLE_EQ(number("-2*-2"), 4);
+  EXPECT_DOUBLE_EQ(number("(0.5 < 1 ? 3 : 4)"), 3);
+  EXPECT_DOUBLE_EQ(number("mod(-7,3)"), -1);
+  EXPECT_DOUBLE_EQ(number("div(-7,3)"), -2);
+  EXPECT_DOUBLE_EQ(number("vlength(<3,4,0>)"), 5);
+  EXPECT_DOUBLE_EQ(number("vrotate(x,<0,0,90>).y"), 1);
+  EXPECT_NEAR(number("vaxis_rotate(x,y,90).z"), -1, 1e-12);
+  EXPECT_DOUBLE_EQ(number("(2*<1,2,3>+y).y"), 5);
+  EXPECT_DOUBLE_EQ(number("strlen(concat(\"ab\",str(1/3,0,-1)))"), 10);
+}
+
+TEST_F(ReadPovray, ColoursAreOfFiveTerms) {
+  const pov::Numbers c = value("rgbt <1,0.5,0.25,0.2>*0.5");
+  EXPECT_TRUE(c.is_color);
+  EXPECT_DOUBLE_EQ(c.v[1], 0.25);
+  EXPECT_DOUBLE_EQ(c.v[3], 0);
+  EXPECT_DOUBLE_EQ(c.v[4], 0.1);
+}
+
+TEST_F(ReadPovray, RandomNumbersAreThoseOfPovray) {
+  const std::string before = "#declare S = seed(0); #declare A = rand(S);";
+  EXPECT_DOUBLE_EQ(number("A*4294967295", before), 12345);
+  EXPECT_DOUBLE_EQ(number("rand(S)*4294967295", before), 2003875766);
+}
+
+TEST_F(ReadPovray, LoopsAndBranches) {
+  EXPECT_DOUBLE_EQ(number("I", "#declare I = 0; #while (I < 10) #declare I = I + 1; #if (I = 7) #break #end #end"), 7);
+  EXPECT_DOUBLE_EQ(number("N", "#declare N = 0; #for (I, 1, 4) #for (J, 1, I) #declare N = N + 1; #end #end"), 10);
+  EXPECT_DOUBLE_EQ(number("N", "#declare N = 0; #switch (1) #case (0) #declare N = N + 1; #case (1) #declare N = N + "
+                               "10; #case (2) #declare N = N + 100; #break #else #declare N = 1000; #end"), 110);
+  EXPECT_DOUBLE_EQ(number("N", "#ifdef (Q) #declare N = 1; #else #if (no) #declare N = 2; #elseif (1) #declare N = 3; #end #end"), 3);
+}
+
+TEST_F(ReadPovray, MacrosChangeWhatTheyAreGiven) {
+  const std::string before = "#macro P(X) #declare X = 3; #end #macro F(N) (N > 0 ? 1 : 0) #end #declare A = 1; P(A) P(New)";
+  EXPECT_DOUBLE_EQ(number("A + New + F(2)", before), 7);
+  EXPECT_DOUBLE_EQ(number("A", before + "#macro L() #local A = 9; #end L()"), 3);
+}
+
+TEST_F(ReadPovray, ArraysAndSplines) {
+  EXPECT_DOUBLE_EQ(number("A[1][0] + dimension_size(A,2)", "#declare A = array[2][3] {{1,2,3},{4,5,6}}"), 7);
+  EXPECT_DOUBLE_EQ(number("B[0]", "#declare A = array[1] {1} #declare B = A; #declare A[0] = 2;"), 1);
+  const std::string spline = "#declare S = spline { natural_spline 0,<0,0,0> 1,<1,2,3> 2,<5,5,5> 4,<0,1,2> }";
+  EXPECT_NEAR(number("S(3).x", spline), 4.391, 5e-4);
+  EXPECT_NEAR(number("S(0.5).y", spline), 0.821, 5e-4);
+}
+
+TEST_F(ReadPovray, FunctionsAreCompiled) {
+  EXPECT_DOUBLE_EQ(number("F(3,4,0)", "#declare F = function { sqrt(x*x + y*y) - z }"), 5);
+  EXPECT_DOUBLE_EQ(number("G(2)", "#declare F = function(a,b) { select(a-b, 1, 2, 3) } #declare G = function(q) { F(q,2) + F(1,q)*10 }"), 12);
+}
+
+TEST_F(ReadPovray, TextFilesStayInMemory) {
+  EXPECT_DOUBLE_EQ(number("A + B.y", "#fopen F \"t.txt\" write #write (F, 4, \",\", <1,2,3>) #fclose F "
+                                     "#fopen F \"t.txt\" read #read (F, A, B)"), 6);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "t.txt"));
+}
+
+TEST_F(ReadPovray, ErrorsNameTheirPlaceAndWhatLeadsThere) {
+  const Error undeclared = error("sphere { 0, 1 }\n  box { 0, Sixe }\n");
+  EXPECT_EQ(undeclared.location.line, 2);
+  EXPECT_EQ(undeclared.location.column, 12);
+  EXPECT_NE(std::string(undeclared.what()).find("'Sixe' is not declared"), std::string::npos);
+  EXPECT_EQ(undeclared.excerpt, "  box { 0, Sixe }");
+  file("#macro M()\n sphere { 0 }\n#end\n", "m.inc");
+  const std::string nested = error("#include \"m.inc\"\nM()\n").what();
+  EXPECT_NE(nested.find("in macro M, called at"), std::string::npos) << nested;
+  EXPECT_NE(std::string(error("#if (1)\n").what()).find("no #end"), std::string::npos);
+  EXPECT_NE(std::string(error("#include \"nowhere.inc\"\n").what()).find("there is no file"), std::string::npos);
+  EXPECT_NE(std::string(error("#macro R() R() R() #end R()").what()).find("too deep"), std::string::npos);
+}
+
+TEST_F(ReadPovray, ASceneOfAllKinds) {
+  const ImportedScene imported = read(R"(#version 3.7; global_settings { assumed_gamma 1 }
+camera { location <0,0,-4> right 2*x up y direction z }
+light_source { <1,2,3>, rgb 2 }
+light_source { 0, 1 spotlight radius 10 falloff 20 point_at z fade_distance 2 fade_power 2 }
+sphere { <1,2,3>, 4 pigment { rgb <1,.5,.25> } finish { ambient 0 diffuse 0.5 } }
+box { 0, 1 scale <1,2,3> }
+cylinder { 0, y, 0.5 open }
+plane { y, -1 }
+difference { box { -1, 1 } box { 0, 2 } }
+torus { 1, 0.25 }
+mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0,1,2> } })");
+  const Scene& scene = imported.scene;
+  ASSERT_EQ(scene.lights.size(), 2u);
+  const auto& point = std::get<PointLight>(scene.lights[0].model);
+  EXPECT_EQ(point.position, (Point3d{1, 2, 3}));
+  ASSERT_TRUE(point.fading);
+  EXPECT_NEAR(luminance(point.intensity), 2 * M_PI, 1e-3);
+  const auto& spot = std::get<SpotLight>(scene.lights[1].model);
+  EXPECT_EQ(spot.fading->fade_distance, 2);
+  EXPECT_FLOAT_EQ(spot.cutoff_deg, 20);
+  ASSERT_GE(scene.shapes.size(), 7u);
+  const Transform sphere = scene.shapes[0].object_to_world;
+  EXPECT_EQ(transform_point(sphere, {0, 0, 1}), (Point3d{1, 2, 7}));
+  const auto& diffuse = std::get<DiffuseMaterial>(scene.materials.at(scene.shapes[0].material.value).model);
+  EXPECT_NEAR(std::get<SigmoidSpectrum>(std::get<Spectrum>(diffuse.reflectance)).rgb[0], 0.5, 1e-6);
+  EXPECT_TRUE(scene.settings.direct_only);
+  const auto& camera = std::get<PerspectiveCamera>(scene.camera);
+  EXPECT_DOUBLE_EQ(camera.screen.x1, 1);
+  EXPECT_DOUBLE_EQ(camera.screen.y1, 0.5);
+  EXPECT_EQ(scene.film.width, 2 * scene.film.height);
+}
+
+}  // namespace
+}  // namespace vitrail
