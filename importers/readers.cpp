@@ -101,7 +101,7 @@ const std::vector<Reader>& readers() {
        .has_many_cameras = true},
       {.name = "POV-Ray",
        .suffixes = {".pov"},
-       .gzipped = true,
+       .gzipped = false,
        .sniff = nullptr,
        .read = [](ReadRequest r) { return read_povray(r.file, std::move(r.memory), r.options); },
        .adds_view = true,
