@@ -39,7 +39,8 @@ bool holds(const Contour& c, Point2d at, const Plane& plane) {
   bool inside = false;
   for (std::size_t i = 0; i < c.size(); ++i) {
     const Point2d p = plane.of(c[i]), q = plane.of(c[(i + 1) % c.size()]);
-    if ((p.y > at.y) != (q.y > at.y) && at.x < (q.x - p.x) * (at.y - p.y) / (q.y - p.y) + p.x) inside = !inside;
+    if ((p.y > at.y) != (q.y > at.y) && at.x < (q.x - p.x) * (at.y - p.y) / (q.y - p.y) + p.x)
+      inside = !inside;
   }
   return inside;
 }
@@ -61,7 +62,8 @@ void join(Contour& outer, Contour hole, const Plane& plane) {
   for (std::size_t i = 0; i < outer.size(); ++i)
     for (std::size_t j = 0; j < hole.size(); ++j) pairs.emplace_back(i, j);
   const auto distance = [&](const auto& pair) { return length(outer[pair.first] - hole[pair.second]); };
-  std::sort(pairs.begin(), pairs.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  std::sort(pairs.begin(), pairs.end(),
+            [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   const auto free = std::find_if(pairs.begin(), pairs.end(), [&](const auto& pair) {
     const Point2d from = plane.of(outer[pair.first]), to = plane.of(hole[pair.second]);
     return !crosses(outer, from, to, plane) && !crosses(hole, from, to, plane);

@@ -146,7 +146,8 @@ void Reader::open_switch(const Token& directive) {
 void Reader::part(const Token& directive) {
   auto& blocks = frame().blocks;
   const Word word = directive.symbol->word;
-  if (blocks.empty()) fail(fmt::format("#{} without #if or #switch", directive.symbol->name), directive.place);
+  if (blocks.empty())
+    fail(fmt::format("#{} without #if or #switch", directive.symbol->name), directive.place);
   if (word == Word::end_) {
     blocks.pop_back();
     return;
@@ -164,7 +165,8 @@ void Reader::part(const Token& directive) {
   }
   const Place opened = block.place;
   std::uint32_t match = directive.match;
-  for (Token next = skip_part(match, opened); next.symbol->word != Word::end_; next = skip_part(match, opened))
+  for (Token next = skip_part(match, opened); next.symbol->word != Word::end_;
+       next = skip_part(match, opened))
     match = next.match;
   frame().blocks.pop_back();
 }
@@ -235,7 +237,8 @@ Reader::Body Reader::body(const Token& directive) {
       fail(error.what(), error.place);
     }
     count_token();
-    if (token.kind == TokenKind::end) fail(fmt::format("this #{} has no #end", directive.symbol->name), directive.place);
+    if (token.kind == TokenKind::end)
+      fail(fmt::format("this #{} has no #end", directive.symbol->name), directive.place);
     if (token.kind == TokenKind::directive) {
       const Word word = token.symbol->word;
       const auto index = static_cast<std::uint32_t>(buffer->size());
@@ -334,7 +337,8 @@ void Reader::invoke(const Token& name, const Shared<Macro>& macro) {
     }
   }
   if (arguments.size() < macro->parameters.size())
-    fail(fmt::format("macro {} takes {} arguments, not {}", macro->name, macro->parameters.size(), arguments.size()),
+    fail(fmt::format("macro {} takes {} arguments, not {}", macro->name, macro->parameters.size(),
+                     arguments.size()),
          name.place);
   Frame call;
   call.kind = FrameKind::macro;
@@ -344,7 +348,8 @@ void Reader::invoke(const Token& name, const Shared<Macro>& macro) {
   call.begin = call.at = macro->begin, call.end = macro->end;
   push(std::move(call));
   symbols_.open_scope();
-  for (std::size_t i = 0; i < arguments.size(); ++i) symbols_.alias(macro->parameters[i], std::move(arguments[i]));
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    symbols_.alias(macro->parameters[i], std::move(arguments[i]));
   declaring_ = declaring, comparing_ = comparing, first_ = first;
 }
 
@@ -355,7 +360,8 @@ void Reader::include(const Token& directive) {
     for (const Frame& open : frames_) files += open.kind == FrameKind::file;
     if (files >= most_included) fail("too many files include each other", directive.place);
   }
-  const auto path = written_files_.contains(name) ? std::filesystem::path(name) : find_file(name, directive.place);
+  const auto path =
+      written_files_.contains(name) ? std::filesystem::path(name) : find_file(name, directive.place);
   open_file(path, name, directive.place);
   symbols_.open_scope();
 }

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "importers/povray/read/function.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/spline.h"
-#include "importers/povray/read/function.h"
 #include "scene/spectra/color.h"
 
 namespace vitrail::pov {
@@ -239,8 +239,10 @@ Numbers Reader::bracketed_vector() {
 Numbers Reader::color_of_terms(Word word) {
   Numbers given = sum();
   const bool encoded = word >= Word::srgb_ && word <= Word::srgbt_;
-  const bool filter = word == Word::rgbf_ || word == Word::rgbft_ || word == Word::srgbf_ || word == Word::srgbft_;
-  const bool transmit = word == Word::rgbt_ || word == Word::rgbft_ || word == Word::srgbt_ || word == Word::srgbft_;
+  const bool filter =
+      word == Word::rgbf_ || word == Word::rgbft_ || word == Word::srgbf_ || word == Word::srgbft_;
+  const bool transmit =
+      word == Word::rgbt_ || word == Word::rgbft_ || word == Word::srgbt_ || word == Word::srgbft_;
   const int wanted = 3 + filter + transmit;
   if (!given.is_color) {
     given = given.promoted(given.terms == 1 ? wanted : std::max(given.terms, wanted));
@@ -309,8 +311,9 @@ bool Reader::number_follows() {
           const auto& all = (*array)->elements;
           return std::any_of(all.begin(), all.end(),
                              [](const Value& v) { return std::holds_alternative<Numbers>(v); }) ||
-                 std::any_of(all.begin(), all.end(),
-                             [](const Value& v) { return std::holds_alternative<std::shared_ptr<Array>>(v); });
+                 std::any_of(all.begin(), all.end(), [](const Value& v) {
+                   return std::holds_alternative<std::shared_ptr<Array>>(v);
+                 });
         }
         return std::holds_alternative<Numbers>(*value) || std::holds_alternative<Shared<Function>>(*value) ||
                std::holds_alternative<std::shared_ptr<Spline>>(*value);

@@ -58,7 +58,8 @@ Bounds3d shape_box(const Object& object) {
     extend(box, around_disc(s->cap, s->cap - s->base, s->cap_radius));
     return box;
   }
-  if (const auto* s = std::get_if<DiscShape>(&object.shape)) return around_disc(s->center, s->normal, s->radius);
+  if (const auto* s = std::get_if<DiscShape>(&object.shape))
+    return around_disc(s->center, s->normal, s->radius);
   if (const auto* s = std::get_if<MeshShape>(&object.shape)) {
     Bounds3d box;
     for (const auto& part : s->parts)

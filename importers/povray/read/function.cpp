@@ -55,13 +55,20 @@ class Compiler {
     for (;;) {
       const Token token = reader_.peek();
       Op op;
-      if (token.is('<')) op = Op::less;
-      else if (token.is('>')) op = Op::greater;
-      else if (token.is('l')) op = Op::less_equal;
-      else if (token.is('g')) op = Op::greater_equal;
-      else if (token.is('=')) op = Op::equal;
-      else if (token.is('n')) op = Op::unequal;
-      else return;
+      if (token.is('<'))
+        op = Op::less;
+      else if (token.is('>'))
+        op = Op::greater;
+      else if (token.is('l'))
+        op = Op::less_equal;
+      else if (token.is('g'))
+        op = Op::greater_equal;
+      else if (token.is('='))
+        op = Op::equal;
+      else if (token.is('n'))
+        op = Op::unequal;
+      else
+        return;
       reader_.next();
       sum();
       emit(op, -1);
@@ -70,24 +77,34 @@ class Compiler {
   void sum() {
     product();
     for (;;) {
-      if (reader_.accept('+')) product(), emit(Op::add, -1);
-      else if (reader_.accept('-')) product(), emit(Op::subtract, -1);
-      else return;
+      if (reader_.accept('+'))
+        product(), emit(Op::add, -1);
+      else if (reader_.accept('-'))
+        product(), emit(Op::subtract, -1);
+      else
+        return;
     }
   }
   void product() {
     unary();
     for (;;) {
-      if (reader_.accept('*')) unary(), emit(Op::multiply, -1);
-      else if (reader_.accept('/')) unary(), emit(Op::divide, -1);
-      else return;
+      if (reader_.accept('*'))
+        unary(), emit(Op::multiply, -1);
+      else if (reader_.accept('/'))
+        unary(), emit(Op::divide, -1);
+      else
+        return;
     }
   }
   void unary() {
-    if (reader_.accept('-')) unary(), emit(Op::negate, 0);
-    else if (reader_.accept('!')) unary(), emit(Op::invert, 0);
-    else if (reader_.accept('+')) unary();
-    else operand();
+    if (reader_.accept('-'))
+      unary(), emit(Op::negate, 0);
+    else if (reader_.accept('!'))
+      unary(), emit(Op::invert, 0);
+    else if (reader_.accept('+'))
+      unary();
+    else
+      operand();
   }
 
   bool parameter(const Token& token) {
@@ -120,7 +137,8 @@ class Compiler {
   void call(const Shared<Function>& callee, const Token& name) {
     const std::size_t count = arguments();
     if (callee->unknown) {
-      reader_.notes.approximated("a formula of functions.inc that is not known: 0", reader_.location(name.place));
+      reader_.notes.approximated("a formula of functions.inc that is not known: 0",
+                                 reader_.location(name.place));
       Instruction drop;
       drop.op = Op::two, drop.two = [](double a, double) { return a; };
       for (std::size_t i = 1; i < count; ++i) emit(drop, -1);
@@ -131,7 +149,8 @@ class Compiler {
     if (callee->pigment || callee->placement)
       reader_.fail("functions of pigments and transformations in other functions are not read", name.place);
     if (count != wanted)
-      reader_.fail(fmt::format("function {} takes {} arguments, not {}", name.symbol->name, wanted, count), name.place);
+      reader_.fail(fmt::format("function {} takes {} arguments, not {}", name.symbol->name, wanted, count),
+                   name.place);
     Instruction i;
     i.op = Op::call;
     i.index = static_cast<std::uint32_t>(function_.callees.size());
@@ -347,8 +366,9 @@ Value call_function(Reader& reader, const Function& function, const std::vector<
     return Numbers(0.0);
   }
   if (arguments.size() != wanted)
-    reader.fail(fmt::format("function {} takes {} arguments, not {}", name.symbol->name, wanted, arguments.size()),
-                name.place);
+    reader.fail(
+        fmt::format("function {} takes {} arguments, not {}", name.symbol->name, wanted, arguments.size()),
+        name.place);
   return Numbers(evaluate(function, arguments.data()));
 }
 

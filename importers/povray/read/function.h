@@ -52,10 +52,10 @@ struct Function {
   std::vector<Shared<Function>> callees;
   double (*built_in)(const double* arguments) = nullptr;  // in place of code, of so many arguments
   std::size_t count = 3;
-  bool unknown = false;          // a formula that is not known here: 0
-  std::size_t depth = 0;         // of the stack
-  Shared<Pigment> pigment;       // in place of code: a colour at a point
-  Shared<Placement> placement;   // in place of code: a point moved
+  bool unknown = false;         // a formula that is not known here: 0
+  std::size_t depth = 0;        // of the stack
+  Shared<Pigment> pigment;      // in place of code: a colour at a point
+  Shared<Placement> placement;  // in place of code: a point moved
 };
 
 // The value for `count` arguments. Thread-safe; never throws.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -17,16 +18,62 @@ namespace {
 // A set without end is looked at within a box; on its own, within this one.
 const Bounds3d alone{{-20, -20, -20}, {20, 20, 20}};
 
+Bounds3d common(const Bounds3d& a, const Bounds3d& b) {
+  Bounds3d both;
+  for (int axis = 0; axis < 3; ++axis) {
+    both.lower[axis] = std::max(a.lower[axis], b.lower[axis]);
+    both.upper[axis] = std::min(a.upper[axis], b.upper[axis]);
+  }
+  return both;
+}
+
+Bounds3d bounds_of_seen(const solids::Solid& solid) {
+  Bounds3d bounds;
+  for (std::size_t t = 0; t < solid.triangles.size(); ++t)
+    if (solid.surfaces[t] != solids::unseen)
+      for (const std::uint32_t corner : solid.triangles[t]) extend(bounds, solid.positions[corner]);
+  return bounds;
+}
+
+// The surface within `box`. What is much smaller than the box may lie between the points of its lattice: it
+// is looked for in cubes around the origin, each half the one before, and then in what is found.
+solids::Solid surface_within(const solids::Field& field, const Bounds3d& box) {
+  solids::Implicit implicit;
+  implicit.field = field;
+  implicit.open = true;
+  implicit.cells = 24;
+  implicit.most_halvings = 0;
+  Bounds3d found, container = box;
+  for (double half = alone.upper.x; half > 0.1 && found.empty(); half /= 2) {
+    const Bounds3d cube = common(box, Bounds3d{{-half, -half, -half}, {half, half, half}});
+    container = half == alone.upper.x || cube.empty() ? box : cube;
+    implicit.container = container;
+    found = bounds_of_seen(solids::implicit(implicit));
+  }
+  for (int times = 0; times < 4 && !found.empty(); ++times) {
+    const Vector3d size = extent(container);
+    const double margin = 2 * std::max({size.x, size.y, size.z}) / implicit.cells;
+    const Vector3d wider{margin, margin, margin};
+    const Bounds3d closer = common(container, Bounds3d{found.lower - wider, found.upper + wider});
+    const Vector3d smaller = extent(closer);
+    if (smaller.x * smaller.y * smaller.z > 0.5 * size.x * size.y * size.z) break;
+    implicit.container = container = closer;
+    found = bounds_of_seen(solids::implicit(implicit));
+  }
+  solids::Implicit fine;
+  fine.field = field;
+  fine.open = true;
+  fine.container = container;
+  return solids::implicit(fine);
+}
+
 SolidShape endless(Reader& reader, const Place& place, int order, std::vector<double> coefficients) {
   const auto within = [order, coefficients](const Bounds3d& box) {
-    solids::Implicit implicit;
-    implicit.field = solids::polynomial(order, coefficients);
-    implicit.container = box;
-    implicit.open = true;
-    return solids::implicit(implicit);
+    return surface_within(solids::polynomial(order, coefficients), box);
   };
-  reader.notes.approximated("a surface of a polynomial: what is within 20 of the origin, or of what it is cut by",
-                            reader.location(place));
+  reader.notes.approximated(
+      "a surface of a polynomial: what is within 20 of the origin, or of what it is cut by",
+      reader.location(place));
   return {[within] { return within(alone); }, within};
 }
 
@@ -149,11 +196,16 @@ SolidShape isosurface(Reader& reader) {
   for (;;) {
     reader.comma();
     const Token t = reader.next();
-    if (t.is(Word::contained_by_)) implicit.container = read_container(reader);
-    else if (t.is(Word::threshold_)) threshold = reader.number("the threshold of an isosurface");
-    else if (t.is(Word::max_gradient_)) implicit.max_gradient = reader.number("max_gradient");
-    else if (t.is(Word::open_)) implicit.open = true;
-    else if (t.is(Word::accuracy_) || t.is(Word::max_trace_)) reader.numbers();
+    if (t.is(Word::contained_by_))
+      implicit.container = read_container(reader);
+    else if (t.is(Word::threshold_))
+      threshold = reader.number("the threshold of an isosurface");
+    else if (t.is(Word::max_gradient_))
+      implicit.max_gradient = reader.number("max_gradient");
+    else if (t.is(Word::open_))
+      implicit.open = true;
+    else if (t.is(Word::accuracy_) || t.is(Word::max_trace_))
+      reader.numbers();
     else if (t.is(Word::evaluate_)) {
       for (int i = 0; i < 3; ++i) reader.numbers(), reader.comma();
     } else if (!t.is(Word::all_intersections_)) {
@@ -184,11 +236,14 @@ SolidShape parametric(Reader& reader) {
   for (;;) {
     reader.comma();
     const Token t = reader.next();
-    if (t.is(Word::contained_by_)) surface.contained_by = read_container(reader);
-    else if (t.is(Word::max_gradient_) || t.is(Word::accuracy_)) reader.numbers();
+    if (t.is(Word::contained_by_))
+      surface.contained_by = read_container(reader);
+    else if (t.is(Word::max_gradient_) || t.is(Word::accuracy_))
+      reader.numbers();
     else if (t.is(Word::precompute_)) {
       reader.numbers();
-      while (reader.accept(',') || reader.peek().is(Word::x_) || reader.peek().is(Word::y_) || reader.peek().is(Word::z_))
+      while (reader.accept(',') || reader.peek().is(Word::x_) || reader.peek().is(Word::y_) ||
+             reader.peek().is(Word::z_))
         reader.numbers();
     } else {
       reader.put_back(t);
@@ -220,10 +275,13 @@ SolidShape height_field(Reader& reader, const Place& place) {
   for (;;) {
     reader.comma();
     const Token t = reader.next();
-    if (t.is(Word::smooth_)) field.smooth = reader.flag();
-    else if (t.is(Word::water_level_)) field.water_level = reader.number("water_level");
-    else if (t.is(Word::gamma_)) { if (!reader.accept(Word::srgb_)) reader.numbers(); }
-    else if (!t.is(Word::premultiplied_)) {
+    if (t.is(Word::smooth_))
+      field.smooth = reader.flag();
+    else if (t.is(Word::water_level_))
+      field.water_level = reader.number("water_level");
+    else if (t.is(Word::gamma_)) {
+      if (!reader.accept(Word::srgb_)) reader.numbers();
+    } else if (!t.is(Word::premultiplied_)) {
       reader.put_back(t);
       break;
     } else {

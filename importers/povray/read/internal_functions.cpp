@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formulas of functions.inc, as its comments and POV-Ray's documentation name them; signs are those that povray shows.
+// Formulas of functions.inc, as its comments and POV-Ray's documentation name them; signs are those that
+// povray shows.
 #include <algorithm>
 #include <cmath>
 
@@ -43,9 +44,10 @@ double hetero_mf(const double* a) {  // P3 offset, P4 T
 
 // a: x, y, z, and then the parameters.
 constexpr Known known[] = {
-    {17, 6, [](const double* a) { return hypotenuse(a[0] * a[3], a[1] * a[4], a[2] * a[5]); }},  // f_ellipsoid
+    {17, 6,
+     [](const double* a) { return hypotenuse(a[0] * a[3], a[1] * a[4], a[2] * a[5]); }},  // f_ellipsoid
     {29, 9, hetero_mf},
-    {45, 4, [](const double* a) { return -a[3] * (a[1] - a[0] * a[0] - a[2] * a[2]); }},         // f_paraboloid
+    {45, 4, [](const double* a) { return -a[3] * (a[1] - a[0] * a[0] - a[2] * a[2]); }},  // f_paraboloid
     {47, 3, [](const double* a) { return std::atan2(std::sqrt(a[0] * a[0] + a[2] * a[2]), a[1]); }},  // f_ph
     {57, 3, [](const double* a) { return hypotenuse(a[0], a[1], a[2]); }},                            // f_r
     {59, 9, ridged_mf},
@@ -68,8 +70,8 @@ constexpr Known known[] = {
      [](const double* a) {  // f_torus
        return std::hypot(std::hypot(a[0], a[2]) - a[3], a[1]) - a[4];
      }},
-    {76, 3, noise_of},                                                    // f_noise3d
-    {78, 4, noise_of},                                                    // f_noise_generator
+    {76, 3, noise_of},  // f_noise3d
+    {78, 4, noise_of},  // f_noise_generator
 };
 
 }  // namespace

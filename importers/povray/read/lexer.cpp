@@ -90,8 +90,9 @@ Token Lexer::next() {
     ++at_, token.sign = c == '<' ? 'l' : c == '>' ? 'g' : 'n';
   constexpr std::string_view signs = "{}()[]<>,;=+-*/!&|?:.@$%^~`'";
   if (signs.find(c) == std::string_view::npos)
-    throw LexicalError(fmt::format("a character of code {} does not belong here", static_cast<unsigned char>(c)),
-                       token.place);
+    throw LexicalError(
+        fmt::format("a character of code {} does not belong here", static_cast<unsigned char>(c)),
+        token.place);
   return token;
 }
 

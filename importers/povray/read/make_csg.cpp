@@ -23,13 +23,15 @@ solids::Solid solid_of(const MeshShape& shape) {
       std::array<Normal3f, 3> normals;
       for (std::size_t i = 0; i < 3; ++i) {
         const Point3f p = mesh.positions[t[i]];
-        const auto [at, added] = places.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(solid.positions.size()));
+        const auto [at, added] =
+            places.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(solid.positions.size()));
         if (added) solid.positions.push_back(cast<double>(p));
         corners[i] = at->second;
         if (!mesh.normals.empty()) normals[i] = mesh.normals[t[i]];
       }
       if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2]) continue;
-      const Point3d a = solid.positions[corners[0]], b = solid.positions[corners[1]], c = solid.positions[corners[2]];
+      const Point3d a = solid.positions[corners[0]], b = solid.positions[corners[1]],
+                    c = solid.positions[corners[2]];
       if (mesh.normals.empty()) normals.fill(to_normal(cast<float>(normalize(cross(b - a, c - a)))));
       solid.triangles.push_back(corners);
       solid.normals.push_back(normals);
@@ -45,9 +47,12 @@ solids::Solid solid_of(const MeshShape& shape) {
 
 std::optional<solids::Csg> SceneMaker::shape_csg(const Object& object, std::uint32_t surface) {
   using namespace solids;
-  if (const auto* s = std::get_if<SphereShape>(&object.shape)) return solid(sphere(s->center, s->radius), surface);
-  if (const auto* s = std::get_if<BoxShape>(&object.shape)) return solid(box(s->corner1, s->corner2), surface);
-  if (const auto* s = std::get_if<PlaneShape>(&object.shape)) return half_space({s->normal, s->distance}, surface);
+  if (const auto* s = std::get_if<SphereShape>(&object.shape))
+    return solid(sphere(s->center, s->radius), surface);
+  if (const auto* s = std::get_if<BoxShape>(&object.shape))
+    return solid(box(s->corner1, s->corner2), surface);
+  if (const auto* s = std::get_if<PlaneShape>(&object.shape))
+    return half_space({s->normal, s->distance}, surface);
   if (const auto* s = std::get_if<ConeShape>(&object.shape))
     return solid(cone({s->base, s->base_radius, s->cap, s->cap_radius, s->open}), surface);
   if (const auto* s = std::get_if<DiscShape>(&object.shape))
@@ -60,8 +65,8 @@ std::optional<solids::Csg> SceneMaker::shape_csg(const Object& object, std::uint
   return std::nullopt;
 }
 
-std::optional<solids::Csg> SceneMaker::csg_of(const Object& object, const Transform& parent_to_set, const Look& look,
-                                              std::vector<Look>& looks) {
+std::optional<solids::Csg> SceneMaker::csg_of(const Object& object, const Transform& parent_to_set,
+                                              const Look& look, std::vector<Look>& looks) {
   using namespace solids;
   Look own = look;
   if (object.texture) own.texture = object.texture, own.to_world = parent_to_set;
@@ -72,7 +77,8 @@ std::optional<solids::Csg> SceneMaker::csg_of(const Object& object, const Transf
     std::vector<Csg> operands;
     for (const auto& child : object.children) {
       if (std::holds_alternative<LightShape>(child->shape)) {
-        reader_.notes.dropped("a light in a difference, intersection or merge", reader_.location(child->place));
+        reader_.notes.dropped("a light in a difference, intersection or merge",
+                              reader_.location(child->place));
         continue;
       }
       if (auto operand = csg_of(*child, to_set, own, looks)) operands.push_back(std::move(*operand));
@@ -117,16 +123,20 @@ std::vector<SceneMaker::Piece> SceneMaker::evaluated(const solids::Csg& csg, con
   const solids::CsgResult result = solids::evaluate(csg, {.reach = reach_});
   const SourceLocation place = reader_.location(object.place);
   for (const std::string& reason : result.refused)
-    reader_.notes.approximated(fmt::format("a set of objects: an operation is left out, as {}", reason), place);
+    reader_.notes.approximated(fmt::format("a set of objects: an operation is left out, as {}", reason),
+                               place);
   if (result.perturbation > 0)
     reader_.notes.approximated(
-        fmt::format("a set of objects: a part is moved by {:.1g} of its size, as surfaces touch", result.perturbation), place);
+        fmt::format("a set of objects: a part is moved by {:.1g} of its size, as surfaces touch",
+                    result.perturbation),
+        place);
   std::vector<Piece> pieces;
   for (const std::uint32_t surface : solids::surfaces_of(result.solid)) {
     TriangleMesh mesh = solids::mesh_of(result.solid, surface);
     if (mesh.triangles.empty()) continue;
     Piece piece{add_mesh(std::move(mesh)), {}, {}};
-    if (surface < looks.size() && (looks[surface].texture || looks[surface].interior)) piece.look = looks[surface];
+    if (surface < looks.size() && (looks[surface].texture || looks[surface].interior))
+      piece.look = looks[surface];
     pieces.push_back(piece);
   }
   return pieces;

@@ -32,7 +32,8 @@ std::vector<Vector3d> grid_of(const LightShape& light) {
 
 void SceneMaker::add_light(const Object& object, const LightShape& light, const Transform& to_world) {
   const SourceLocation place = reader_.location(object.place);
-  const Point3d at = transform_point(to_world, light.position), target = transform_point(to_world, light.point_at);
+  const Point3d at = transform_point(to_world, light.position),
+                target = transform_point(to_world, light.point_at);
   if (light.shadowless) reader_.notes.approximated("shadowless: the light has shadows", place);
   if (light.projected) reader_.notes.dropped("projected_through", place);
   const std::vector<Vector3d> offsets = light.area ? grid_of(light) : std::vector<Vector3d>{{}};
@@ -70,10 +71,12 @@ void SceneMaker::add_light(const Object& object, const LightShape& light, const 
         const auto angle = [&](double radius) {
           return static_cast<float>(std::atan(radius / length(axis)) * 180 / std::numbers::pi);
         };
-        spot.beam_deg = angle(std::min(light.radius_deg, light.falloff_deg)), spot.cutoff_deg = angle(light.falloff_deg);
+        spot.beam_deg = angle(std::min(light.radius_deg, light.falloff_deg)),
+        spot.cutoff_deg = angle(light.falloff_deg);
       } else {
         spot.cutoff_deg = static_cast<float>(std::clamp(light.falloff_deg, 0.01, 90.0));
-        spot.beam_deg = static_cast<float>(std::clamp(light.radius_deg, 0.0, static_cast<double>(spot.cutoff_deg)));
+        spot.beam_deg =
+            static_cast<float>(std::clamp(light.radius_deg, 0.0, static_cast<double>(spot.cutoff_deg)));
         spot.tightness = static_cast<float>(std::max(light.tightness, 0.0));
       }
       made.model = spot;
@@ -90,8 +93,9 @@ void SceneMaker::add_surroundings() {
     return s && luminance(*s) == 0;
   };
   if (world_.background)
-    radiance = Spectrum{emission_from_rgb({reader_.linear(world_.background->v[0]), reader_.linear(world_.background->v[1]),
-                                           reader_.linear(world_.background->v[2])})};
+    radiance = Spectrum{
+        emission_from_rgb({reader_.linear(world_.background->v[0]), reader_.linear(world_.background->v[1]),
+                           reader_.linear(world_.background->v[2])})};
   const Point3d eye = world_.camera ? Point3d{} + world_.camera->location : Point3d{};
   const double radius = 4 * reach_;
   const Transform sphere = translate(eye - Point3d{}) * scale({radius, radius, radius});
@@ -125,7 +129,8 @@ void SceneMaker::add_surroundings() {
   shape.object_to_world = sphere;
   shape.origin = origin(place);
   scene_.shapes.push_back(std::move(shape));
-  reader_.notes.approximated("what is around the scene: a large sphere that is seen", reader_.location(place));
+  reader_.notes.approximated("what is around the scene: a large sphere that is seen",
+                             reader_.location(place));
 }
 
 }  // namespace vitrail::pov

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finishes as BSDFs.
 //
-// A lamp of colour c shows ρ·c·cos θ on a diffuse surface of reflectance ρ = pigment · diffuse, as its intensity is π·c
-// here. A highlight s·(n·h)^m adds a lobe of Beckmann's microfacets of α² = 2/(m + 2), whose share w is such that its
-// peak is as high: π·c·w/(4π·α²) = s·c.
+// A lamp of colour c shows ρ·c·cos θ on a diffuse surface of reflectance ρ = pigment · diffuse, as its
+// intensity is π·c here. A highlight s·(n·h)^m adds a lobe of Beckmann's microfacets of α² = 2/(m + 2), whose
+// share w is such that its peak is as high: π·c·w/(4π·α²) = s·c.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,12 +42,15 @@ Highlight highlight_of(const Finish& finish) {
   return {};
 }
 
-std::string key_of(const Numbers& n) { return fmt::format("{},{},{},{},{};", n.v[0], n.v[1], n.v[2], n.v[3], n.v[4]); }
+std::string key_of(const Numbers& n) {
+  return fmt::format("{},{},{},{},{};", n.v[0], n.v[1], n.v[2], n.v[3], n.v[4]);
+}
 
 std::string key_of(const Finish& f) {
   return key_of(f.ambient) + key_of(f.emission) + key_of(f.reflection_min) + key_of(f.reflection_max) +
-         fmt::format("{},{},{},{},{},{},{},{},{},{},{};", f.diffuse, f.brilliance, f.phong, f.phong_size, f.specular,
-                     f.roughness, f.metallic, f.fresnel, f.reflection_metallic, f.diffuse_back, f.subsurface);
+         fmt::format("{},{},{},{},{},{},{},{},{},{},{};", f.diffuse, f.brilliance, f.phong, f.phong_size,
+                     f.specular, f.roughness, f.metallic, f.fresnel, f.reflection_metallic, f.diffuse_back,
+                     f.subsurface);
 }
 
 std::string key_of(const Look& look) {
@@ -58,9 +61,10 @@ std::string key_of(const Look& look) {
     key += "c" + key_of(*t.pigment->color);
     return key + key_of(t.finish ? *t.finish : default_finish());
   }
-  key += fmt::format("{};{};{};", static_cast<const void*>(t.pigment.get()), static_cast<const void*>(t.finish.get()),
-                     static_cast<const void*>(t.map.get()));
-  if (t.pattern || !t.layers.empty()) key += fmt::format("t{};", static_cast<const void*>(look.texture.get()));
+  key += fmt::format("{};{};{};", static_cast<const void*>(t.pigment.get()),
+                     static_cast<const void*>(t.finish.get()), static_cast<const void*>(t.map.get()));
+  if (t.pattern || !t.layers.empty())
+    key += fmt::format("t{};", static_cast<const void*>(look.texture.get()));
   if (is_plain(t)) return key;
   const Transform placed = look.to_world * t.to_object;
   for (const auto& row : placed.m) key += fmt::format("{},{},{},{};", row[0], row[1], row[2], row[3]);
@@ -159,9 +163,8 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
   const bool colored = opacity && *opacity < 1 && pigment.color && pigment.color->v[3] > 0;
   if (clear || colored) {  // light goes through the material itself
     const Id<Material> through = clear_material(pigment, finish, look.interior.get());
-    layer.material = *opacity > 0.001f
-                         ? add(BlendMaterial{through, layer.material, *opacity}, texture.place)
-                         : through;
+    layer.material =
+        *opacity > 0.001f ? add(BlendMaterial{through, layer.material, *opacity}, texture.place) : through;
     layer.opacity = 1.0f;
   }
   const Numbers& a = finish.ambient;
@@ -171,7 +174,8 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
   const double factor = std::max({factors[0], factors[1], factors[2]});
   if (factor > 0) {
     if (factors[0] != factors[1] || factors[1] != factors[2])
-      if (!pigment.color) approximated("a colour of ambient or emission upon a pattern: its greatest component", finish.place);
+      if (!pigment.color)
+        approximated("a colour of ambient or emission upon a pattern: its greatest component", finish.place);
     const double share = opacity && (clear || colored) ? *opacity : 1;
     if (pigment.color) {
       RGB glow;
@@ -188,7 +192,8 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
   return layer;
 }
 
-Id<Material> Surfaces::clear_material(const Pigment& pigment, const Finish& finish, const Interior* interior) {
+Id<Material> Surfaces::clear_material(const Pigment& pigment, const Finish& finish,
+                                      const Interior* interior) {
   const Numbers color = pigment.color.value_or(Finish::grey(1));
   const double filter = std::max(color.v[3], 0.0), transmit = std::max(color.v[4], 0.0);
   const double all = std::max(filter + transmit, 1e-6);
@@ -203,8 +208,9 @@ Id<Material> Surfaces::clear_material(const Pigment& pigment, const Finish& fini
     glass.eta = ConstantSpectrum{static_cast<float>(interior->ior)};
     glass.transmittance_factor = Spectrum{unbounded_from_rgb(through)};
     glass.reflectance_factor = Spectrum{ConstantSpectrum{reflects}};
-    approximated("a clear surface with ior: a dielectric, whose reflection is Fresnel's and whose shadow is dark",
-                 finish.place.line ? finish.place : pigment.place);
+    approximated(
+        "a clear surface with ior: a dielectric, whose reflection is Fresnel's and whose shadow is dark",
+        finish.place.line ? finish.place : pigment.place);
     return add(glass, pigment.place);
   }
   ThinDielectricMaterial sheet;
@@ -238,13 +244,16 @@ Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish,
   if (finish.irid > 0) dropped("irid", finish.place);
   if (finish.subsurface) dropped("subsurface", finish.place);
   if (reflection > 0 && !fresnel) {
-    // Between what it is straight on and at grazing angles: nearer to the first, as most of a surface is seen so.
+    // Between what it is straight on and at grazing angles: nearer to the first, as most of a surface is seen
+    // so.
     Numbers mean = finish.reflection_max;
     constexpr double grazing = 0.15;
     for (std::size_t i = 0; i < 3; ++i)
-      mean.v[i] = reader_.linear(finish.reflection_min.v[i]) * (1 - grazing) + reader_.linear(finish.reflection_max.v[i]) * grazing;
+      mean.v[i] = reader_.linear(finish.reflection_min.v[i]) * (1 - grazing) +
+                  reader_.linear(finish.reflection_max.v[i]) * grazing;
     const double share = std::min(greatest(mean), 0.98);
-    if (greatest(finish.reflection_min) != reflection) approximated("reflection by angle: its mean", finish.place);
+    if (greatest(finish.reflection_min) != reflection)
+      approximated("reflection by angle: its mean", finish.place);
     ConductorMaterial mirror{metal(finish.reflection_metallic), {}};
     if (!(finish.reflection_metallic > 0) && share > 0)
       mirror.reflectance_factor =
@@ -258,20 +267,23 @@ Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish,
     shares = 0.98;
   }
   const double left = 1 - shares;
-  const SpectrumParameter reflectance = color_texture(pigment, to_world, Part::reflectance, diffuse / left, look.by_uv);
+  const SpectrumParameter reflectance =
+      color_texture(pigment, to_world, Part::reflectance, diffuse / left, look.by_uv);
   MaterialModel base;
   if (fresnel) {
     PlasticMaterial coat;
     coat.diffuse_reflectance = reflectance;
     coat.eta = static_cast<float>(look.interior && look.interior->ior > 1.01 ? look.interior->ior : 1.5);
     coat.exterior_eta = 1;
-    coat.specular_reflectance = Spectrum{ConstantSpectrum{static_cast<float>(std::min(reader_.linear(reflection), 1.0))}};
+    coat.specular_reflectance =
+        Spectrum{ConstantSpectrum{static_cast<float>(std::min(reader_.linear(reflection), 1.0))}};
     approximated("reflection with fresnel: the coat of a dielectric", finish.place);
     base = coat;
   } else if (finish.diffuse_back > 0) {
     DiffuseTransmissionMaterial sheet;
     sheet.reflectance = reflectance;
-    sheet.transmittance = color_texture(pigment, to_world, Part::reflectance, reader_.linear(finish.diffuse_back) / left, look.by_uv);
+    sheet.transmittance = color_texture(pigment, to_world, Part::reflectance,
+                                        reader_.linear(finish.diffuse_back) / left, look.by_uv);
     base = sheet;
   } else {
     base = DiffuseMaterial{reflectance};
@@ -296,7 +308,8 @@ Surfaces::Layer Surfaces::blended(const pov::Texture& texture, const Transform& 
         layers.emplace_back(entry.at, entry.texture->pattern ? blended(*entry.texture, at, look)
                                       : entry.texture->layers.empty()
                                           ? layer_of(*entry.texture, at, look)
-                                          : layer_of(*entry.texture->layers.back(), at * entry.texture->layers.back()->to_object, look));
+                                          : layer_of(*entry.texture->layers.back(),
+                                                     at * entry.texture->layers.back()->to_object, look));
       }
   if (layers.empty()) {
     dropped("a pattern of textures without textures: black", texture.place);
@@ -306,8 +319,8 @@ Surfaces::Layer Surfaces::blended(const pov::Texture& texture, const Transform& 
   const bool list = texture.pattern->kind == Word::checker_ || texture.pattern->kind == Word::brick_ ||
                     texture.pattern->kind == Word::hexagon_;
   for (std::size_t i = 1; i < layers.size(); ++i) {
-    const FloatParameter amount = amount_texture(*texture.pattern, to_world, layers[i - 1].first, layers[i].first,
-                                                 texture.place, list, i);
+    const FloatParameter amount = amount_texture(*texture.pattern, to_world, layers[i - 1].first,
+                                                 layers[i].first, texture.place, list, i);
     result.material = add(BlendMaterial{result.material, layers[i].second.material, amount}, texture.place);
     if (layers[i].second.glow_scale > result.glow_scale)
       result.glow = layers[i].second.glow, result.glow_scale = layers[i].second.glow_scale;

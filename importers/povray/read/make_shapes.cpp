@@ -66,10 +66,12 @@ void SceneMaker::add(const Object& object, const Transform& parent_to_world, Loo
   if (const auto* light = std::get_if<LightShape>(&object.shape)) {
     if (&target.shapes != &scene_.shapes) return;
     add_light(object, *light, to_world);
-    for (const auto& child : object.children) add(*child, to_world, {reader_.defaults.texture, {}, nullptr}, target);
+    for (const auto& child : object.children)
+      add(*child, to_world, {reader_.defaults.texture, {}, nullptr}, target);
     return;
   }
-  if (object.no_shadow) reader_.notes.approximated("no_shadow: it has a shadow", reader_.location(object.place));
+  if (object.no_shadow)
+    reader_.notes.approximated("no_shadow: it has a shadow", reader_.location(object.place));
   if (object.no_image) {
     reader_.notes.dropped("an object with no_image", reader_.location(object.place));
     return;
@@ -104,7 +106,8 @@ void SceneMaker::add_group(const Object& object, const Transform& to_world, cons
 
 bool SceneMaker::is_plain(const Object& object) {
   if (const auto known = plain_.find(&object); known != plain_.end()) return known->second;
-  bool plain = !std::holds_alternative<LightShape>(object.shape) && !std::holds_alternative<PlaneShape>(object.shape) &&
+  bool plain = !std::holds_alternative<LightShape>(object.shape) &&
+               !std::holds_alternative<PlaneShape>(object.shape) &&
                (!object.texture || pov::is_plain(*object.texture));
   if (const auto* mesh = std::get_if<MeshShape>(&object.shape))
     for (const auto& part : mesh->parts) plain = plain && (!part.texture || pov::is_plain(*part.texture));
@@ -126,8 +129,8 @@ std::optional<Id<Prototype>> SceneMaker::prototype_of(const Shared<Object>& obje
 }
 
 // A disc around the point below the camera: of what it leaves out at the horizon, a pixel is more.
-void SceneMaker::add_plane(const Object& object, const PlaneShape& plane, const Transform& to_world, const Look& look,
-                           Target target) {
+void SceneMaker::add_plane(const Object& object, const PlaneShape& plane, const Transform& to_world,
+                           const Look& look, Target target) {
   const Normal3d n = transform_normal(to_world, to_normal(plane.normal));
   const Vector3d normal = normalize(to_vector(n));
   const Point3d on = transform_point(to_world, Point3d{} + plane.normal * plane.distance);
@@ -136,12 +139,13 @@ void SceneMaker::add_plane(const Object& object, const PlaneShape& plane, const 
   const Point3d foot = eye - normal * height;
   const double radius = std::max(reach_, 1000 * std::abs(height));
   Piece piece{quadric_mesh({QuadricKind::disk, QuadricUv::pbrt, 0, 1}), along(foot, normal, radius), {}};
-  reader_.notes.approximated("plane: a disc that reaches a thousand times as far as all else", reader_.location(object.place));
+  reader_.notes.approximated("plane: a disc that reaches a thousand times as far as all else",
+                             reader_.location(object.place));
   add_piece(object, piece, {}, look, target);
 }
 
-void SceneMaker::add_piece(const Object& object, const Piece& piece, const Transform& to_world, const Look& look,
-                           Target target) {
+void SceneMaker::add_piece(const Object& object, const Piece& piece, const Transform& to_world,
+                           const Look& look, Target target) {
   Look own = look;
   if (piece.look && piece.look->texture) {
     own.texture = piece.look->texture;
@@ -164,12 +168,14 @@ std::vector<SceneMaker::Piece> SceneMaker::pieces_of(const Object& object) {
   if (const auto* s = std::get_if<SphereShape>(&object.shape)) {
     if (!(s->radius > 0)) return {};
     return {{quadric_mesh({QuadricKind::sphere}),
-             translate(s->center - Point3d{}) * scale({s->radius, s->radius, s->radius}), {}}};
+             translate(s->center - Point3d{}) * scale({s->radius, s->radius, s->radius}),
+             {}}};
   }
   if (const auto* s = std::get_if<DiscShape>(&object.shape)) {
     if (!(s->radius > s->hole_radius)) return {};
     return {{quadric_mesh({QuadricKind::disk, QuadricUv::pbrt, s->hole_radius / s->radius, 1}),
-             along(s->center, normalize(s->normal), s->radius), {}}};
+             along(s->center, normalize(s->normal), s->radius),
+             {}}};
   }
   if (const auto* s = std::get_if<ConeShape>(&object.shape)) return round_pieces(*s);
   if (const auto* s = std::get_if<BoxShape>(&object.shape)) {
@@ -208,8 +214,10 @@ std::vector<SceneMaker::Piece> SceneMaker::round_pieces(const ConeShape& s) {
   std::vector<Piece> pieces;
   const Vector3d axis = s.cap - s.base;
   const auto disk = quadric_mesh({QuadricKind::disk, QuadricUv::pbrt, 0, 1});
-  if (!s.open && s.base_radius > 0) pieces.push_back({disk, along(s.base, axis * (-1 / length(axis)), s.base_radius), {}});
-  if (!s.open && s.cap_radius > 0) pieces.push_back({disk, along(s.cap, axis * (1 / length(axis)), s.cap_radius), {}});
+  if (!s.open && s.base_radius > 0)
+    pieces.push_back({disk, along(s.base, axis * (-1 / length(axis)), s.base_radius), {}});
+  if (!s.open && s.cap_radius > 0)
+    pieces.push_back({disk, along(s.cap, axis * (1 / length(axis)), s.cap_radius), {}});
   if (s.base_radius == s.cap_radius) {
     if (s.base_radius > 0)
       pieces.push_back({quadric_mesh({QuadricKind::cylinder}), along(s.base, axis, s.base_radius), {}});

@@ -72,12 +72,14 @@ Numbers mean_color(const Pigment& pigment) {
   return sum;
 }
 
-SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transform& to_world, Part part, double factor,
-                                          bool by_uv) {
-  if (pigment.color || pigment.pattern.kind == Word::none) return spectrum_of(mean_color(pigment), part, factor);
+SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transform& to_world, Part part,
+                                          double factor, bool by_uv) {
+  if (pigment.color || pigment.pattern.kind == Word::none)
+    return spectrum_of(mean_color(pigment), part, factor);
   const Pattern& pattern = pigment.pattern;
   if (pattern.image && pattern.kind == Word::image_map_)
-    return image_texture(*pattern.image, pattern, to_world, by_uv || pattern.uv_mapping, factor, pigment.place);
+    return image_texture(*pattern.image, pattern, to_world, by_uv || pattern.uv_mapping, factor,
+                         pigment.place);
   auto made = pattern_texture(pattern, to_world, pigment.place);
   if (!made) return spectrum_of(pigment.quick_color.value_or(mean_color(pigment)), part, factor);
   std::vector<BlendEntry> entries = pigment.map ? pigment.map->entries : default_entries(pattern.kind);
@@ -97,8 +99,8 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
   return add(std::move(*made), part == Part::opacity, pigment.place);
 }
 
-FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform& to_world, double from, double to,
-                                        const Place& place, bool list, std::size_t index) {
+FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform& to_world, double from,
+                                        double to, const Place& place, bool list, std::size_t index) {
   auto made = pattern_texture(pattern, to_world, place);
   if (!made) return 0.5f;
   const auto stop = [&](double at, float value) {
@@ -152,8 +154,8 @@ std::optional<PatternTexture> Surfaces::pattern_texture(const Pattern& pattern, 
   return t;
 }
 
-SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern&, const Transform& to_world, bool by_uv,
-                                          double factor, const Place& place) {
+SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern&, const Transform& to_world,
+                                          bool by_uv, double factor, const Place& place) {
   if (image.filename.empty()) return Spectrum{ConstantSpectrum{static_cast<float>(0.5 * factor)}};
   ImageTexture texture;
   texture.filename = std::filesystem::absolute(image.filename).string();

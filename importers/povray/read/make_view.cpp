@@ -65,7 +65,8 @@ void SceneMaker::set_view() {
     // Its middle looks along −x there, with its right along −z.
     SphericalCamera camera;
     camera.projection = SphericalCamera::Projection::latitude_longitude;
-    camera.camera_to_world = columns(-normalize(view.direction), normalize(view.up), -normalize(view.right), view.location);
+    camera.camera_to_world =
+        columns(-normalize(view.direction), normalize(view.up), -normalize(view.right), view.location);
     if (view.angle > 0 && view.angle < 359)
       reader_.notes.approximated("a spherical camera: all of the sphere", place);
     scene_.camera = camera;
@@ -75,8 +76,10 @@ void SceneMaker::set_view() {
   if (view.kind != Word::perspective_) {
     constexpr double widest = 120, usual = 90;
     const double angle = view.angle > 0 ? std::min(view.angle, widest) : usual;
-    seen.direction = normalize(view.direction) * (0.5 * length(view.right) / std::tan(angle * std::numbers::pi / 360));
-    reader_.notes.approximated(fmt::format("a camera of this kind: perspective, {} degrees wide", angle), place);
+    seen.direction =
+        normalize(view.direction) * (0.5 * length(view.right) / std::tan(angle * std::numbers::pi / 360));
+    reader_.notes.approximated(fmt::format("a camera of this kind: perspective, {} degrees wide", angle),
+                               place);
   }
   auto camera = camera_of<PerspectiveCamera>(seen, seen.right, seen.up, true);
   if (view.aperture > 0) {

@@ -87,11 +87,13 @@ void read_polygon(Reader& reader, Object& object) {
   }
   std::erase_if(contours, [](const auto& contour) { return contour.size() < 3; });
   Listed listed;
-  if (contours.empty()) reader.notes.dropped("a polygon of fewer than three points", reader.location(object.place));
+  if (contours.empty())
+    reader.notes.dropped("a polygon of fewer than three points", reader.location(object.place));
   for (const auto& corners : joined_contours(contours)) {
     std::vector<CornerTriple> triples;
     triangulate_polygon(corners, triples);
-    for (const CornerTriple& t : triples) listed.add(reader, {corners[t[0]], corners[t[1]], corners[t[2]]}, nullptr, nullptr);
+    for (const CornerTriple& t : triples)
+      listed.add(reader, {corners[t[0]], corners[t[1]], corners[t[2]]}, nullptr, nullptr);
   }
   object.shape = MeshShape{{part_of(std::move(listed), nullptr)}};
 }
@@ -123,7 +125,8 @@ void read_mesh(Reader& reader, Object& object) {
           Shared<Texture> one = read_texture_block(reader);
           if (!texture) texture = one;
         }
-        reader.notes.approximated("textures of a triangle's corners: that of the first", reader.location(reader.here()));
+        reader.notes.approximated("textures of a triangle's corners: that of the first",
+                                  reader.location(reader.here()));
       } else if (!reader.accept(',')) {
         reader.unexpected(reader.next(), "a part of triangle");
       }
@@ -205,8 +208,10 @@ MeshShape shape_of(const Lists& l) {
   MeshShape shape;
   const auto& nf = l.normal_faces.empty() ? l.faces : l.normal_faces;
   const auto& uf = l.uv_faces.empty() ? l.faces : l.uv_faces;
-  const bool normals = !l.normals.empty() && nf.size() == l.faces.size() && (!l.normal_faces.empty() || l.normals.size() == l.vertices.size());
-  const bool uvs = !l.uvs.empty() && uf.size() == l.faces.size() && (!l.uv_faces.empty() || l.uvs.size() == l.vertices.size());
+  const bool normals = !l.normals.empty() && nf.size() == l.faces.size() &&
+                       (!l.normal_faces.empty() || l.normals.size() == l.vertices.size());
+  const bool uvs = !l.uvs.empty() && uf.size() == l.faces.size() &&
+                   (!l.uv_faces.empty() || l.uvs.size() == l.vertices.size());
   const bool shared = l.normal_faces.empty() && l.uv_faces.empty();
   for (const auto& [texture, faces] : by_texture) {
     TriangleMesh mesh;
@@ -221,7 +226,8 @@ MeshShape shape_of(const Lists& l) {
         Triple made;
         for (std::size_t i = 0; i < 3; ++i) {
           const Triple key{l.faces[face][i], normals ? nf[face][i] : 0, uvs ? uf[face][i] : 0};
-          const auto [at, added] = corners.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
+          const auto [at, added] =
+              corners.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
           if (added) {
             mesh.positions.push_back(l.vertices[key[0]]);
             if (normals) mesh.normals.push_back(l.normals[key[1]]);
@@ -247,9 +253,11 @@ void read_mesh2(Reader& reader, Object& object) {
     reader.comma();
     const Token token = reader.next();
     if (token.is(Word::vertex_vectors_)) {
-      read_items(reader, "the number of vertices", [&] { lists.vertices.push_back(single(reader, reader.point("a vertex"))); });
+      read_items(reader, "the number of vertices",
+                 [&] { lists.vertices.push_back(single(reader, reader.point("a vertex"))); });
     } else if (token.is(Word::normal_vectors_)) {
-      read_items(reader, "the number of normals", [&] { lists.normals.push_back(normal_of(reader.vector("a normal"))); });
+      read_items(reader, "the number of normals",
+                 [&] { lists.normals.push_back(normal_of(reader.vector("a normal"))); });
     } else if (token.is(Word::uv_vectors_)) {
       read_items(reader, "the number of uv_vectors", [&] {
         const Point2d uv = reader.point2("a uv vector");
@@ -263,9 +271,11 @@ void read_mesh2(Reader& reader, Object& object) {
     } else if (token.is(Word::face_indices_)) {
       read_items(reader, "the number of faces", [&] { read_face(reader, lists); });
     } else if (token.is(Word::normal_indices_)) {
-      read_items(reader, "the number of faces", [&] { lists.normal_faces.push_back(triple(reader, lists.normals.size(), "normal")); });
+      read_items(reader, "the number of faces",
+                 [&] { lists.normal_faces.push_back(triple(reader, lists.normals.size(), "normal")); });
     } else if (token.is(Word::uv_indices_)) {
-      read_items(reader, "the number of faces", [&] { lists.uv_faces.push_back(triple(reader, lists.uvs.size(), "uv vector")); });
+      read_items(reader, "the number of faces",
+                 [&] { lists.uv_faces.push_back(triple(reader, lists.uvs.size(), "uv vector")); });
     } else if (token.is(Word::inside_vector_)) {
       reader.vector("inside_vector");
       closed = true;

@@ -3,8 +3,8 @@
 
 namespace vitrail::pov {
 
-// Gradient noise (Perlin 2002) with a lattice of our own, from 0 to 1, of mean ½: f_noise3d() in formulas. POV-Ray's
-// has bumps in other places.
+// Gradient noise (Perlin 2002) with a lattice of our own, from 0 to 1, of mean ½: f_noise3d() in formulas.
+// POV-Ray's has bumps in other places.
 double noise(double x, double y, double z);
 
 }  // namespace vitrail::pov

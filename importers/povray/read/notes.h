@@ -9,8 +9,8 @@
 
 namespace vitrail::pov {
 
-// Diagnostics in the order of the file. Loops and macros read one place again and again: what is said of a place
-// is said once.
+// Diagnostics in the order of the file. Loops and macros read one place again and again: what is said of a
+// place is said once.
 class Notes {
  public:
   void approximated(const std::string& message, const SourceLocation& place) {

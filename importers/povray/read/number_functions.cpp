@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "importers/povray/read/extents.h"
-#include "importers/povray/read/transforms.h"
 #include "importers/povray/read/number_words.h"
 #include "importers/povray/read/reader.h"
+#include "importers/povray/read/transforms.h"
 
 namespace vitrail::pov {
 
@@ -200,7 +200,8 @@ std::optional<Numbers> Reader::query_of(const Token& word) {
       if (token.kind != TokenKind::word || token.symbol->word != Word::none) unexpected(token, "an array");
       const Value held = postfixed(token);
       const auto* const array = std::get_if<std::shared_ptr<Array>>(&held);
-      if (!array) fail(fmt::format("'{}' is {}, not an array", token.symbol->name, kind_of(held)), token.place);
+      if (!array)
+        fail(fmt::format("'{}' is {}, not an array", token.symbol->name, kind_of(held)), token.place);
       const std::shared_ptr<Array> kept = *array;
       if (name == Word::dimensions_) {
         result = Numbers(static_cast<double>(kept->sizes.size()));

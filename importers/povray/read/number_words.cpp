@@ -32,7 +32,9 @@ constexpr NumberFunction functions[] = {
     {Word::ln_, [](double x) { return std::log(x); }},
     {Word::log_, [](double x) { return std::log10(x); }},
     {Word::radians_, [](double x) { return x * degree; }},
-    {Word::sgn_, [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; }},
+    {Word::sgn_, [](double x) { return x > 0   ? 1.0
+                                       : x < 0 ? -1.0
+                                               : 0.0; }},
     {Word::sin_, [](double x) { return std::sin(x); }},
     {Word::sinh_, [](double x) { return std::sinh(x); }},
     {Word::sqr_, [](double x) { return x * x; }},
@@ -46,9 +48,12 @@ constexpr NumberFunction functions[] = {
     {Word::pow_, nullptr, [](double a, double b) { return std::pow(a, b); }},
     {Word::max_, nullptr, [](double a, double b) { return std::max(a, b); }, true},
     {Word::min_, nullptr, [](double a, double b) { return std::min(a, b); }, true},
-    {Word::bitwise_and_, nullptr, [](double a, double b) { return static_cast<double>(whole(a) & whole(b)); }, true},
-    {Word::bitwise_or_, nullptr, [](double a, double b) { return static_cast<double>(whole(a) | whole(b)); }, true},
-    {Word::bitwise_xor_, nullptr, [](double a, double b) { return static_cast<double>(whole(a) ^ whole(b)); }, true},
+    {Word::bitwise_and_, nullptr, [](double a, double b) { return static_cast<double>(whole(a) & whole(b)); },
+     true},
+    {Word::bitwise_or_, nullptr, [](double a, double b) { return static_cast<double>(whole(a) | whole(b)); },
+     true},
+    {Word::bitwise_xor_, nullptr, [](double a, double b) { return static_cast<double>(whole(a) ^ whole(b)); },
+     true},
 };
 
 }  // namespace

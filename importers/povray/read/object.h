@@ -79,9 +79,9 @@ struct Object {
   Shared<Interior> interior;
   std::vector<Shared<Object>> clipped_by;
   bool inverse = false, no_shadow = false, no_image = false, hollow = false, uv_mapping = false;
-  bool declared = false;    // an identifier stands for it
+  bool declared = false;                // an identifier stands for it
   mutable std::optional<Bounds3d> box;  // of the shape, once it was asked for (extents.h)
-  Shared<Object> original;  // of a copy: what its shape was made as, so that both share it
+  Shared<Object> original;              // of a copy: what its shape was made as, so that both share it
 };
 
 }  // namespace vitrail::pov

@@ -240,7 +240,8 @@ Shared<Object> read_object_in(Reader& reader) {
 Shared<Object> read_object(Reader& reader) {
   if (const auto named = reader.identifier<Shared<Object>>()) return *named;
   const Token token = reader.next();
-  if (token.kind != TokenKind::word || !names_object(token.symbol->word)) reader.unexpected(token, "an object");
+  if (token.kind != TokenKind::word || !names_object(token.symbol->word))
+    reader.unexpected(token, "an object");
   const Reader::Deeper deeper(reader, token.place);
   const Word word = token.symbol->word;
   reader.expect('{', "behind the word of an object");
@@ -275,9 +276,9 @@ Shared<Object> read_object(Reader& reader) {
       for (;;) {
         reader.comma();
         const Token next = reader.peek();
-        const bool names = next.kind == TokenKind::word &&
-                           (names_object(next.symbol->word) ||
-                            (next.symbol->value() && next.symbol->word == Word::none));
+        const bool names =
+            next.kind == TokenKind::word &&
+            (names_object(next.symbol->word) || (next.symbol->value() && next.symbol->word == Word::none));
         if (!names) break;
         object->children.push_back(read_object(reader));
       }

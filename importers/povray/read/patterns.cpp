@@ -163,7 +163,11 @@ void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>&
       break;
     case Word::slope_:
       if (reader.accept('{')) {
-        reader.put_back([&] { Token t; t.kind = TokenKind::sign, t.sign = '{'; return t; }());
+        reader.put_back([&] {
+          Token t;
+          t.kind = TokenKind::sign, t.sign = '{';
+          return t;
+        }());
         skip_block(reader);
       } else {
         reader.numbers();
@@ -229,7 +233,8 @@ void read_warp(Reader& reader, Pattern& pattern) {
     }
   }
   if (flat && warp.kind == Warp::Kind::repeat)
-    reader.notes.approximated("flip and offset of a repetition: without them", reader.location(reader.here()));
+    reader.notes.approximated("flip and offset of a repetition: without them",
+                              reader.location(reader.here()));
   pattern.warps.push_back(warp);
 }
 
@@ -346,7 +351,8 @@ ImageMap read_image_map(Reader& reader, double* bump_size) {
   }
   while (!reader.accept('}')) {
     const Token token = reader.next();
-    if (token.kind == TokenKind::text || (token.kind == TokenKind::word && token.symbol->word == Word::none) ||
+    if (token.kind == TokenKind::text ||
+        (token.kind == TokenKind::word && token.symbol->word == Word::none) ||
         (token.kind == TokenKind::word && names_text(token.symbol->word))) {
       reader.put_back(token);
       const std::string name = reader.text("the name of an image");

@@ -37,10 +37,17 @@ Shared<BlendMap> read_map_block(Reader& reader, Word kind) {
       case Word::normal_map_:
       case Word::texture_map_: {
         // The contents of a block, without its braces.
-        reader.put_back([&] { Token t; t.kind = TokenKind::sign, t.sign = '[', t.place = reader.here(); return t; }());
-        if (kind == Word::texture_map_) entry.texture = read_texture_block(reader);
-        else if (kind == Word::normal_map_) entry.bump = read_normal_block(reader);
-        else entry.pigment = read_pigment_block(reader);
+        reader.put_back([&] {
+          Token t;
+          t.kind = TokenKind::sign, t.sign = '[', t.place = reader.here();
+          return t;
+        }());
+        if (kind == Word::texture_map_)
+          entry.texture = read_texture_block(reader);
+        else if (kind == Word::normal_map_)
+          entry.bump = read_normal_block(reader);
+        else
+          entry.pigment = read_pigment_block(reader);
         map.entries.push_back(std::move(entry));
         continue;
       }

@@ -6,7 +6,8 @@
 
 namespace vitrail {
 
-ImportedScene read_povray(const std::filesystem::path& file, MeshMemory memory, const ImportOptions& options) {
+ImportedScene read_povray(const std::filesystem::path& file, MeshMemory memory,
+                          const ImportOptions& options) {
   pov::Limits limits;
   limits.include_bytes = options.include_limit;
   pov::Reader reader(file, pov::search_of(file, {}), limits);

@@ -10,8 +10,8 @@
 
 namespace vitrail {
 
-// Reads a scene with all that it includes (povray/read/search.h says from where). Bad input throws Error with its
-// place and the macros and files that lead there. Of the options only include_limit counts.
+// Reads a scene with all that it includes (povray/read/search.h says from where). Bad input throws Error with
+// its place and the macros and files that lead there. Of the options only include_limit counts.
 ImportedScene read_povray(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
                           const ImportOptions& options = {});
 

@@ -56,8 +56,8 @@ class Reader {
   bool accept(Word word);
   // The next token must be it.
   void expect(char sign, const char* where);
-  // Whether the next token is it. Directives that set something stay where they are: what is before them may not be
-  // complete.
+  // Whether the next token is it. Directives that set something stay where they are: what is before them may
+  // not be complete.
   bool at(char sign) { return peek_operator().is(sign); }
   bool at(Word word) { return peek_operator().is(word); }
   // A comma, if there is one.
@@ -140,7 +140,8 @@ class Reader {
   };
   enum class FrameKind { file, macro, while_loop, for_loop };
   struct Source {
-    Source(const std::filesystem::path& path, Symbols& symbols, std::deque<std::string>& texts, std::uint16_t file);
+    Source(const std::filesystem::path& path, Symbols& symbols, std::deque<std::string>& texts,
+           std::uint16_t file);
     Source(std::string content, Symbols& symbols, std::deque<std::string>& texts, std::uint16_t file);
     std::string content;
     std::optional<InputBytes> bytes;
@@ -235,9 +236,9 @@ class Reader {
   std::vector<Frame> frames_;
   std::vector<Token> put_back_;
   Place last_;
-  bool declaring_ = true;   // directives that set something are carried out
-  bool expanding_ = true;   // macros are put in place
-  bool comparing_ = false;  // < and > compare
+  bool declaring_ = true;         // directives that set something are carried out
+  bool expanding_ = true;         // macros are put in place
+  bool comparing_ = false;        // < and > compare
   std::optional<Numbers> first_;  // an operand that has been read already
   std::uint64_t tokens_ = 0, written_ = 0;
   int depth_ = 0;

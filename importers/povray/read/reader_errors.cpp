@@ -51,7 +51,8 @@ void Reader::fail(const std::string& message, const Place& place) {
 
 void Reader::unexpected(const Token& token, const std::string& wanted) {
   if (token.kind == TokenKind::word && token.symbol->word == Word::none && token.symbol->bindings.empty())
-    fail(fmt::format("{} is not declared{}", describe(token), suggestion(token.symbol->name, symbols_.defined())),
+    fail(fmt::format("{} is not declared{}", describe(token),
+                     suggestion(token.symbol->name, symbols_.defined())),
          token.place);
   fail(fmt::format("{} is expected, not {}", wanted, describe(token)), token.place);
 }
@@ -62,9 +63,10 @@ std::filesystem::path Reader::find_file(const std::string& name, const Place& pl
   std::string folders;
   for (const auto& folder : search_.folders)
     if (std::filesystem::is_directory(folder)) folders += (folders.empty() ? "" : ", ") + folder.string();
-  fail(fmt::format("there is no file \"{}\" in {}; POV-Ray's own are in the package povray-includes, others are "
-                   "found in the folders of $POV_INC",
-                   name, folders.empty() ? "the working directory" : folders),
+  fail(fmt::format(
+           "there is no file \"{}\" in {}; POV-Ray's own are in the package povray-includes, others are "
+           "found in the folders of $POV_INC",
+           name, folders.empty() ? "the working directory" : folders),
        place);
 }
 

@@ -8,8 +8,8 @@
 
 namespace vitrail::pov {
 
-// Where files that a scene names are looked for, in this order: beside the scene, in the given folders, in those
-// of $POV_INC (separated by colons), in POV-Ray's own.
+// Where files that a scene names are looked for, in this order: beside the scene, in the given folders, in
+// those of $POV_INC (separated by colons), in POV-Ray's own.
 struct Search {
   std::vector<std::filesystem::path> folders;
 };

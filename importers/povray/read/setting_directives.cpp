@@ -50,7 +50,13 @@ void Reader::declare(bool local) {
     std::shared_ptr<Array> array = *held;
     for (;;) {
       std::size_t at = 0;
-      put_back_.push_back([&] { Token t; t.kind = TokenKind::sign; t.sign = '['; t.place = last_; return t; }());
+      put_back_.push_back([&] {
+        Token t;
+        t.kind = TokenKind::sign;
+        t.sign = '[';
+        t.place = last_;
+        return t;
+      }());
       for (std::size_t i = 0; i < array->sizes.size() && accept('['); ++i) {
         const int index = integer("an index");
         expect(']', "behind an index");
@@ -102,7 +108,8 @@ double Reader::defined_value() {
   expanding_ = expanding;
   if (token.kind != TokenKind::word) fail("the name of an identifier is expected", token.place);
   const Value* value = token.symbol->value();
-  bool is_defined = token.symbol->word != Word::none || (value && !std::holds_alternative<std::monostate>(*value));
+  bool is_defined =
+      token.symbol->word != Word::none || (value && !std::holds_alternative<std::monostate>(*value));
   Value held = value ? *value : Value{};
   while (accept('[')) {
     const int index = integer("an index");
@@ -114,7 +121,8 @@ double Reader::defined_value() {
     }
     // Of several dimensions the last index counts where all before it are 0: whether one element is there.
     Value element;
-    if (static_cast<std::size_t>(index) < (*array)->elements.size()) element = (*array)->elements[static_cast<std::size_t>(index)];
+    if (static_cast<std::size_t>(index) < (*array)->elements.size())
+      element = (*array)->elements[static_cast<std::size_t>(index)];
     is_defined = !std::holds_alternative<std::monostate>(element);
     if (std::holds_alternative<std::shared_ptr<Array>>(element)) held = element;
   }
@@ -171,7 +179,8 @@ void Reader::write_text() {
   expect('(', "behind #write");
   Symbol* const name = raw_name("the name of a file's identifier");
   const auto* const held = name->value() ? std::get_if<std::shared_ptr<OpenFile>>(name->value()) : nullptr;
-  if (!held || !(*held)->writes) fail(fmt::format("{} is no file that #fopen opened to write", name->name), last_);
+  if (!held || !(*held)->writes)
+    fail(fmt::format("{} is no file that #fopen opened to write", name->name), last_);
   const std::shared_ptr<OpenFile> file = *held;
   std::string written;
   while (!accept(')')) {
@@ -186,7 +195,8 @@ void Reader::write_text() {
     }
   }
   written_ += written.size();
-  if (written_ > limits_.written_bytes) fail(fmt::format("#write writes more than {} bytes", limits_.written_bytes), last_);
+  if (written_ > limits_.written_bytes)
+    fail(fmt::format("#write writes more than {} bytes", limits_.written_bytes), last_);
   written_files_[file->name] += written;
 }
 
@@ -194,13 +204,15 @@ void Reader::read_text() {
   expect('(', "behind #read");
   Symbol* const name = raw_name("the name of a file's identifier");
   const auto* const held = name->value() ? std::get_if<std::shared_ptr<OpenFile>>(name->value()) : nullptr;
-  if (!held || (*held)->writes) fail(fmt::format("{} is no file that #fopen opened to read", name->name), last_);
+  if (!held || (*held)->writes)
+    fail(fmt::format("{} is no file that #fopen opened to read", name->name), last_);
   const std::shared_ptr<OpenFile> file = *held;
   while (!accept(')')) {
     comma();
     if (accept(')')) break;
     std::shared_ptr<Value> target = symbols_.visible(raw_name("the name of an identifier"));
-    if (Value value = file->next(); !std::holds_alternative<std::monostate>(value)) *target = std::move(value);
+    if (Value value = file->next(); !std::holds_alternative<std::monostate>(value))
+      *target = std::move(value);
   }
   // At its end, the file's identifier goes: scenes loop while it is defined.
   if (file->at_end()) symbols_.undefine(name);

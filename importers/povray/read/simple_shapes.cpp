@@ -10,7 +10,8 @@ namespace {
 
 double radius(Reader& reader, const char* what) {
   const double r = reader.number(what);
-  if (r < 0) reader.notes.approximated(fmt::format("{} below 0: its amount", what), reader.location(reader.here()));
+  if (r < 0)
+    reader.notes.approximated(fmt::format("{} below 0: its amount", what), reader.location(reader.here()));
   return std::abs(r);
 }
 
@@ -77,7 +78,8 @@ void read_shape(Reader& reader, Word word, Object& object) {
       s.normal = reader.vector("the normal of a disc");
       reader.comma();
       s.radius = radius(reader, "the radius of a disc");
-      if (reader.accept(',') || reader.number_follows()) s.hole_radius = radius(reader, "the radius of a hole");
+      if (reader.accept(',') || reader.number_follows())
+        s.hole_radius = radius(reader, "the radius of a hole");
       if (!(length(s.normal) > 0)) reader.fail("the normal of a disc is 0", object.place);
       object.shape = s;
       return;

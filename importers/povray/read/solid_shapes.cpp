@@ -59,12 +59,16 @@ SolidShape prism(Reader& reader) {
   solids::Prism prism;
   for (bool more = true; more;) {
     more = true;
-    if (reader.accept(Word::conic_sweep_)) prism.conic = true;
-    else if (reader.accept(Word::linear_sweep_)) prism.conic = false;
+    if (reader.accept(Word::conic_sweep_))
+      prism.conic = true;
+    else if (reader.accept(Word::linear_sweep_))
+      prism.conic = false;
     else if (const Token t = reader.peek(); t.kind == TokenKind::word && spline_kind(t.symbol->word))
       prism.spline = spline_kind_of(reader);
-    else if (t.is(Word::bezier_spline_)) prism.spline = spline_kind_of(reader);
-    else more = false;
+    else if (t.is(Word::bezier_spline_))
+      prism.spline = spline_kind_of(reader);
+    else
+      more = false;
   }
   prism.height1 = reader.number("a height of a prism");
   reader.comma();
@@ -110,9 +114,12 @@ SolidShape letters(Reader& reader) {
 
 SolidShape sphere_sweep(Reader& reader) {
   solids::SphereSweep sweep;
-  if (reader.accept(Word::b_spline_)) sweep.kind = solids::SweepKind::b_spline;
-  else if (reader.accept(Word::cubic_spline_)) sweep.kind = solids::SweepKind::cubic;
-  else reader.accept(Word::linear_spline_);
+  if (reader.accept(Word::b_spline_))
+    sweep.kind = solids::SweepKind::b_spline;
+  else if (reader.accept(Word::cubic_spline_))
+    sweep.kind = solids::SweepKind::cubic;
+  else
+    reader.accept(Word::linear_spline_);
   reader.comma();
   const int count = reader.integer("the number of spheres");
   for (int i = 0; i < count; ++i) {
@@ -155,17 +162,24 @@ SolidShape julia_fractal(Reader& reader) {
   for (;;) {
     reader.comma();
     const Token t = reader.next();
-    if (t.is(Word::quaternion_)) fractal.hypercomplex = false;
-    else if (t.is(Word::hypercomplex_)) fractal.hypercomplex = true;
-    else if (t.is(Word::sqr_)) fractal.function = solids::JuliaFractal::Function::square;
-    else if (t.is(Word::cube_)) fractal.function = solids::JuliaFractal::Function::cube;
-    else if (t.is(Word::max_iteration_)) fractal.max_iteration = reader.integer("max_iteration");
-    else if (t.is(Word::precision_)) reader.numbers();
+    if (t.is(Word::quaternion_))
+      fractal.hypercomplex = false;
+    else if (t.is(Word::hypercomplex_))
+      fractal.hypercomplex = true;
+    else if (t.is(Word::sqr_))
+      fractal.function = solids::JuliaFractal::Function::square;
+    else if (t.is(Word::cube_))
+      fractal.function = solids::JuliaFractal::Function::cube;
+    else if (t.is(Word::max_iteration_))
+      fractal.max_iteration = reader.integer("max_iteration");
+    else if (t.is(Word::precision_))
+      reader.numbers();
     else if (t.is(Word::slice_)) {
       fractal.slice_normal = four(reader, "the normal of a slice");
       reader.comma();
       fractal.slice_distance = reader.number("the distance of a slice");
-    } else if (t.kind == TokenKind::word && (names_number(t.symbol->word) || t.is(Word::reciprocal_)) && !t.is(Word::no_)) {
+    } else if (t.kind == TokenKind::word && (names_number(t.symbol->word) || t.is(Word::reciprocal_)) &&
+               !t.is(Word::no_)) {
       reader.notes.approximated("a function of a fractal: its square", reader.location(t.place));
       if (t.is(Word::pwr_)) reader.numbers();
     } else {

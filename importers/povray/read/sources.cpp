@@ -165,7 +165,8 @@ bool Reader::accept(Word word) {
 
 void Reader::expect(char sign, const char* where) {
   const Token token = next();
-  if (!token.is(sign)) fail(fmt::format("a '{}' is expected {}, not {}", sign, where, describe(token)), token.place);
+  if (!token.is(sign))
+    fail(fmt::format("a '{}' is expected {}, not {}", sign, where, describe(token)), token.place);
 }
 
 }  // namespace vitrail::pov

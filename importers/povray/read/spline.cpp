@@ -54,8 +54,8 @@ double natural(const Knots& k, std::size_t i, std::size_t term, double t) {
 }  // namespace
 
 void Spline::add(Knot knot) {
-  const auto at = std::lower_bound(knots.begin(), knots.end(), knot.at,
-                                   [](const Knot& k, double t) { return k.at < t; });
+  const auto at =
+      std::lower_bound(knots.begin(), knots.end(), knot.at, [](const Knot& k, double t) { return k.at < t; });
   if (at != knots.end() && at->at == knot.at)
     at->value = knot.value;
   else
@@ -71,7 +71,8 @@ Numbers Spline::at(double t, std::optional<Kind> as) const {
   if (how == Kind::quadratic && t < knots.front().at) return knots.front().value;
   if (t <= knots[low].at) return knots[low].value;
   if (t >= knots[high].at) return knots[high].value;
-  const auto above = std::upper_bound(knots.begin(), knots.end(), t, [](double v, const Knot& k) { return v < k.at; });
+  const auto above =
+      std::upper_bound(knots.begin(), knots.end(), t, [](double v, const Knot& k) { return v < k.at; });
   const auto i = static_cast<std::size_t>(above - knots.begin()) - 1;
   Numbers result = knots[i].value;
   for (std::size_t term = 0; term < static_cast<std::size_t>(result.terms); ++term) {

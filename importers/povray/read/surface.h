@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures as scenes say them: pigments, normals, finishes; and interiors. What they become in the Scene is decided
-// once they are on an object.
+// Textures as scenes say them: pigments, normals, finishes; and interiors. What they become in the Scene is
+// decided once they are on an object.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,8 @@ struct BlendEntry {
   Shared<Bump> bump;
 };
 struct BlendMap {
-  Word kind = Word::color_map_;  // color_map_, pigment_map_, texture_map_, normal_map_, slope_map_, density_map_
+  Word kind =
+      Word::color_map_;  // color_map_, pigment_map_, texture_map_, normal_map_, slope_map_, density_map_
   std::vector<BlendEntry> entries;
 };
 
@@ -110,7 +111,8 @@ struct Texture {
   Shared<Pigment> pigment;
   Shared<Bump> normal;
   Shared<Finish> finish;
-  // Of textures: a pattern with a map of textures; else of layers, the lowest first, if there is more than one.
+  // Of textures: a pattern with a map of textures; else of layers, the lowest first, if there is more than
+  // one.
   std::optional<Pattern> pattern;
   Shared<BlendMap> map;
   std::vector<Shared<Texture>> layers;

@@ -29,7 +29,8 @@ struct Surface {
 class Surfaces {
  public:
   // `ambient`: what the light of `ambient` is multiplied by; 0 with radiosity.
-  Surfaces(Reader& reader, Scene& scene, Numbers ambient) : reader_(reader), scene_(scene), ambient_(ambient) {}
+  Surfaces(Reader& reader, Scene& scene, Numbers ambient)
+      : reader_(reader), scene_(scene), ambient_(ambient) {}
 
   Surface of(const Look& look);
   // Radiance by a pigment, as of a sky: a colour or a texture.
@@ -46,7 +47,8 @@ class Surfaces {
   Surface made(const Look& look);
   Layer layer_of(const Texture& texture, const Transform& to_world, const Look& look);
   Layer blended(const Texture& texture, const Transform& to_world, const Look& look);
-  Id<Material> material_of(const Pigment& pigment, const Finish& finish, const Transform& to_world, const Look& look);
+  Id<Material> material_of(const Pigment& pigment, const Finish& finish, const Transform& to_world,
+                           const Look& look);
   Id<Material> clear_material(const Pigment& pigment, const Finish& finish, const Interior* interior);
 
   // Textures (make_textures.cpp). `what` of a colour becomes the value.
@@ -56,7 +58,8 @@ class Surfaces {
   FloatParameter opacity_of(const Pigment& pigment, const Transform& to_world, bool by_uv);
   SpectrumParameter image_texture(const ImageMap& image, const Pattern& pattern, const Transform& to_world,
                                   bool by_uv, double factor, const Place& place);
-  std::optional<PatternTexture> pattern_texture(const Pattern& pattern, const Transform& to_world, const Place& place);
+  std::optional<PatternTexture> pattern_texture(const Pattern& pattern, const Transform& to_world,
+                                                const Place& place);
   FloatParameter amount_texture(const Pattern& pattern, const Transform& to_world, double from, double to,
                                 const Place& place, bool second_of_list, std::size_t index);
 

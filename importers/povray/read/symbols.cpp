@@ -6,7 +6,8 @@
 namespace vitrail::pov {
 
 const char* name_of(Word word) {
-  constexpr const char* names[] = {"",
+  constexpr const char* names[] = {
+      "",
 #define VITRAIL_POV_WORD(name) #name,
 #include "importers/povray/read/words.inc"
 #undef VITRAIL_POV_WORD

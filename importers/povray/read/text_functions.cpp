@@ -26,7 +26,8 @@ Value Reader::postfixed(const Token& name) {
     while (at('[')) {
       std::size_t index = 0;
       for (const std::size_t size : held->sizes) {
-        if (!accept('[')) fail(fmt::format("'{}' has {} dimensions", name.symbol->name, held->sizes.size()), last_);
+        if (!accept('['))
+          fail(fmt::format("'{}' has {} dimensions", name.symbol->name, held->sizes.size()), last_);
         const int i = integer("an index");
         expect(']', "behind an index");
         if (i < 0 || static_cast<std::size_t>(i) >= size)
@@ -100,7 +101,8 @@ std::string Reader::text(const char* what) {
     if (word == Word::none) {
       const Value value = postfixed(token);
       if (const auto* held = std::get_if<std::string>(&value)) return *held;
-      fail(fmt::format("{} is expected, and '{}' is {}", what, token.symbol->name, kind_of(value)), token.place);
+      fail(fmt::format("{} is expected, and '{}' is {}", what, token.symbol->name, kind_of(value)),
+           token.place);
     }
   }
   unexpected(token, what);

@@ -23,12 +23,16 @@ void read_reflection(Reader& reader, Finish& finish) {
   }
   while (!reader.accept('}')) {
     const Token token = reader.next();
-    if (token.is(Word::fresnel_)) finish.fresnel = reader.flag();
-    else if (token.is(Word::falloff_)) finish.reflection_falloff = reader.number("falloff");
-    else if (token.is(Word::exponent_)) finish.reflection_exponent = reader.number("exponent");
+    if (token.is(Word::fresnel_))
+      finish.fresnel = reader.flag();
+    else if (token.is(Word::falloff_))
+      finish.reflection_falloff = reader.number("falloff");
+    else if (token.is(Word::exponent_))
+      finish.reflection_exponent = reader.number("exponent");
     else if (token.is(Word::metallic_))
       finish.reflection_metallic = reader.number_follows() ? reader.number("metallic") : 1;
-    else if (!token.is(',')) reader.unexpected(token, "a part of reflection");
+    else if (!token.is(','))
+      reader.unexpected(token, "a part of reflection");
   }
 }
 
@@ -250,13 +254,20 @@ Shared<Interior> read_interior_block(Reader& reader) {
     }
     const Token token = reader.next();
     if (token.is('}')) break;
-    if (token.is(Word::ior_)) interior.ior = reader.number("ior");
-    else if (token.is(Word::fade_distance_)) interior.fade_distance = reader.number("fade_distance");
-    else if (token.is(Word::fade_power_)) interior.fade_power = reader.number("fade_power");
-    else if (token.is(Word::fade_color_) || token.is(Word::fade_colour_)) interior.fade_color = reader.color();
-    else if (token.is(Word::dispersion_)) interior.dispersion = reader.number("dispersion");
-    else if (token.is(Word::dispersion_samples_)) reader.numbers();
-    else if (token.is(Word::caustics_)) interior.caustics = reader.number("caustics");
+    if (token.is(Word::ior_))
+      interior.ior = reader.number("ior");
+    else if (token.is(Word::fade_distance_))
+      interior.fade_distance = reader.number("fade_distance");
+    else if (token.is(Word::fade_power_))
+      interior.fade_power = reader.number("fade_power");
+    else if (token.is(Word::fade_color_) || token.is(Word::fade_colour_))
+      interior.fade_color = reader.color();
+    else if (token.is(Word::dispersion_))
+      interior.dispersion = reader.number("dispersion");
+    else if (token.is(Word::dispersion_samples_))
+      reader.numbers();
+    else if (token.is(Word::caustics_))
+      interior.caustics = reader.number("caustics");
     else if (token.is(Word::media_)) {
       interior.has_media = true;
       if (!reader.identifier<Dropped>()) skip_block(reader);

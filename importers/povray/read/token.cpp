@@ -16,7 +16,10 @@ std::string describe(const Token& token) {
     case TokenKind::text:
       return fmt::format("\"{}\"", token.text->substr(0, 40));
     case TokenKind::sign:
-      return token.sign == 'l' ? "'<='" : token.sign == 'g' ? "'>='" : token.sign == 'n' ? "'!='" : fmt::format("'{}'", token.sign);
+      return token.sign == 'l'   ? "'<='"
+             : token.sign == 'g' ? "'>='"
+             : token.sign == 'n' ? "'!='"
+                                 : fmt::format("'{}'", token.sign);
     case TokenKind::end:
       break;
   }

@@ -22,8 +22,8 @@ struct Token {
   // Of a sign: its character; 'l', 'g', 'n' are <=, >= and !=.
   char sign = 0;
   Place place;
-  // In a TokenBuffer, of a directive that opens or parts a block: the index of the directive that parts or ends
-  // the block next.
+  // In a TokenBuffer, of a directive that opens or parts a block: the index of the directive that parts or
+  // ends the block next.
   std::uint32_t match = 0;
   union {
     double number = 0;

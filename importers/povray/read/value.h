@@ -30,7 +30,8 @@ struct Numbers {
     n.terms = count;
     if (terms == 1)
       for (int i = 1; i < count; ++i) n.v[static_cast<std::size_t>(i)] = v[0];
-    for (int i = terms == 1 ? count : std::min(terms, count); i < 5; ++i) n.v[static_cast<std::size_t>(i)] = 0;
+    for (int i = terms == 1 ? count : std::min(terms, count); i < 5; ++i)
+      n.v[static_cast<std::size_t>(i)] = 0;
     return n;
   }
 };

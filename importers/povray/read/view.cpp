@@ -15,7 +15,8 @@ Vector3d turned(const Transform& t, Vector3d v) { return transform_vector(t, v);
 void move(CameraView& c, const Transform& t) {
   c.location = transform_point(t, Point3d{} + c.location) - Point3d{};
   c.focal_point = transform_point(t, Point3d{} + c.focal_point) - Point3d{};
-  c.direction = turned(t, c.direction), c.right = turned(t, c.right), c.up = turned(t, c.up), c.sky = turned(t, c.sky);
+  c.direction = turned(t, c.direction), c.right = turned(t, c.right), c.up = turned(t, c.up),
+  c.sky = turned(t, c.sky);
 }
 
 // Turns the camera so that it looks at the point with `sky` above; lengths stay, and the hand of `right`.
@@ -27,8 +28,9 @@ void look_at(Reader& reader, CameraView& c, Vector3d target) {
   c.direction = normalize(to);
   Vector3d right = cross(c.sky, c.direction);
   if (!(length(right) > 1e-9)) {  // it looks along the sky
-    right = cross(std::abs(c.direction.y) > 0.9 ? Vector3d{0, 0, c.direction.y > 0 ? -1.0 : 1.0} : Vector3d{0, 1, 0},
-                  c.direction);
+    right = cross(
+        std::abs(c.direction.y) > 0.9 ? Vector3d{0, 0, c.direction.y > 0 ? -1.0 : 1.0} : Vector3d{0, 1, 0},
+        c.direction);
     if (!(length(right) > 0)) reader.fail("the camera looks along its sky", c.place);
   }
   right = normalize(right);
@@ -47,8 +49,8 @@ Shared<CameraView> read_camera_block(Reader& reader) {
   std::optional<Vector3d> target;
   const auto settle = [&] {
     if (c.angle > 0 && c.kind == Word::perspective_ && c.angle < 180)
-      c.direction = normalize(c.direction) *
-                    (0.5 * length(c.right) / std::tan(c.angle * std::numbers::pi / 360));
+      c.direction =
+          normalize(c.direction) * (0.5 * length(c.right) / std::tan(c.angle * std::numbers::pi / 360));
     if (target) look_at(reader, c, *target);
     target.reset();
   };
@@ -61,8 +63,8 @@ Shared<CameraView> read_camera_block(Reader& reader) {
     Transform step;
     const Token token = reader.peek();
     if (token.is('}')) break;
-    if (token.is(Word::translate_) || token.is(Word::rotate_) || token.is(Word::scale_) || token.is(Word::matrix_) ||
-        token.is(Word::transform_)) {
+    if (token.is(Word::translate_) || token.is(Word::rotate_) || token.is(Word::scale_) ||
+        token.is(Word::matrix_) || token.is(Word::transform_)) {
       settle();
       read_transform(reader, step);
       move(c, step);

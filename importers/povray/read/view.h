@@ -6,8 +6,8 @@
 
 namespace vitrail::pov {
 
-// `camera {}`: rays of the perspective camera go from `location` along direction + x·right + y·up, x and y from
-// −½ to ½.
+// `camera {}`: rays of the perspective camera go from `location` along direction + x·right + y·up, x and y
+// from −½ to ½.
 struct CameraView {
   Place place;
   Word kind = Word::perspective_;

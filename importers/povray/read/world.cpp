@@ -42,7 +42,8 @@ void read_global_settings(Reader& reader, World& world) {
         break;
       case Word::photons_:
         skip_block(reader);
-        reader.notes.approximated("photons: paths find what they light, or do not", reader.location(token.place));
+        reader.notes.approximated("photons: paths find what they light, or do not",
+                                  reader.location(token.place));
         break;
       case Word::subsurface_:
         skip_block(reader);
@@ -127,7 +128,8 @@ World read_world(Reader& reader) {
 
 void Reader::set_defaults() {
   expect('{', "behind #default");
-  auto texture = defaults.texture ? std::make_shared<Texture>(*defaults.texture) : std::make_shared<Texture>();
+  auto texture =
+      defaults.texture ? std::make_shared<Texture>(*defaults.texture) : std::make_shared<Texture>();
   while (!accept('}')) {
     const Token token = next();
     if (token.is(Word::texture_)) {

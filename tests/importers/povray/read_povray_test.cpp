@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// POV-Ray's scene language, and what its objects become. Values were printed by povray 3.7 where they are not obvious.
+// POV-Ray's scene language, and what its objects become. Values were printed by povray 3.7 where they are not
+// obvious.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -70,15 +71,25 @@ TEST_F(ReadPovray, RandomNumbersAreThoseOfPovray) {
 }
 
 TEST_F(ReadPovray, LoopsAndBranches) {
-  EXPECT_DOUBLE_EQ(number("I", "#declare I = 0; #while (I < 10) #declare I = I + 1; #if (I = 7) #break #end #end"), 7);
-  EXPECT_DOUBLE_EQ(number("N", "#declare N = 0; #for (I, 1, 4) #for (J, 1, I) #declare N = N + 1; #end #end"), 10);
-  EXPECT_DOUBLE_EQ(number("N", "#declare N = 0; #switch (1) #case (0) #declare N = N + 1; #case (1) #declare N = N + "
-                               "10; #case (2) #declare N = N + 100; #break #else #declare N = 1000; #end"), 110);
-  EXPECT_DOUBLE_EQ(number("N", "#ifdef (Q) #declare N = 1; #else #if (no) #declare N = 2; #elseif (1) #declare N = 3; #end #end"), 3);
+  EXPECT_DOUBLE_EQ(
+      number("I", "#declare I = 0; #while (I < 10) #declare I = I + 1; #if (I = 7) #break #end #end"), 7);
+  EXPECT_DOUBLE_EQ(number("N", "#declare N = 0; #for (I, 1, 4) #for (J, 1, I) #declare N = N + 1; #end #end"),
+                   10);
+  EXPECT_DOUBLE_EQ(
+      number("N",
+             "#declare N = 0; #switch (1) #case (0) #declare N = N + 1; #case (1) #declare N = N + "
+             "10; #case (2) #declare N = N + 100; #break #else #declare N = 1000; #end"),
+      110);
+  EXPECT_DOUBLE_EQ(
+      number(
+          "N",
+          "#ifdef (Q) #declare N = 1; #else #if (no) #declare N = 2; #elseif (1) #declare N = 3; #end #end"),
+      3);
 }
 
 TEST_F(ReadPovray, MacrosChangeWhatTheyAreGiven) {
-  const std::string before = "#macro P(X) #declare X = 3; #end #macro F(N) (N > 0 ? 1 : 0) #end #declare A = 1; P(A) P(New)";
+  const std::string before =
+      "#macro P(X) #declare X = 3; #end #macro F(N) (N > 0 ? 1 : 0) #end #declare A = 1; P(A) P(New)";
   EXPECT_DOUBLE_EQ(number("A + New + F(2)", before), 7);
   EXPECT_DOUBLE_EQ(number("A", before + "#macro L() #local A = 9; #end L()"), 3);
 }
@@ -93,12 +104,17 @@ TEST_F(ReadPovray, ArraysAndSplines) {
 
 TEST_F(ReadPovray, FunctionsAreCompiled) {
   EXPECT_DOUBLE_EQ(number("F(3,4,0)", "#declare F = function { sqrt(x*x + y*y) - z }"), 5);
-  EXPECT_DOUBLE_EQ(number("G(2)", "#declare F = function(a,b) { select(a-b, 1, 2, 3) } #declare G = function(q) { F(q,2) + F(1,q)*10 }"), 12);
+  EXPECT_DOUBLE_EQ(number("G(2)",
+                          "#declare F = function(a,b) { select(a-b, 1, 2, 3) } #declare G = function(q) { "
+                          "F(q,2) + F(1,q)*10 }"),
+                   12);
 }
 
 TEST_F(ReadPovray, TextFilesStayInMemory) {
-  EXPECT_DOUBLE_EQ(number("A + B.y", "#fopen F \"t.txt\" write #write (F, 4, \",\", <1,2,3>) #fclose F "
-                                     "#fopen F \"t.txt\" read #read (F, A, B)"), 6);
+  EXPECT_DOUBLE_EQ(number("A + B.y",
+                          "#fopen F \"t.txt\" write #write (F, 4, \",\", <1,2,3>) #fclose F "
+                          "#fopen F \"t.txt\" read #read (F, A, B)"),
+                   6);
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "t.txt"));
 }
 
@@ -112,7 +128,8 @@ TEST_F(ReadPovray, ErrorsNameTheirPlaceAndWhatLeadsThere) {
   const std::string nested = error("#include \"m.inc\"\nM()\n").what();
   EXPECT_NE(nested.find("in macro M, called at"), std::string::npos) << nested;
   EXPECT_NE(std::string(error("#if (1)\n").what()).find("no #end"), std::string::npos);
-  EXPECT_NE(std::string(error("#include \"nowhere.inc\"\n").what()).find("there is no file"), std::string::npos);
+  EXPECT_NE(std::string(error("#include \"nowhere.inc\"\n").what()).find("there is no file"),
+            std::string::npos);
   EXPECT_NE(std::string(error("#macro R() R() R() #end R()").what()).find("too deep"), std::string::npos);
 }
 
