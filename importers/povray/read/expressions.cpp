@@ -82,7 +82,28 @@ Numbers Reader::conjunction() {
   return value;
 }
 
+// Texts are compared by their bytes.
+std::optional<Numbers> Reader::relation_of_texts() {
+  const Token first = peek();
+  const Value* held = first.kind == TokenKind::word ? first.symbol->value() : nullptr;
+  const bool is_text = first.kind == TokenKind::text || (held && std::holds_alternative<std::string>(*held));
+  if (!is_text) return std::nullopt;
+  const std::string a = text("a text");
+  const Token sign = next();
+  if (!is_operator(sign, "<>=lgn")) unexpected(sign, "a comparison of texts");
+  const int order = a.compare(text("a text"));
+  const bool holds = sign.is('<')   ? order < 0
+                     : sign.is('>') ? order > 0
+                     : sign.is('l') ? order <= 0
+                     : sign.is('g') ? order >= 0
+                     : sign.is('n') ? order != 0
+                                    : order == 0;
+  return Numbers(holds ? 1.0 : 0.0);
+}
+
 Numbers Reader::relation() {
+  if (comparing_ && !first_)
+    if (const auto texts = relation_of_texts()) return *texts;
   Numbers value = sum();
   if (!comparing_) return value;
   for (Token token = peek_operator(); is_operator(token, "<>=lgn"); token = peek_operator()) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // polygon, triangle, smooth_triangle, mesh and mesh2.
 #include <fmt/format.h>
+#include <optional>
+#include <utility>
 
 #include <cmath>
 #include <map>
@@ -159,8 +161,7 @@ std::size_t read_items(Reader& reader, const char* what, One&& one) {
 
 using Triple = std::array<std::uint32_t, 3>;
 
-Triple triple(Reader& reader, std::size_t count, const char* what) {
-  const Numbers n = reader.numbers();
+Triple triple_of(Reader& reader, const Numbers& n, std::size_t count, const char* what) {
   Triple t;
   for (std::size_t i = 0; i < 3; ++i) {
     if (!(n.v[i] >= 0 && n.v[i] < static_cast<double>(count)))
@@ -170,17 +171,23 @@ Triple triple(Reader& reader, std::size_t count, const char* what) {
   return t;
 }
 
+Triple triple(Reader& reader, std::size_t count, const char* what) {
+  return triple_of(reader, reader.numbers(), count, what);
+}
+
 struct Lists {
   std::vector<Point3f> vertices;
   std::vector<Normal3f> normals;
   std::vector<Point2f> uvs;
   std::vector<Shared<Texture>> textures;
   std::vector<Triple> faces, normal_faces, uv_faces;
-  std::vector<int> face_textures;  // −1: the object's
+  std::optional<Numbers> next_face;  // an expression that was not the number of a texture
+  std::vector<int> face_textures;    // −1: the object's
 };
 
 void read_face(Reader& reader, Lists& lists) {
-  lists.faces.push_back(triple(reader, lists.vertices.size(), "vertex"));
+  const Numbers corners = lists.next_face ? *std::exchange(lists.next_face, std::nullopt) : reader.numbers();
+  lists.faces.push_back(triple_of(reader, corners, lists.vertices.size(), "vertex"));
   int texture = -1;
   for (int i = 0; i < 3; ++i) {  // one of the face, or one for each corner
     const Token comma = reader.next();
@@ -193,11 +200,15 @@ void read_face(Reader& reader, Lists& lists) {
       reader.put_back(comma);
       break;
     }
-    const int index = reader.integer("the number of a texture");
-    if (i == 0) texture = index;
+    const Numbers given = reader.numbers();
+    if (given.terms > 1) {
+      lists.next_face = given;
+      break;
+    }
+    if (!(given.v[0] >= 0 && given.v[0] < static_cast<double>(lists.textures.size())))
+      reader.fail(fmt::format("there is no texture {}", given.v[0]), reader.here());
+    if (i == 0) texture = static_cast<int>(given.v[0]);
   }
-  if (texture >= static_cast<int>(lists.textures.size()))
-    reader.fail(fmt::format("there is no texture {}", texture), reader.here());
   lists.face_textures.push_back(texture);
 }
 

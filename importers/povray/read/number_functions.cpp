@@ -217,7 +217,8 @@ std::optional<Numbers> Reader::query_of(const Token& word) {
     case Word::max_extent_: {
       const auto object = identifier<Shared<Object>>();
       if (!object) unexpected(next(), "the name of an object");
-      const Bounds3d box = extents_of(**object);
+      Bounds3d box = extents_of(**object);
+      if (box.empty()) box.lower = box.upper = {};  // a text of blanks
       result = numbers_of(name == Word::min_extent_ ? box.lower : box.upper);
       break;
     }

@@ -115,6 +115,7 @@ class Reader {
 
   // ---- What the scene sets.
   Defaults defaults;
+  void set_defaults();  // by the block of #default
   Notes notes;
   double version = 0;  // 0: the file does not say
   std::optional<double> assumed_gamma;
@@ -182,7 +183,6 @@ class Reader {
   void declare(bool local);
   void undefine();
   void set_version(const Place& place);
-  void set_defaults();
   void open_text_file(const Token& directive);
   void close_text_file();
   void write_text();
@@ -208,6 +208,7 @@ class Reader {
   Numbers disjunction();
   Numbers conjunction();
   Numbers relation();
+  std::optional<Numbers> relation_of_texts();
   Numbers sum();
   Numbers product();
   Numbers unary();

@@ -80,8 +80,11 @@ Shared<CameraView> read_camera_block(Reader& reader) {
       case Word::omnimax_:
       case Word::panoramic_:
       case Word::spherical_:
-      case Word::mesh_camera_:
         c.kind = token.symbol->word;
+        break;
+      case Word::mesh_camera_:
+        c.kind = Word::mesh_camera_;
+        if (reader.peek().is('{')) skip_block(reader);
         break;
       case Word::cylinder_:
         c.kind = token.symbol->word;

@@ -109,6 +109,9 @@ bool read_statement(Reader& reader, World& world) {
     case Word::media_:
       drop(reader, token);
       return true;
+    case Word::default_:  // without its #
+      reader.set_defaults();
+      return true;
     case Word::max_trace_level_:  // of version 1
       world.max_trace_level = reader.integer("max_trace_level");
       return true;

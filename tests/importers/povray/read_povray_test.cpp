@@ -166,5 +166,50 @@ mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0,1,2> } })");
   EXPECT_EQ(scene.film.width, 2 * scene.film.height);
 }
 
+TEST_F(ReadPovray, TextsAreCompared) {
+  EXPECT_EQ(number("(Name_ != \"\" ? 1 : 2)", "#declare Name_ = \"b\";"), 1);
+  EXPECT_EQ(number("(\"a\" = Name_)", "#declare Name_ = \"b\";"), 0);
+  EXPECT_EQ(number("(\"a\" < Name_ & 1 = 1)", "#declare Name_ = \"b\";"), 1);
+}
+
+TEST_F(ReadPovray, DefaultsMayLackTheirSign) {
+  const Scene scene = read("default { pigment { rgb <1,0,0> } } sphere { 0, 1 }").scene;
+  ASSERT_FALSE(scene.materials.empty());
+}
+
+// Behind a face comes the number of a texture, or the next face, which may be an expression.
+TEST_F(ReadPovray, FacesMayBeExpressions) {
+  const Scene scene =
+      read(
+          "#declare F_ = <0,1,2>; mesh2 { vertex_vectors { 4, <0,0,0>,<1,0,0>,<1,1,0>,<0,1,0> } "
+          "face_indices { 2, F_+0, F_+<0,1,1> } }")
+          .scene;
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].triangles.size(), 2u);
+  EXPECT_NE(error("mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0,1,2>, 4 } }").what(),
+            std::string());
+}
+
+TEST_F(ReadPovray, ATextOfBlanksHasNoExtents) {
+  EXPECT_EQ(number("max_extent(T_).x", "#declare T_ = text { ttf \"cyrvetic.ttf\" \" \" 1, 0 };"), 0);
+}
+
+// A quartic of 2.5 across is found in the cube of 40 that is looked at; so is one that is much smaller.
+TEST_F(ReadPovray, SmallSurfacesOfPolynomialsAreFound) {
+  for (const char* size : {"1", "0.2"}) {
+    const Scene scene =
+        read(std::string(
+                 "quartic { <1,0,0,0,2,0,0,2,0,-2.5,0,0,0,0,0,0,0,0,0,0,1,0,0,2,0,1.5,0,0,0,0,1,0,-2.5,0,"
+                 "0.5625> pigment { rgb 1 } scale ") +
+             size + " }")
+            .scene;
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    Bounds3f bounds;
+    for (const Point3f& p : scene.meshes[0].positions) extend(bounds, p);
+    EXPECT_NEAR(extent(bounds).x, 3.0 * std::atof(size), 0.05 * std::atof(size))
+        << "a torus of radii 1 and 0.5";
+  }
+}
+
 }  // namespace
 }  // namespace vitrail
