@@ -73,8 +73,8 @@ TEST_F(PovrayPatterns, ThoseWithoutNoise) {
     pattern.arms = 2;
     pattern.brick = {{1, .6, .7}, .1f};
     pattern.texture_to_world = translate({.31, .17, -.23}) * scale({1.3, 1.1, .9});
-    pattern.map = {{0, unbounded_from_rgb({.1, .2, .3})}, {1, unbounded_from_rgb({.9, .6, .4})}};
-    if (kind == Kind::hexagon) pattern.map.push_back({1, unbounded_from_rgb({.5, .5, .5})});
+    pattern.map = {{0, emission_from_rgb({.1, .2, .3})}, {1, emission_from_rgb({.9, .6, .4})}};
+    if (kind == Kind::hexagon) pattern.map.push_back({1, emission_from_rgb({.5, .5, .5})});
     const Transform to_texture = inverse(pattern.texture_to_world);
     const std::array<std::array<double, 3>, 3> colors{{{.1, .2, .3}, {.9, .6, .4}, {.5, .5, .5}}};
     SCOPED_TRACE(static_cast<int>(kind));
