@@ -58,13 +58,14 @@ std::map<std::string, std::set<std::string>> options_by_verb() {
   return options;
 }
 
-// Code lines, one that ends in \ with the next, without their comments.
+// Code lines, one that ends in \ with the next, without their comments and quoted words.
 std::vector<PageLine> commands_of(const fs::path& page) {
+  static const std::regex quoted("'[^']*'");
   std::vector<PageLine> commands;
   bool goes_on = false;
   for (PageLine line : lines_of(page)) {
     if (!line.is_code) continue;
-    line.text = line.text.substr(0, line.text.find(" #"));
+    line.text = std::regex_replace(line.text.substr(0, line.text.find(" #")), quoted, "TEXT");
     const bool ends_open = line.text.ends_with("\\");
     if (ends_open) line.text.pop_back();
     if (goes_on && !commands.empty())

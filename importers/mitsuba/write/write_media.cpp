@@ -161,7 +161,9 @@ DensityGrid density_grid(Context& context, const Grid& density, const VolumePara
   const auto* spectrum = std::get_if<Spectrum>(&sigma_t);
   if (spectrum && !is_constant(*spectrum)) try {
       Grid product = combined_cells(density, sigma_t, [](double d, double t) { return d * t; });
-      if (becomes_color(sigma_t)) context.approximated("the extinction beside a density becomes its colour");
+      context.approximated(becomes_color(sigma_t)
+                               ? "the extinction beside a density becomes its colour"
+                               : "a density and the colour of its extinction become one grid of colours");
       return {std::move(product)};
     } catch (const Error&) {  // NanoVDB
     }

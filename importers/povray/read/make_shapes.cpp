@@ -36,6 +36,7 @@ Scene SceneMaker::make() {
   Bounds3d box;
   for (const auto& object : world_.objects)
     if (const Bounds3d one = extents_of(*object); !one.empty() && length(extent(one)) < 1e7) extend(box, one);
+  if (box.empty()) extend(box, Point3d{});  // planes alone
   extend(box, world_.camera ? Point3d{} + world_.camera->location : Point3d{});
   reach_ = 1000 * std::max(length(extent(box)), 1e-3);
   set_view();

@@ -24,7 +24,8 @@ void look_at(Reader& reader, CameraView& c, Vector3d target) {
   const Vector3d to = target - c.location;
   if (!(length(to) > 0)) return;
   const double far = length(c.direction), wide = length(c.right), high = length(c.up);
-  const bool left = dot(cross(c.up, c.direction), c.right) < 0;
+  // Where they lie in a plane, as after `up z` alone, POV-Ray shows what the opposite would show.
+  const bool left = dot(cross(c.up, c.direction), c.right) <= 0;
   c.direction = normalize(to);
   Vector3d right = cross(c.sky, c.direction);
   if (!(length(right) > 1e-9)) {  // it looks along the sky

@@ -148,7 +148,7 @@ TEST(LargeObj, ErrorsBehindManyChunksHaveTheirLine) {
   TemporaryFolder folder;
   RandomObj random(5);
   random.write(2'000'000);
-  for (const std::string bad : {"v 0 0 x", "f 1 2 999999", "f 1 2 -999999", "vt 1e99 0"}) {
+  for (const std::string bad : {"v 0 0 x", "f 1 2 999999", "f 1 2 -999999"}) {
     if (random.text.back() == '\r') random.text += '\n';
     try {
       read_obj(folder.write("bad.obj", random.text + bad + "\n" + random.text));

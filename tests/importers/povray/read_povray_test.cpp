@@ -211,5 +211,22 @@ TEST_F(ReadPovray, SmallSurfacesOfPolynomialsAreFound) {
   }
 }
 
+// As POV-Ray 3.7 shows its prism3.pov.
+TEST_F(ReadPovray, UpAlongTheDirectionMirrors) {
+  const auto mirrored = [&](const char* up) {
+    const Scene scene =
+        read(std::string("camera { location <-10,10,-10> right x up ") + up + " look_at 0 } sphere { 0, 1 }")
+            .scene;
+    return swaps_handedness(std::get<PerspectiveCamera>(scene.camera).camera_to_world);
+  };
+  EXPECT_NE(mirrored("z"), mirrored("y"));
+}
+
+TEST_F(ReadPovray, APlaneAloneReachesTheHorizon) {
+  const Scene scene = read("camera { location <0,1,-100> look_at <0,20,0> } plane { y, 0 }").scene;
+  ASSERT_EQ(scene.shapes.size(), 1u);
+  EXPECT_GT(length(transform_vector(scene.shapes[0].object_to_world, Vector3d{1, 0, 0})), 1e4);
+}
+
 }  // namespace
 }  // namespace vitrail
