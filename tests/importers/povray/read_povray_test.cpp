@@ -190,25 +190,28 @@ TEST_F(ReadPovray, FacesMayBeExpressions) {
             std::string());
 }
 
+// Of the package fonts-povray.
 TEST_F(ReadPovray, ATextOfBlanksHasNoExtents) {
-  EXPECT_EQ(number("max_extent(T_).x", "#declare T_ = text { ttf \"cyrvetic.ttf\" \" \" 1, 0 };"), 0);
+  const Scene scene = read(
+                          "#declare T_ = text { ttf \"cyrvetic.ttf\" \" \" 1, 0 } "
+                          "sphere { 0, 1 + max_extent(T_).x }")
+                          .scene;
+  EXPECT_EQ(transform_vector(scene.shapes.at(0).object_to_world, Vector3d{0, 0, 1}), (Vector3d{0, 0, 1}));
 }
 
-// A quartic of 2.5 across is found in the cube of 40 that is looked at; so is one that is much smaller.
+// The cube of 40 that is looked at has cells larger than these.
 TEST_F(ReadPovray, SmallSurfacesOfPolynomialsAreFound) {
-  for (const char* size : {"1", "0.2"}) {
-    const Scene scene =
-        read(std::string(
-                 "quartic { <1,0,0,0,2,0,0,2,0,-2.5,0,0,0,0,0,0,0,0,0,0,1,0,0,2,0,1.5,0,0,0,0,1,0,-2.5,0,"
-                 "0.5625> pigment { rgb 1 } scale ") +
-             size + " }")
-            .scene;
-    ASSERT_EQ(scene.meshes.size(), 1u);
+  const auto width = [&](const char* polynomial) {
+    const Scene scene = read(std::string(polynomial)).scene;
     Bounds3f bounds;
-    for (const Point3f& p : scene.meshes[0].positions) extend(bounds, p);
-    EXPECT_NEAR(extent(bounds).x, 3.0 * std::atof(size), 0.05 * std::atof(size))
-        << "a torus of radii 1 and 0.5";
-  }
+    for (const Point3f& p : scene.meshes.at(0).positions) extend(bounds, p);
+    return extent(bounds).x;
+  };
+  EXPECT_NEAR(width("quartic { <1,0,0,0,2,0,0,2,0,-2.5,0,0,0,0,0,0,0,0,0,0,1,0,0,2,0,1.5,0,0,0,0,1,0,-2.5,0,"
+                    "0.5625> pigment { rgb 1 } }"),
+              3, 0.03)
+      << "a torus of radii 1 and 0.5";
+  EXPECT_NEAR(width("poly { 2, <1,0,0,0,1,0,0,1,0,-0.01> pigment { rgb 1 } }"), 0.2, 0.002) << "a sphere";
 }
 
 // As POV-Ray 3.7 shows its prism3.pov.
