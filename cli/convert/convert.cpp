@@ -39,7 +39,7 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& a) {
   app.add_option("files", a.files,
-                 "a scene (.pbrt, .xml, .glb, .gltf, .obj, .ply, .stl) and what it becomes (.pbrt: v4, .xml: "
+                 "a scene (.pbrt, .xml, .glb, .gltf, .obj, .ply, .stl, .pov) and what it becomes (.pbrt: v4, .xml: "
                  "Mitsuba 3, "
                  ".pov, .glb, .gltf, .obj, .ply); with --to: scenes, and folders that are searched for them")
       ->required();
