@@ -15,7 +15,6 @@ namespace {
 using Kind = PatternTexture::Kind;
 
 double rest(double x) { return x - std::floor(x); }
-double up_and_down(double x) { return 1 - std::abs(2 * rest(x) - 1); }
 bool is_odd(double whole) { return whole - 2 * std::floor(whole / 2) != 0; }
 double radius(Point3d p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
 double below_one(double distance) { return std::max(1 - distance, 0.0); }
@@ -144,7 +143,7 @@ double number_of_pattern(const PatternTexture& t, Point3d p) {
       return rest(0.75 + portable_atan2(p.x, p.z) / (2 * pi));
     case Kind::spiral1: {
       const double turn = portable_atan2(p.y, p.x) / (2 * pi) + 0.25;
-      return up_and_down(std::sqrt(p.x * p.x + p.y * p.y) + p.z + t.arms * turn);
+      return std::sqrt(p.x * p.x + p.y * p.y) + p.z + t.arms * turn;
     }
     case Kind::wood:
       return std::sqrt(p.x * p.x + p.y * p.y);

@@ -78,7 +78,8 @@ PatternTexture::Wave wave_of(Word wave, Word pattern) {
     case Word::ramp_wave_:
       return Wave::ramp;
     default:
-      return pattern == Word::marble_ || pattern == Word::wood_ ? Wave::triangle : Wave::ramp;
+      return pattern == Word::marble_ || pattern == Word::wood_ || pattern == Word::spiral1_ ? Wave::triangle
+                                                                                             : Wave::ramp;
   }
 }
 

@@ -65,7 +65,7 @@ TEST(Patterns, ThoseOfCoordinates) {
   arms.arms = 3;
   expect_values(arms, [](Point3d p) {
     const double turns = std::hypot(p.x, p.y) + p.z + 3 * (std::atan2(p.y, p.x) / (2 * pi) + 0.25);
-    return 1 - std::abs(2 * rest(turns) - 1);
+    return rest(turns);
   });
 }
 
