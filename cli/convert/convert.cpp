@@ -38,10 +38,11 @@ struct Arguments {
 };
 
 void declare(CLI::App& app, Arguments& a) {
-  app.add_option("files", a.files,
-                 "a scene (.pbrt, .xml, .glb, .gltf, .obj, .ply, .stl, .pov) and what it becomes (.pbrt: v4, .xml: "
-                 "Mitsuba 3, "
-                 ".pov, .glb, .gltf, .obj, .ply); with --to: scenes, and folders that are searched for them")
+  app.add_option(
+         "files", a.files,
+         "a scene (.pbrt, .xml, .glb, .gltf, .obj, .ply, .stl, .pov) and what it becomes (.pbrt: v4, .xml: "
+         "Mitsuba 3, "
+         ".pov, .glb, .gltf, .obj, .ply); with --to: scenes, and folders that are searched for them")
       ->required();
   app.add_option("-o,--output", a.output, "what the scene becomes; with --to: the folder for all");
   app.add_option("--to", a.format,
