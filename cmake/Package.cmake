@@ -28,7 +28,7 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "converts scenes and renders them spectral
 
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME vitrail)
 # Images in scenes; mpirun, which one process renders without; generators of examples.
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "vitrail-images, openmpi-bin, python3")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "vitrail-images, openmpi-bin, python3, libfreetype6, povray-includes, fonts-povray")
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION
 "Vitrail converts scenes between PBRT, Mitsuba, OBJ, PLY and POV-Ray. It renders
 scenes that are larger than a machine's memory, spectrally, on one machine or
