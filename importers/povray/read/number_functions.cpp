@@ -45,8 +45,9 @@ std::optional<Numbers> Reader::constant_of(Word word) {
     case Word::clock_:
     case Word::clock_on_:
     case Word::now_:
-      return Numbers(0);
     case Word::clock_delta_:
+      return Numbers(0);
+    // Of an animation the first frame is read. POV-Ray's stills have 0, and refuse many animations.
     case Word::frame_number_:
     case Word::initial_frame_:
     case Word::final_frame_:

@@ -166,6 +166,13 @@ mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0,1,2> } })");
   EXPECT_EQ(scene.film.width, 2 * scene.film.height);
 }
 
+TEST_F(ReadPovray, AnAnimationIsItsFirstFrame) {
+  for (const char* name : {"clock", "clock_delta", "initial_clock", "clock_on"})
+    EXPECT_EQ(number(name), 0) << name;
+  for (const char* name : {"frame_number", "initial_frame", "final_frame"})
+    EXPECT_EQ(number(name), 1) << name;
+}
+
 TEST_F(ReadPovray, TextsAreCompared) {
   EXPECT_EQ(number("(Name_ != \"\" ? 1 : 2)", "#declare Name_ = \"b\";"), 1);
   EXPECT_EQ(number("(\"a\" = Name_)", "#declare Name_ = \"b\";"), 0);
