@@ -159,9 +159,9 @@ void declare_film(CLI::App& app, RenderArguments& a) {
 // How long the job takes, and how it ends and goes on.
 void declare_job(CLI::App& app, RenderArguments& a) {
   RenderOptions& o = a.options;
-  app.add_option(
-         "--patience", o.resources.patience_s,
-         "seconds; a rank that does not answer for so long is named and ends the job; default 600, 0: never")
+  app.add_option("--patience", o.resources.patience_s,
+                 "seconds; a rank, or a file that one waits for, that does not answer for so long is named "
+                 "and ends the job; default 600, 0: never")
       ->check(not_below_0);
   app.add_option("--checkpoint-every", o.resources.checkpoint_every_s,
                  "seconds between checkpoints; 0: none but those that signals ask for")
