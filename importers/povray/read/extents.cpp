@@ -28,15 +28,6 @@ Bounds3d around(Point3d center, double radius) {
   return {center - r, center + r};
 }
 
-Bounds3d common(const Bounds3d& a, const Bounds3d& b) {
-  Bounds3d result;
-  for (int i = 0; i < 3; ++i) {
-    result.lower[i] = std::max(a.lower[i], b.lower[i]);
-    result.upper[i] = std::min(a.upper[i], b.upper[i]);
-  }
-  return result;
-}
-
 // Of a disc across `axis`.
 Bounds3d around_disc(Point3d center, Vector3d axis, double radius) {
   const Vector3d n = normalize(axis);
@@ -94,6 +85,15 @@ Bounds3d shape_box(const Object& object) {
 }
 
 }  // namespace
+
+Bounds3d common(const Bounds3d& a, const Bounds3d& b) {
+  Bounds3d result;
+  for (int i = 0; i < 3; ++i) {
+    result.lower[i] = std::max(a.lower[i], b.lower[i]);
+    result.upper[i] = std::min(a.upper[i], b.upper[i]);
+  }
+  return result;
+}
 
 Bounds3d extents_of(const Object& object) {
   if (!object.box) object.box = shape_box(object);

@@ -9,6 +9,9 @@ namespace vitrail::pov {
 
 class Reader;
 
+// What both hold; empty where they do not meet.
+Bounds3d common(const Bounds3d& a, const Bounds3d& b);
+
 // By the box of what the object is made of, under its transformation; of what has no end, ±1e7.
 Bounds3d extents_of(const Object& object);
 

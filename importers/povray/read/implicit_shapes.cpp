@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "importers/povray/read/extents.h"
 #include "importers/povray/read/function.h"
 #include "importers/povray/read/height_image.h"
 #include "importers/povray/read/reader.h"
@@ -17,15 +18,6 @@ namespace {
 
 // A set without end is looked at within a box; on its own, within this one.
 const Bounds3d alone{{-20, -20, -20}, {20, 20, 20}};
-
-Bounds3d common(const Bounds3d& a, const Bounds3d& b) {
-  Bounds3d both;
-  for (int axis = 0; axis < 3; ++axis) {
-    both.lower[axis] = std::max(a.lower[axis], b.lower[axis]);
-    both.upper[axis] = std::min(a.upper[axis], b.upper[axis]);
-  }
-  return both;
-}
 
 Bounds3d bounds_of_seen(const solids::Solid& solid) {
   Bounds3d bounds;
