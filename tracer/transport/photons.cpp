@@ -128,8 +128,12 @@ bool shade(Tracing& tracing, PhotonPath& photon) {
   const auto is_straight = [&] { return !photon.refracted && !photon.scattered; };
   const bool fades = tracing.scene.lights.fades && is_straight();
   if (!shade_event(tracing, photon, event)) return false;
-  if (fades && !is_straight())
+  if (fades && !is_straight()) {
     photon.throughput = photon.throughput * share_at_first_surface(tracing, photon, event.at.p);
+    RandomStream random(stream_of(photon, RayRandom::throughput));
+    random.bits();  // of its departure
+    round_throughput(photon, random.bits());
+  }
   return true;
 }
 

@@ -37,17 +37,20 @@ Departure departure(const Tracing& tracing, const Traveller& t, const Interactio
           tracing.scene.interiors.beside(t.inside, surface, front_side, front_side != at.front)};
 }
 
+void round_throughput(Traveller& t, std::uint64_t random) {
+  for (float& x : t.throughput.v) {
+    x = rounded_by_chance(x, static_cast<std::uint32_t>(random));
+    random >>= 16;
+  }
+}
+
 void depart(Traveller& t, const Departure& from, Vector3d direction) {
   t.direction = encode_direction(direction);
   t.ray = {from.origin, decode_direction(t.direction), from.exclude};
   t.hit = {};
   t.inside = from.inside;
   t.random = hash_of_ray(t);
-  std::uint64_t random = RandomStream(stream_of(t, RayRandom::throughput)).bits();
-  for (float& x : t.throughput.v) {
-    x = rounded_by_chance(x, static_cast<std::uint32_t>(random));
-    random >>= 16;
-  }
+  round_throughput(t, RandomStream(stream_of(t, RayRandom::throughput)).bits());
 }
 
 void turn(Traveller& t, DirectionCode direction) {
