@@ -16,7 +16,7 @@ namespace {
 constexpr std::array required{"normals",     "uvs",        "attributes", "instances", "textures",
                               "quadrics",    "procedural", "motion",     "tables",    "slabs",
                               "hair",        "curves",     "faces",      "masking",   "decimals",
-                              "media_grids", "fadings",    "glows",      "patterns"};
+                              "media_grids", "fadings",    "glows",      "patterns",  "hidden_emitters"};
 constexpr std::array optional{"pieces"};
 
 std::vector<std::string> names(std::uint32_t bits, std::span<const char* const> known) {

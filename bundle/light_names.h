@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people call the lights of a bundle: kind and number.
+// What people call the lights of a bundle: by the name that the scene's file gives, else by kind and number.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace vitrail {
 
-// By the indices of the manifest's records.
+// By the indices of the manifest's records. Several lights may have one name. A name has no control
+// character, blank, comma or equals sign, and at most 64 bytes.
 struct LightNames {
   std::vector<std::string> area_lights, lights;
   std::vector<std::string> media;  // that shine; "" of others
 };
 
-// "area-3", "sky-4": numbers are those that `inspect` lists lights by, area lights first, from 1; of media,
-// "medium-2", those of the manifest.
+// "lamp", "area-3": numbers are those that `inspect` lists lights by, area lights first, from 1.
 LightNames light_names(const Manifest& manifest);
 
 }  // namespace vitrail

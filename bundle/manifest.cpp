@@ -162,6 +162,7 @@ Features features_of(const Manifest& m) {
   require(std::ranges::any_of(m.materials, has_correlated_masking), required_feature::masking);
   require(has_vertex_doubts(m), required_feature::decimals);
   require(std::ranges::any_of(m.media, has_newer_grids), required_feature::media_grids);
+  require(m.settings.hides_emitters, required_feature::hidden_emitters);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }

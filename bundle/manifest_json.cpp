@@ -392,6 +392,7 @@ Json manifest_to_json(const Manifest& m) {
                    {"direct_only", m.settings.direct_only},
                    {"straight_counts", m.settings.straight_counts}};
   if (m.settings.rgb == RgbMethod::matrix_r) j["settings"]["rgb"] = "matrix-r";
+  if (m.settings.hides_emitters) j["settings"]["hides_emitters"] = true;
   if (m.settings.photons) j["settings"]["photons"] = photons_to_json(*m.settings.photons);
   j["kd_nodes"] = Json::array();
   for (const KdNode& n : m.kd_nodes) j["kd_nodes"].push_back(kd_node_to_json(n));
@@ -422,8 +423,11 @@ Manifest manifest_from_json(const Json& j) {
   m.camera_motion = motion_from_json(j, "camera_motion");
   m.film = film_from_json(j.at("film"));
   const Json& s = j.at("settings");
-  m.settings = {number<int>(s, "samples_per_pixel"), number<int>(s, "max_depth"),
-                s.at("direct_only").get<bool>(), s.at("straight_counts").get<bool>(),
+  m.settings = {number<int>(s, "samples_per_pixel"),
+                number<int>(s, "max_depth"),
+                s.at("direct_only").get<bool>(),
+                s.at("straight_counts").get<bool>(),
+                s.value("hides_emitters", false),
                 s.value("rgb", "jakob-hanika") == "matrix-r" ? RgbMethod::matrix_r : RgbMethod::jakob_hanika};
   if (s.contains("photons")) m.settings.photons = photons_from_json(s["photons"]);
   for (const Json& n : j.at("kd_nodes")) m.kd_nodes.push_back(kd_node_from_json(n));

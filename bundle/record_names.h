@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names that a scene's file gives its materials. They are no part of the scene's hash: a name changes no
-// picture.
+// The names that a scene's file gives its materials, lights and media. They are no part of the scene's hash:
+// a name changes no picture.
 #pragma once
 
 #include "bundle/manifest_json.h"
 
 namespace vitrail {
 
-// A list by index, "" where the file gives none; nothing where it gives none at all.
+// Lists by index, "" where the file gives none; without those that name nothing.
 Json names_to_json(const Manifest& manifest);
-// Into the records, which are there. Throws nlohmann's exceptions for values of a wrong type, Error where the
+// Into the records, which are there. Throws nlohmann's exceptions for values of a wrong type, Error where a
 // list is of other records.
 void take_names(const Json& json, Manifest& manifest);
 

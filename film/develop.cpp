@@ -66,6 +66,7 @@ Picture develop_colors(const Film& film) {
     float* out = &picture.rgb.values[3 * std::size_t{p}];
     out[0] = static_cast<float>(c.r), out[1] = static_cast<float>(c.g), out[2] = static_cast<float>(c.b);
   }
+  if (film.layers().has(Layer::alpha)) add_sums(film, Layer::alpha, picture.layers);
   return picture;
 }
 
@@ -88,7 +89,7 @@ Picture develop(const Film& film) {
   }
   for (std::size_t i = 0; i < layer_count; ++i) {
     const auto layer = static_cast<Layer>(i);
-    if (!film.layers().has(layer)) continue;
+    if (!film.layers().has(layer) || layer == Layer::alpha) continue;
     if (kind_of(layer).sums > 0)
       add_sums(film, layer, picture.layers);
     else

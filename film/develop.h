@@ -48,7 +48,7 @@ struct Picture {
 // `samples_per_pixel` is the most that a pixel has. Throws Error if the film is saturated.
 Picture develop(const Film& film);
 
-// The same of the colours and their place alone.
+// The same of the colours, their place and their alpha alone.
 Picture develop_colors(const Film& film);
 
 // Throws Error where deposits were too large, and says what to do. `file`: the film's.

@@ -35,11 +35,12 @@ constexpr std::uint32_t film_version = 4, adaptive_version = 5, photon_version =
 // What a film was rendered with, in Header::options.
 constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, option_camera_space = 4,
                         option_adaptive = 8, option_open_round = 16, option_splats = 32,
-                        option_one_sequence = 64;
+                        option_one_sequence = 64, option_hides_emitters = 128;
 constexpr std::uint32_t threshold_bits = 0xffff0000;  // the upper half of a float
 constexpr std::uint32_t options_of(std::uint32_t version) {
   const bool may_be_adaptive = version == adaptive_version || version == groups_version;
-  return threshold_bits | option_splats | option_one_sequence | (may_be_adaptive ? 31 : 7);
+  return threshold_bits | option_splats | option_one_sequence | option_hides_emitters |
+         (may_be_adaptive ? 31 : 7);
 }
 
 struct Header {
@@ -261,6 +262,7 @@ FilmKey key_of(const Header& h, const PhotonKey& photons, const LightGroups& gro
           photons,
           (h.options & option_splats) != 0,
           (h.options & option_one_sequence) != 0,
+          (h.options & option_hides_emitters) != 0,
           groups};
 }
 
@@ -292,12 +294,12 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   key.renderer.number.copy(h.renderer, sizeof h.renderer - 1);
   h.picture_revision = key.renderer.revision;
   h.max_depth = key.max_depth;
-  h.options = (key.direct_only ? option_direct_only : 0) |
-              (key.straight_counts ? option_straight_counts : 0) |
-              (film.settings_.layers.in_camera_space ? option_camera_space : 0) |
-              (key.splats ? option_splats : 0) | (key.one_sequence ? option_one_sequence : 0) |
-              (std::bit_cast<std::uint32_t>(key.threshold) & threshold_bits) |
-              (progress.adaptive ? option_adaptive : 0) | (progress.more.empty() ? 0 : option_open_round);
+  h.options =
+      (key.direct_only ? option_direct_only : 0) | (key.straight_counts ? option_straight_counts : 0) |
+      (film.settings_.layers.in_camera_space ? option_camera_space : 0) | (key.splats ? option_splats : 0) |
+      (key.one_sequence ? option_one_sequence : 0) | (key.hides_emitters ? option_hides_emitters : 0) |
+      (std::bit_cast<std::uint32_t>(key.threshold) & threshold_bits) |
+      (progress.adaptive ? option_adaptive : 0) | (progress.more.empty() ? 0 : option_open_round);
   h.exponent = film.exponent_, h.length_exponent = film.length_exponent_;
   h.clamp = key.clamp;
   h.layers = film.settings_.layers.bits;

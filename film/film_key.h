@@ -30,8 +30,9 @@ struct FilmKey {
   // has room in a film's header (rounded_threshold).
   float threshold = 0;
   PhotonKey photons = {};
-  bool splats = false;        // samples add to several pixels
-  bool one_sequence = false;  // a pixel's samples are stratified together: their groups tell no variance
+  bool splats = false;          // samples add to several pixels
+  bool one_sequence = false;    // a pixel's samples are stratified together: their groups tell no variance
+  bool hides_emitters = false;  // where the camera sees them directly
   LightGroups groups = {};
   bool operator==(const FilmKey&) const = default;
 };

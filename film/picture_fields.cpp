@@ -49,6 +49,8 @@ std::vector<PictureField> picture_fields(const FilmKey& key, const FilmSettings&
            words(key.splats), hidden},
           {"--one-sequence", "samples of one are one sequence a pixel, those of the other two",
            words(key.one_sequence), hidden},
+          {"--hide-emitters", "one shows lamps to the camera, the other hides them",
+           words(key.hides_emitters), hidden},
           {"light groups", "their light groups differ", words(key.groups)},
           {"number, radius or alpha of photons", "their photons differ", words(key.photons)},
           {"clamp", "their clamps differ", words(key.clamp)},

@@ -74,7 +74,7 @@ void read_spectrum(Picture& picture, const PictureFile& file, const std::vector<
 // Layers of sums, which are floats. Ids are read as floats, too, and of those not all have 32 bits.
 void read_layers(Picture& picture, const PictureFile& file, const std::vector<float>& values) {
   for (const LayerKind& kind : layer_kinds)
-    for (std::size_t i = 0; i < kind.sums; ++i)
+    for (std::size_t i = 0; i < kind.sums && !file.are_integers; ++i)
       if (const int channel = channel_named(file, kind.channels[i]); channel >= 0)
         picture.layers.push_back(
             {kind.channels[i], false, select_channels(file, values, std::span(&channel, 1)).values, {}});

@@ -7,12 +7,15 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "film/alpha.h"
 #include "film/fixed_date.h"
 #include "film/srgb_integers.h"
 #include "scene/system/atomic_file.h"
@@ -34,7 +37,7 @@ class PngEncoder {
   PngEncoder(const PngEncoder&) = delete;
   PngEncoder& operator=(const PngEncoder&) = delete;
 
-  bool begin(const Picture& picture, int bits, const png_time& date, std::string& comment) {
+  bool begin(const Picture& picture, int bits, bool has_alpha, const png_time& date, std::string& comment) {
     char comment_key[] = "Comment", software_key[] = "Software";
     png_text text{}, software{};
     text.compression = software.compression = PNG_TEXT_COMPRESSION_NONE;
@@ -43,7 +46,8 @@ class PngEncoder {
     if (!info_ || setjmp(png_jmpbuf(png_))) return false;
     ::png_set_write_fn(png_, this, append, nullptr);
     ::png_set_IHDR(png_, info_, static_cast<png_uint_32>(picture.rgb.width),
-                   static_cast<png_uint_32>(picture.rgb.height), bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                   static_cast<png_uint_32>(picture.rgb.height), bits,
+                   has_alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                    PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     ::png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_ABSOLUTE);
     ::png_set_oFFs(png_, info_, picture.window.x0, picture.window.y0, PNG_OFFSET_PIXEL);
@@ -106,6 +110,19 @@ png_time png_date() {
           byte(date.tm_sec)};
 }
 
+// Behind each colour its coverage, which no transfer function encodes.
+template <class Integer>
+std::vector<Integer> with_alpha(std::span<const Integer> colors, std::span<const float> alpha) {
+  constexpr float most = std::numeric_limits<Integer>::max();
+  std::vector<Integer> row;
+  for (std::size_t x = 0; x < alpha.size(); ++x) {
+    row.insert(row.end(), colors.begin() + static_cast<std::ptrdiff_t>(3 * x),
+               colors.begin() + static_cast<std::ptrdiff_t>(3 * x + 3));
+    row.push_back(static_cast<Integer>(std::lround(most * std::clamp(alpha[x], 0.0f, 1.0f))));
+  }
+  return row;
+}
+
 // Row by row: beside the picture there is never more than a megabyte of the file.
 template <class Integer>
 void write_rows(const std::filesystem::path& file, const Picture& picture) {
@@ -119,12 +136,16 @@ void write_rows(const std::filesystem::path& file, const Picture& picture) {
     encoder.bytes().clear();
   };
   std::string comment = comment_on(picture.origin);
-  require(encoder.begin(picture, static_cast<int>(8 * sizeof(Integer)), png_date(), comment));
-  const std::size_t values = 3 * static_cast<std::size_t>(picture.rgb.width);
+  const PictureChannel* const alpha = alpha_of(picture);
+  require(
+      encoder.begin(picture, static_cast<int>(8 * sizeof(Integer)), alpha != nullptr, png_date(), comment));
+  const std::size_t width = static_cast<std::size_t>(picture.rgb.width), values = 3 * width;
   std::vector<Integer> row(values);
   for (std::size_t at = 0; at < picture.rgb.values.size(); at += values) {
     to_srgb_integers<Integer>(std::span(picture.rgb.values).subspan(at, values), row.data());
-    require(encoder.row(row.data()));
+    require(encoder.row(alpha
+                            ? with_alpha<Integer>(row, std::span(alpha->values).subspan(at / 3, width)).data()
+                            : row.data()));
   }
   require(encoder.end());
   target.write(encoder.bytes());

@@ -10,7 +10,8 @@
 namespace vitrail {
 
 // The colours as write_picture (image_io.h) has them, of 8 or 16 `bits`, with the place of the picture in its
-// whole, the date, and a comment where it was denoised. The file appears whole or not at all. Throws
+// whole, the date, and a comment where it was denoised; with alpha where there is one, whose colours are
+// straight (alpha.h). The file appears whole or not at all. Throws
 // MachineError.
 void write_png(const std::filesystem::path& file, const Picture& picture, int bits = 8);
 

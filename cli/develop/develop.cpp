@@ -13,6 +13,7 @@
 #include "cli/develop/develop_arguments.h"
 #include "cli/develop/exposed_films.h"
 #include "denoise/denoise_picture.h"
+#include "film/alpha.h"
 #include "film/false_color.h"
 #include "film/group_mix.h"
 #include "film/image_io.h"
@@ -153,6 +154,7 @@ int develop_all(const DevelopArguments& a) {
   if (denoiser) denoise_by_guides(picture, *denoiser, a.quiet);
   cut_and_resize(picture, a);
   if (!a.layer.empty()) show_layer(picture, a.layer, !a.writes_light());
+  if (a.writes(".png")) make_straight(picture);
   const double ev = expose_for_screen(picture, a);
   if (!a.false_color.empty()) show_false_colors(picture, *sum, a);
   write_picture(a.output, picture, a.bits);

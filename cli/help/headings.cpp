@@ -14,6 +14,7 @@ constexpr Heading meshes{"What becomes of its meshes",
 const std::vector<Heading> of_render{
     {"What to render",
      "input=SCENE|BUNDLE width=PIXELS height=PIXELS scale=FACTOR crop=X0,X1,Y0,Y1 max-depth integrator "
+     "hide-emitters "
      "look-at=X,Y,Z,X,Y,Z fov=DEGREES frames=FILE sensors=FILE set=NAME.PROPERTY=VALUE"},
     {"How good", "quality spp target-error=ERROR adaptive seed clamp=RADIANCE denoise find-denoiser"},
     {"How long",
@@ -21,7 +22,7 @@ const std::vector<Heading> of_render{
     {"On how many", "threads distribution homes=FILE patience=SECONDS"},
     {"In how much memory", "memory=SIZE"},
     {"What to write",
-     "output=FILE film=FILE preview=FILE display-server=HOST:PORT aov=LAYERS aov-space light-groups "
+     "output=FILE film=FILE preview=FILE display-server=HOST:PORT aov=LAYERS aov-space alpha light-groups "
      "light-group=NAME=LIGHTS spectral=BINS stats=FILE profile=FILE trace=FILE "
      "progress quiet"},
     {"How to sample",

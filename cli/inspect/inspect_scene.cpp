@@ -186,6 +186,7 @@ Report describe_view(const Manifest& m) {
           {"photons", or_null(photons.photons)},
           {"photon_radius", or_null(photons.first_radius)},
           {"photon_alpha", or_null(photons.alpha)},
+          {"hide_emitters", m.settings.hides_emitters},
           {"rgb", m.settings.rgb == RgbMethod::matrix_r ? "matrix-r" : "jakob-hanika"}};
 }
 
@@ -311,6 +312,7 @@ Report inspect_film(const std::filesystem::path& file) {
           {"spectral_bins", film.bins().count},
           {"layers", names_of(film.layers())},
           {"light_groups", film.key().groups.names},
+          {"hide_emitters", film.key().hides_emitters},
           {"layers_in_camera_space", film.layers().in_camera_space},
           {"imaging_ratio", film.imaging_ratio()},
           {"quantum_exponent", film.exponent()},

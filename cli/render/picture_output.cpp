@@ -3,6 +3,7 @@
 
 #include "cli/common/run_program.h"
 #include "farm/run/checkpoint.h"
+#include "film/alpha.h"
 #include "film/develop.h"
 #include "film/film_progress.h"
 #include "film/own_picture.h"
@@ -36,7 +37,9 @@ void develop_film(const RenderArguments& a, const fs::path& file, const fs::path
   if (is_png(picture) && !a.denoised) {
     const Film film = read_film(file, nullptr);
     require_samples(film, file);
-    return write_png(picture, develop_colors(film));
+    Picture developed = develop_colors(film);
+    make_straight(developed);
+    return write_png(picture, developed);
   }
   std::vector<std::string> arguments{file.string(), "-o", picture.string(), "--quiet"};
   if (spectral_bins > 0 && picture.extension() == ".exr") arguments.push_back("--spectral");

@@ -146,6 +146,13 @@ void declare_film(CLI::App& app, RenderArguments& a) {
   app.add_option("--aov-space", a.aov_space,
                  "world or camera: of positions and normals of --aov; default: as the scene says, else world")
       ->check(CLI::IsMember({"world", "camera"}));
+  app.add_flag("--alpha", a.alpha,
+               "the picture has a channel of how much of a pixel something covers: surfaces and what media "
+               "scatter, but no surroundings; .exr and .png keep it");
+  app.add_flag(
+      "--hide-emitters,!--show-emitters", o.picture.hides_emitters,
+      "lamps and surroundings light the scene, but the camera does not see them directly; default: as the "
+      "scene says");
   app.add_flag("--light-groups", o.picture.light_groups.each,
                "keep the light of each lamp apart in the film, by the names that inspect lists; develop "
                "--groups weighs them; takes 48 bytes a pixel each");
@@ -315,6 +322,12 @@ std::uint32_t guiding_layers() {
   return layers.bits;
 }
 
+std::uint32_t alpha_layer() {
+  FilmLayers layers;
+  layers.add(Layer::alpha);
+  return layers.bits;
+}
+
 ProgressMode progress_mode(const RenderArguments& a) {
   if (a.progress == "json") return ProgressMode::json;
   if (a.quiet || a.progress == "none") return ProgressMode::none;
@@ -344,6 +357,7 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   if (a.bins > 0) o.picture.bins = SpectralBins{a.bins};
   if (!a.aov.empty()) o.picture.layers = parse_layers(a.aov).bits;
   if (a.denoised && a.aov.empty()) o.picture.more_layers = guiding_layers();
+  if (a.alpha) o.picture.more_layers |= alpha_layer();
   for (const std::string& text : a.light_groups)
     o.picture.light_groups.groups.push_back(parse_light_group(text));
   if (!a.aov_space.empty()) o.picture.layers_in_camera_space = a.aov_space == "camera";

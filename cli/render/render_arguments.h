@@ -18,7 +18,7 @@ struct RenderArguments {
   std::vector<std::string> settings;      // of --set
   std::vector<std::string> glazing;       // those of them that are of glass that switches
   std::vector<std::string> light_groups;  // of --light-group
-  bool quiet = false, strict = false, denoised = false, cached = true;
+  bool alpha = false, quiet = false, strict = false, denoised = false, cached = true;
   ImportArguments imports;
   std::string rgb = usual_rgb;
   MeshOptions meshes;

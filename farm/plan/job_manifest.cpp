@@ -40,7 +40,8 @@ Point3d place_of(const Camera& camera) {
 // In the place of the camera, whose own is returned. They belong to what the film is of.
 Point3d put_sensors(Manifest& m, const PictureSettings& picture) {
   if (picture.width || picture.height || picture.scale != 1 || picture.crop || picture.bins ||
-      picture.layers || picture.more_layers || picture.samples.filter || picture.light_groups.any())
+      picture.layers || picture.more_layers || picture.samples.filter || picture.hides_emitters ||
+      picture.light_groups.any())
     throw UsageError(
         "--sensors has no picture whose size, crop, filter, spectrum, channels or lights could be given");
   if (picture.clamp > 0)
@@ -108,6 +109,7 @@ void override_settings(Manifest& m, const RenderOptions& options) {
   choose_integrator(picture, s);
   s.samples_per_pixel = static_cast<int>(goal_of(options, s).samples);
   if (picture.max_depth) s.max_depth = *picture.max_depth;
+  if (picture.hides_emitters) s.hides_emitters = *picture.hides_emitters;
   if (picture.threshold > 0 && !s.direct_only)
     throw UsageError("--threshold is of direct light alone: give --integrator direct too");
   if (s.samples_per_pixel < 1 || static_cast<std::uint32_t>(s.samples_per_pixel) >= max_samples)
@@ -185,6 +187,7 @@ FilmKey key_of(const Manifest& m, const PictureSettings& picture) {
   key.splats = picture.samples.sampling.splat;
   key.one_sequence = picture.samples.sampling.one_sequence;
   key.photons = photons_of(picture, m);
+  key.hides_emitters = m.settings.hides_emitters;
   key.groups = group_lights(picture.light_groups, m).groups;
   if (key.groups.any() && key.photons.photons > 0)
     throw UsageError(

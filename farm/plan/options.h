@@ -52,6 +52,7 @@ struct PictureSettings {
   std::optional<std::uint32_t> layers;  // bits of FilmLayers
   std::uint32_t more_layers = 0;        // the same, kept beside those
   std::optional<bool> layers_in_camera_space;
+  std::optional<bool> hides_emitters;
   LightGrouping light_groups;
   std::uint64_t seed = 0;
   SampleChoices samples;

@@ -204,6 +204,20 @@ void report_endless_medium(const Scene& scene, const Light& light, Notes& report
         light.origin);
 }
 
+// Of area lights that have no name, the first that one of their shapes has.
+std::vector<std::string> names_of_area_lights(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const AreaLight& light : scene.area_lights) names.push_back(light.name);
+  const auto name_by = [&](const std::vector<Shape>& shapes) {
+    for (const Shape& shape : shapes)
+      if (shape.area_light && names.at(shape.area_light->value).empty())
+        names[shape.area_light->value] = shape.name;
+  };
+  name_by(scene.shapes);
+  for (const Prototype& prototype : scene.prototypes) name_by(prototype.shapes);
+  return names;
+}
+
 }  // namespace
 
 Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle, const ImageBaking& images) {
@@ -213,8 +227,10 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
   const Used used = used_in(scene);
   bake_media(scene, used, result, report);
   bake_materials(scene, used, textures, result, report);
+  const std::vector<std::string> names = names_of_area_lights(scene);
   result.area_light_ids = renumbered(used.area_lights, [&](std::size_t i, const auto&) {
     AreaLight light = scene.area_lights[i];
+    light.name = names[i];
     light.radiance = textures.bake(light.radiance, TextureUse::illuminant);
     if (std::holds_alternative<Spectrum>(light.radiance)) light.scale = 1;  // it is of a texture
     result.area_lights.push_back(std::move(light));
@@ -226,7 +242,7 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
   const bool glass = is_refracting(result.materials);
   for (const Light& light : scene.lights) {
     result.lights.push_back(
-        {std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}});
+        {std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}, light.name});
     if (const auto* sky = std::get_if<SkyLight>(&light.model); sky && glass && SkyModel(*sky).has_sun())
       report.approximated(
           "where smooth glass or what scatters below a smooth surface is, the light that mirrors and curved "

@@ -21,9 +21,10 @@ enum class Layer : std::uint8_t {
   depth,
   shape,
   material,
-  primitive
+  primitive,
+  alpha  // how much of a pixel something covers; what is infinitely far covers nothing
 };
-inline constexpr std::size_t layer_count = 9;
+inline constexpr std::size_t layer_count = 10;
 
 struct LayerKind {
   const char* name;  // of options and of Mitsuba's integrator `aov`, where that has it
@@ -42,7 +43,8 @@ inline constexpr std::array<LayerKind, layer_count> layer_kinds{
      {"depth", {"Z"}, 1, true, false},
      {"shape_index", {"Id.shape"}, 0, false, false},
      {"material_index", {"Id.material"}, 0, false, false},
-     {"prim_index", {"Id.primitive"}, 0, false, false}}};
+     {"prim_index", {"Id.primitive"}, 0, false, false},
+     {"alpha", {"A"}, 1, false, false}}};
 
 constexpr const LayerKind& kind_of(Layer layer) { return layer_kinds[static_cast<std::size_t>(layer)]; }
 

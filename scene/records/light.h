@@ -21,6 +21,7 @@ struct AreaLight {
   // rays of `--integrator path` alone. For `direct` it lights nothing. It costs nothing but where it is seen.
   bool sampled = true;
   Origin origin;
+  std::string name = {};  // "" where the file gives none
   bool operator==(const AreaLight&) const = default;
 };
 
@@ -143,6 +144,7 @@ struct LightModel : LightVariant {
 struct Light {
   LightModel model;
   Origin origin;
+  std::string name = {};  // "" where the file gives none
   bool operator==(const Light&) const = default;
 };
 

@@ -29,6 +29,7 @@ struct RenderSettings {
   // volumetric integrators do not count it. (Going through where a shape's opacity says that nothing is there
   // never is.)
   bool straight_counts = true;
+  bool hides_emitters = false;  // lamps and surroundings, where the camera sees them directly
   RgbMethod rgb = RgbMethod::jakob_hanika;
   std::optional<PhotonSettings> photons;  // empty: no photon mapping
   bool operator==(const RenderSettings&) const = default;

@@ -62,7 +62,19 @@ XYZ albedo_at(const Tracing& tracing, const CameraPath& path, const Interaction&
   return sense(path.film.sensor, share * evaluate(white_light(), path.wavelengths));
 }
 
+// Something is in the pixel, of whatever kind.
+void record_coverage(Tracing& tracing, const CameraPath& path, const Footprint* spread) {
+  if (!tracing.film.layers().has(Layer::alpha)) return;
+  const double weight = tracing.scene.filter.weight(path.film.camera[0], path.film.camera[1]);
+  tracing.film.deposit_layer(path.film.pixel, path.film.sample, Layer::alpha, std::array{weight}, spread);
+}
+
 }  // namespace
+
+void record_first_medium(Tracing& tracing, CameraPath& path) {
+  path.unrecorded = false;
+  record_coverage(tracing, path, footprint_of(tracing, path.film.pixel, path.film.sample));
+}
 
 void record_first_surface(Tracing& tracing, CameraPath& path, const Event& event) {
   const auto& [surface, kind, at, is_there] = event;
@@ -74,6 +86,7 @@ void record_first_surface(Tracing& tracing, CameraPath& path, const Event& event
   const FilmLayers& layers = tracing.film.layers();
   const double weight = tracing.scene.filter.weight(path.film.camera[0], path.film.camera[1]);
   const Footprint* const spread = footprint_of(tracing, path.film.pixel, path.film.sample);
+  record_coverage(tracing, path, spread);
   for (const Layer layer :
        {Layer::position, Layer::geometric_normal, Layer::shading_normal, Layer::uv, Layer::depth}) {
     if (!layers.has(layer)) continue;

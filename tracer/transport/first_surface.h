@@ -9,5 +9,7 @@ namespace vitrail {
 // Called where the path has decided that the surface is there, but for a mask of its material, which it will
 // decide alike.
 void record_first_surface(Tracing& tracing, CameraPath& path, const Event& event);
+// Where it is scattered before it has met one.
+void record_first_medium(Tracing& tracing, CameraPath& path);
 
 }  // namespace vitrail

@@ -31,6 +31,7 @@ double weight_of_finding(const CameraPath& path, double light_pdf) {
 // The discs of suns that are connected to as distant lights are seen as well, but where connections were made
 // before: those find them.
 void add_environment(Tracing& tracing, const CameraPath& path) {
+  if (is_hidden(tracing, path)) return;
   const LightSampler& lights = tracing.scene.lights;
   const Vector3d direction = normalize(cast<double>(path.ray.direction));
   auto [radiance, light_pdf] = background(lights, direction, path.wavelengths);
@@ -50,7 +51,8 @@ std::uint8_t group_of(const RenderScene& scene, const PreparedMedium& medium) {
 }
 
 bool scatter_in_medium(Tracing& tracing, CameraPath& path, double g, Point3d p, ShadowRays& shadows) {
-  path.unrecorded = false;
+  if (path.unrecorded) [[unlikely]]
+    record_first_medium(tracing, path);
   if (is_spent(tracing, path)) return false;
   if (!leave_pane(path)) return false;
   const Vector3d out = normalize(-cast<double>(path.ray.direction));
@@ -136,6 +138,10 @@ bool shade_surface(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
     pass_straight(tracing, path, at, nullptr);
     return true;
   }
+  if (event.surface.area_light >= 0 && is_hidden(tracing, path)) {
+    pass_straight(tracing, path, at, &event.surface);
+    return true;
+  }
   // Only the far face of a pane lets the wavelengths out the way they came in.
   if ((at.front || !event.kind.smooth_dielectric) && !leave_pane(path)) return false;
   if (event.surface.area_light >= 0)
@@ -152,6 +158,10 @@ bool shade_surface(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
 }
 
 }  // namespace
+
+bool is_hidden(const Tracing& tracing, const CameraPath& path) {
+  return tracing.settings().hides_emitters && path.depth == 0;
+}
 
 void add_emission(Tracing& tracing, const CameraPath& path, const Interaction& at, std::uint32_t light) {
   const LightSampler& lights = tracing.scene.lights;

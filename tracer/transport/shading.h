@@ -11,6 +11,8 @@ namespace vitrail {
 
 // False when the path ends here. Shadow rays that it takes are put behind the others of `shadows`.
 bool shade(Tracing& tracing, CameraPath& path, ShadowRays& shadows);
+// Whether lamps and surroundings are not to be seen by a path, as it comes from the camera directly.
+bool is_hidden(const Tracing& tracing, const CameraPath& path);
 // Light of a surface that emits, where a path has come to it.
 void add_emission(Tracing& tracing, const CameraPath& path, const Interaction& at, std::uint32_t area_light);
 

@@ -62,7 +62,8 @@ void find_wavelengths(const Tracing& tracing, Traveller& t, FilmSample& film);
 Point3f offset_origin(const Tracing& tracing, const Interaction& at, Vector3d direction);
 Departure departure(const Tracing& tracing, const Traveller& t, const Interaction& at, const Surface& surface,
                     Vector3d direction);
-// Rounds by chance to what a record holds, so that a ray that stays is the one that is sent. `random`: 64 bits.
+// Rounds by chance to what a record holds, so that a ray that stays is the one that is sent. `random`: 64
+// bits.
 void round_throughput(Traveller& t, std::uint64_t random);
 // Starts the next ray. The triangle it leaves is excluded by id. Throughput is rounded as it travels.
 void depart(Traveller& t, const Departure& from, Vector3d direction);

@@ -110,7 +110,7 @@ Id<Material> add_material(Builder& b, const Object& o) {
   if (const auto known = b.materials.find(&o); known != b.materials.end()) return known->second;
   const Report::Item before = b.report.begin_item({o.origin, RecordKind::material});
   Material material = make_material(b, o);
-  material.name = o.id.starts_with("_unnamed_") ? "" : o.id;
+  material.name = name_of(o);
   b.report.begin_item(before);
   return b.materials[&o] = append(b, std::move(material));
 }

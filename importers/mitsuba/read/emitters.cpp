@@ -223,7 +223,7 @@ void add_emitter(Builder& builder, const Object& emitter) {
   if (is_daylight(emitter.type)) return add_daylight(builder, emitter);
   for (const Kind& kind : kinds) {
     if (emitter.type != kind.name) continue;
-    builder.scene.lights.push_back({kind.make(builder, emitter), emitter.origin});
+    builder.scene.lights.push_back({kind.make(builder, emitter), emitter.origin, name_of(emitter)});
     if (!emitter.children("medium").empty()) {  // a light without a surface is in the medium around it
       report.begin_item({emitter.origin, RecordKind::light});
       report.dropped("the medium of an emitter: the surfaces around it say what it is in", emitter.origin);
@@ -253,6 +253,7 @@ std::optional<Id<AreaLight>> add_area_light(Builder& builder, const Object& emit
   Image image = image_of(builder, emitter, "radiance");
   AreaLight light{image.colors, 1, false, directional};
   light.origin = emitter.origin;
+  light.name = name_of(emitter);
   if (const auto* factor = std::get_if<ConstantSpectrum>(&image.scale)) {
     light.scale = factor->value;
   } else {

@@ -129,8 +129,7 @@ void read_integrator(Builder& builder, const Object& integrator) {
   settings.max_depth = settings.direct_only ? 1 : read_depth(integrator, report);
   if (integrator.type == "emission") settings.max_depth = 0;
   settings.straight_counts = !is_one_of(integrator.type, volumetric);
-  if (integrator.boolean("hide_emitters", false, report))
-    report.dropped("\"hide_emitters\": emitters are seen", place_of(integrator, "hide_emitters"));
+  settings.hides_emitters = integrator.boolean("hide_emitters", false, report);
   ignore_sampling(integrator);
   report_unused_in_one(integrator, report, {"max_depth", "hide_emitters"});
 }

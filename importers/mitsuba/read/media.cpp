@@ -216,8 +216,6 @@ void read_coefficients(MediumReader& reader) {
   }
 }
 
-bool is_named(const Object& object) { return !object.id.empty() && !object.id.starts_with("_unnamed_"); }
-
 }  // namespace
 
 Id<Medium> add_medium(Builder& builder, const Object& object) {
@@ -230,7 +228,7 @@ Id<Medium> add_medium(Builder& builder, const Object& object) {
                         object.origin);
   Medium medium;
   medium.origin = object.origin;
-  if (is_named(object)) medium.name = object.id;
+  medium.name = name_of(object);
   MediumReader reader{builder, object, medium};
   read_coefficients(reader);
   medium.scale = static_cast<float>(object.number("scale", 1, report));

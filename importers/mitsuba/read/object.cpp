@@ -117,6 +117,8 @@ std::string suggested(const Property& property, const std::vector<std::string>& 
 
 }  // namespace
 
+std::string name_of(const Object& object) { return object.id.starts_with("_unnamed_") ? "" : object.id; }
+
 void report_unused(const Object& object, Report& report, const std::vector<std::string>& known) {
   for (const Property& property : object.properties) {
     if (property.queried) continue;

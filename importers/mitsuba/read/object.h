@@ -75,6 +75,9 @@ struct Object {
   void ignore(std::initializer_list<std::string_view> names) const;
 };
 
+// "" where the file gives none.
+std::string name_of(const Object& object);
+
 // A diagnostic for each property that was not queried, with a suggestion from the names in `known`.
 void report_unused(const Object& object, Report& report, const std::vector<std::string>& known = {});
 

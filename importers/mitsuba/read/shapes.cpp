@@ -23,7 +23,6 @@ const std::vector<std::string> parameters{"to_world",    "bsdf",         "emitte
                                           "shape_index", "radius",       "flip_tex_coords", "center"};
 
 // What the programs that write Mitsuba's files call records without a name.
-std::string name_of(const Object& object) { return object.id.starts_with("_unnamed_") ? "" : object.id; }
 
 // Mitsuba's lamps reflect nothing unless they are given a bsdf.
 Id<Material> default_material(Builder& builder, const Object& shape) {

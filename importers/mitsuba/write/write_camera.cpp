@@ -276,7 +276,7 @@ void write_integrator(Context& context, Element root) {
     Element element = add(root, "integrator", "direct");
     add_integer(element, "emitter_samples", 1);
     add_integer(element, "bsdf_samples", 1);
-    return add_boolean(element, "hide_emitters", false);
+    return add_boolean(element, "hide_emitters", scene.settings.hides_emitters);
   }
   if (scene.settings.photons) {
     context.begin(RecordKind::integrator, scene.integrator_origin);
@@ -301,7 +301,7 @@ void write_integrator(Context& context, Element root) {
   add_integer(element, "max_depth",
               depth >= unlimited_depth ? -1 : depth + 1);  // Mitsuba counts the eye's ray
   add_integer(element, "rr_depth", 5);
-  add_boolean(element, "hide_emitters", false);
+  add_boolean(element, "hide_emitters", scene.settings.hides_emitters);
 }
 
 void write_camera(Context& context, Element root) {

@@ -202,6 +202,9 @@ void write_view(Writer& w) {
                    w.scene.integrator_origin, RecordKind::integrator);
     depth = 1;
   }
+  if (s.hides_emitters)
+    w.dropped("hidden emitters: the camera sees lamps and surroundings", w.scene.integrator_origin,
+              RecordKind::integrator);
   if (s.photons) return write_photons(w, *s.photons, depth);
   w.line(fmt::format("Integrator \"{}\" \"integer maxdepth\" {}", w.scene.media.empty() ? "path" : "volpath",
                      depth));

@@ -50,7 +50,7 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   const Surface& surface = surface_at(tracing, path);
   const auto index = static_cast<std::uint32_t>(&surface - tracing.manifest().surfaces.data());
   const LaneSurface& of = tracing.scene.lanes.surfaces[index];
-  if (of.kind == LaneKind::none) return false;
+  if (of.kind == LaneKind::none || (of.emits && is_hidden(tracing, path))) return false;
 
   find_wavelengths(tracing, path, path.film);
   if (of.kind != LaneKind::glass) path.pane = {};
