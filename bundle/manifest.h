@@ -30,6 +30,7 @@ struct KdNode {
   bool operator==(const KdNode&) const = default;
 };
 
+// What the manifest knows of a domain's file.
 struct DomainInfo {
   std::uint64_t triangles = 0;  // whole triangles and pieces in it
   std::uint64_t pieces = 0;     // of which pieces
@@ -120,6 +121,7 @@ struct TextureFileEntry {
 // Mesh attributes that the textures of a bundle read, at most.
 inline constexpr std::uint32_t max_attributes = 8;
 
+// All of a bundle but its domains, objects and textures.
 struct Manifest {
   std::uint64_t triangles = 0;      // global ids are [0, triangles)
   std::uint64_t cut_triangles = 0;  // of which straddle an interface
@@ -172,8 +174,8 @@ inline double cell_margin(const Manifest& m) { return 0x1p-40 * double{m.scale} 
 // Most planes on the way from the root of a kd-tree to a domain.
 inline constexpr int max_kd_depth = 62;
 
+// The file of a domain, of an object.
 std::filesystem::path domain_path(const std::filesystem::path& bundle, std::uint32_t domain);
-
 std::filesystem::path object_path(const std::filesystem::path& bundle, std::uint32_t object);
 
 // Whether a surface has one.

@@ -14,17 +14,20 @@
 
 namespace vitrail {
 
+// Something wrong in a bundle.
 struct VerifyFinding {
   std::string file;  // below the bundle's directory
   std::string what;
   auto operator<=>(const VerifyFinding&) const = default;
 };
 
+// How to check.
 struct VerifyOptions {
   int threads = 0;                         // 0: all
   std::function<void(double)> progress{};  // told the fraction that is read, from any thread, one at a time
 };
 
+// What a check found.
 struct VerifyResult {
   std::vector<VerifyFinding> problems;  // by file
   std::vector<VerifyFinding> warnings;  // what does no harm: files that do not belong to the bundle

@@ -19,12 +19,14 @@ enum class Metric { relmse, mse, rmse, mae, psnr, smape, flip, ztest, bitwise, s
 std::optional<Metric> metric_of(const std::string& name);
 const std::vector<std::string>& metric_names();
 
+// A pixel of great error.
 struct WorstPixel {
   int x = 0, y = 0;  // in the whole picture
   std::array<float, 3> image{}, reference{};
   double error = 0;  // of the metric
 };
 
+// What a comparison found.
 struct Comparison {
   Metric metric = Metric::relmse;
   // For ztest the fraction of values that fail, for bitwise of pixels that differ, for welch the distance of

@@ -41,6 +41,7 @@ std::size_t count_nonfinite(const Image& image);
 struct MeanRatios {
   double x = 0, luminance = 0, z = 0, red = 0, green = 0, blue = 0;
 };
+// Of images of one size.
 MeanRatios mean_ratios(const Image& image, const Image& reference);
 
 // The standard error of the ratio of the means of luminance, if the pixels' differences are independent but
@@ -48,6 +49,7 @@ MeanRatios mean_ratios(const Image& image, const Image& reference);
 // NaN where the reference is black.
 double luminance_ratio_error(const Image& image, const Image& reference, double neighbours_of_mean = 1);
 
+// Throws Error unless they are of one size.
 void require_same_size(const Image& image, const Image& reference);
 
 }  // namespace vitrail

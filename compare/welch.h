@@ -26,6 +26,7 @@ struct WelchPicture {
   double neighbours_of_mean = 1, neighbours_of_variances = 1;  // film/neighbours.h
 };
 
+// What the test found.
 struct WelchTest {
   std::vector<double> p_values;  // of tiles, row by row; NaN where no pixel is finite in both
   std::size_t columns = 0, tested = 0;

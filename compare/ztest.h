@@ -21,6 +21,7 @@ inline constexpr double ztest_tolerated = 0.0025;  // fraction of values that ma
 // differ.
 inline constexpr double ztest_mean_significance = 1e-4;
 
+// Two images and the variances of their means.
 struct ZTestInput {
   const Image* image = nullptr;
   const Image* reference = nullptr;
@@ -36,6 +37,7 @@ struct ZTestInput {
   double neighbours_of_mean = 1;
 };
 
+// What the test found.
 struct ZTest {
   std::vector<double> z;          // the greatest |z| of each pixel; NaN where either image is not finite
   std::size_t values = 0;         // tested: pixels × (1 or 3)

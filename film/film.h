@@ -64,19 +64,23 @@ class Film {
   Film(const FilmSettings& settings, const FilmKey& key, int exponent = default_exponent,
        int length_exponent = default_exponent);
 
-  // But for the filter, which a film does not keep.
+  // What it is of. Its filter is not kept.
   const FilmSettings& settings() const { return settings_; }
   const PixelRect& crop() const { return settings_.crop; }
   int width() const { return crop().x1 - crop().x0; }   // of the crop
   int height() const { return crop().y1 - crop().y0; }  // of the crop
+  // Of the crop: width() · height().
   std::uint32_t pixels() const { return static_cast<std::uint32_t>(counts_.size() / sample_groups); }
+  // Of the whole picture.
   int full_width() const { return settings_.width; }
   int full_height() const { return settings_.height; }
+  // The rest of its settings, and what it was rendered with.
   double imaging_ratio() const { return settings_.imaging_ratio; }
   const SpectralBins& bins() const { return settings_.spectrum; }
-  const FilmKey& key() const { return key_; }
-  int exponent() const { return exponent_; }
   const FilmLayers& layers() const { return settings_.layers; }
+  const FilmKey& key() const { return key_; }
+  // Sums count in 2^exponent, those of lengths in 2^length_exponent.
+  int exponent() const { return exponent_; }
   int length_exponent() const { return length_exponent_; }
 
   // Adds to a pixel. Safe from many threads. `pixel` = y·width + x within the crop. Each component is rounded
@@ -130,6 +134,7 @@ class Film {
   // Of the Y of all deposits, the part that the clamp took: how much darker the picture is on the average.
   double clamped_share() const;
 
+  // Deposits that it did not take.
   const Refused& refused() const { return refused_; }
   // True when a deposit was too large: the picture is then not to be trusted.
   bool saturated() const { return refused_.too_large > 0; }

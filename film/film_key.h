@@ -37,6 +37,7 @@ struct FilmKey {
   bool operator==(const FilmKey&) const = default;
 };
 
+// To the 8 bits that a film's header has for it.
 float rounded_threshold(double threshold);
 
 }  // namespace vitrail

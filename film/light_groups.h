@@ -10,10 +10,12 @@
 
 namespace vitrail {
 
+// The groups of lights that a film keeps apart.
 struct LightGroups {
   std::vector<std::string> names;  // ascending numbers from 0; empty: nothing is kept apart
   std::uint64_t lights = 0;        // checksum of which light is in which group
 
+  // Whether lights are kept apart.
   bool any() const { return !names.empty(); }
   bool operator==(const LightGroups&) const = default;
 };

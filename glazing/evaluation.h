@@ -22,6 +22,7 @@ enum class Sampling {
 // A spectrum at the wavelengths asked for: of one angle, or of the hemisphere.
 using SpectrumOf = std::function<SystemSpectrum(std::vector<double> nm)>;
 
+// The figures of a glazing, as data sheets have them.
 struct Evaluation {
   std::map<std::string, PaneValues> averages;  // by the method's name in lower case: "solar", "photopic" …
   bool has_color = false;

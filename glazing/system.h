@@ -11,6 +11,7 @@
 
 namespace vitrail {
 
+// A pane and the gap behind it.
 struct GlazingLayer {
   std::string name;
   Pane pane;
@@ -24,11 +25,13 @@ struct GlazingLayer {
   std::optional<PhotochromicLight> light{};
 };
 
+// Panes and gaps, one behind the other.
 struct GlazingSystem {
   std::string name;
   std::vector<GlazingLayer> layers;  // from outside; at least one
 };
 
+// Whether a pane of it does.
 bool switches(const GlazingSystem& system);
 
 // What panes that switch can be told: the state, in [0, 1], of all but thermochromic ones; the temperature in
@@ -58,11 +61,13 @@ std::vector<double> common_wavelengths(const GlazingSystem& system);
 // empty where they have.
 std::string held_note(const GlazingSystem& system, double first_nm, double last_nm);
 
+// Values of the whole system by wavelength.
 struct SystemSpectrum {
   std::vector<double> nm;  // ascending
   std::vector<PaneValues> values;
 };
 
+// system_values at each of these wavelengths, in nm.
 SystemSpectrum spectrum_at(const GlazingSystem& system, std::vector<double> nm, double cosine,
                            Polarisation polarisation);
 

@@ -14,6 +14,7 @@
 
 namespace vitrail {
 
+// What a reader gets.
 struct ReadRequest {
   const std::filesystem::path& file;
   MeshMemory memory;
@@ -21,6 +22,7 @@ struct ReadRequest {
   const ImportOptions& options;
 };
 
+// A format that is read.
 struct Reader {
   std::string_view name;                   // "Mitsuba", for messages
   std::vector<std::string_view> suffixes;  // ".xml", in lower case
@@ -34,6 +36,7 @@ struct Reader {
   bool has_many_cameras;  // ImportOptions::camera does
 };
 
+// All of them, in the order in which they are asked.
 const std::vector<Reader>& readers();
 
 // By the file's suffix, else by its first bytes. Throws Error that lists the suffixes.

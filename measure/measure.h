@@ -15,6 +15,7 @@
 
 namespace vitrail {
 
+// What to measure, and for how long.
 struct MeasureOptions {
   std::filesystem::path scene, folder;
   std::vector<std::string> axes;   // empty: all
@@ -33,6 +34,7 @@ struct MeasureOptions {
 // Of the whole picture on a cluster: start_s + samples · sample_s, about; 0 where it was not planned.
 struct FarmTime {
   double start_s = 0, sample_s = 0;
+  // Whether it was planned; seconds of so many samples.
   bool is_known() const { return sample_s > 0; }
   double operator()(double samples) const { return start_s + samples * sample_s; }
 };
@@ -54,10 +56,12 @@ struct MeasuredSetting {
   double peak_memory_bytes = 0, bundle_bytes = 0;
   Image first, mean;  // a picture, and the mean of all
 
+  // Error and time, as they are weighed against others.
   Tradeoff tradeoff() const;
   std::ptrdiff_t changes() const;  // of the scene's own
 };
 
+// Which setting to take for a goal.
 struct Recommendation {
   std::string goal;  // in words
   Goal asked;        // for the whole picture
@@ -76,6 +80,7 @@ struct Recommendation {
   Estimate luminance;                  // off, as ErrorStatistics
 };
 
+// All that was measured.
 struct Measurement {
   std::vector<Axis> axes;
   Reference reference;
@@ -98,6 +103,8 @@ struct MeasureNews {
   std::function<void(double fraction, const char* what)> progress;
 };
 
+// Renders with each setting, again and again, until all is known or the time is up. `execute` starts a
+// program. Throws what rendering the reference throws.
 Measurement measure(const MeasureOptions& options, const Execute& execute, const MeasureNews& news);
 
 }  // namespace vitrail

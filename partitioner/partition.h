@@ -14,6 +14,7 @@
 
 namespace vitrail {
 
+// How a scene is divided.
 struct PartitionOptions {
   std::uint32_t domains = 0;          // number of leaves; 0: chosen by domain_bytes
   std::uint64_t domain_bytes = 0;     // target size of a domain file; 0 with domains = 0: 64 MiB

@@ -16,15 +16,18 @@
 
 namespace vitrail {
 
+// What ranks speak through: messages, rounds of sums, words.
 class Transport {
  public:
   virtual ~Transport() = default;
+  // 0 … size() − 1; how many ranks there are.
   virtual int rank() const = 0;
   virtual int size() const = 0;
 
   // None of these waits.
   virtual void send(int to, std::vector<std::byte> message) = 0;
   virtual std::uint64_t sending_bytes() = 0;  // that no receiver has taken over yet
+  // What a rank sent.
   struct Message {
     int from = 0;
     std::vector<std::byte> bytes;

@@ -14,6 +14,7 @@ namespace vitrail {
 // glass).
 bool is_glazing(const std::string& file);
 
+// What becomes of a glazing in a scene.
 struct GlazingModel {
   MaterialModel model;
   std::vector<std::string> notes;  // what was repaired or approximated

@@ -8,6 +8,7 @@
 
 namespace vitrail {
 
+// What a reader is told beside the file.
 struct ImportOptions {
   // Values of a Mitsuba scene's parameters, as its command line's -D: they stand before the file's
   // <default>s.

@@ -12,6 +12,7 @@
 
 namespace vitrail {
 
+// What a scene's integrator asks for.
 struct AskedIntegrator {
   enum class Kind {
     paths,       // from the camera, with connections to lights: the same picture

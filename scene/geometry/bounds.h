@@ -8,6 +8,7 @@
 
 namespace vitrail {
 
+// A box along the axes; as it begins, an empty one.
 template <class T>
 struct Bounds3 {
   Point3<T> lower{std::numeric_limits<T>::infinity(), std::numeric_limits<T>::infinity(),
@@ -15,6 +16,7 @@ struct Bounds3 {
   Point3<T> upper{-std::numeric_limits<T>::infinity(), -std::numeric_limits<T>::infinity(),
                   -std::numeric_limits<T>::infinity()};
 
+  // Nothing is inside, not even a point. A box of NaN is.
   bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
   bool operator==(const Bounds3&) const = default;
 };
@@ -22,18 +24,21 @@ struct Bounds3 {
 using Bounds3f = Bounds3<float>;
 using Bounds3d = Bounds3<double>;
 
+// To the least box that holds both.
 template <class T>
 void extend(Bounds3<T>& b, Point3<T> p) {
   b.lower = {std::min(b.lower.x, p.x), std::min(b.lower.y, p.y), std::min(b.lower.z, p.z)};
   b.upper = {std::max(b.upper.x, p.x), std::max(b.upper.y, p.y), std::max(b.upper.z, p.z)};
 }
 
+// To the least box that holds both.
 template <class T>
 void extend(Bounds3<T>& b, const Bounds3<T>& other) {
   extend(b, other.lower);
   extend(b, other.upper);
 }
 
+// Its three edges; 0 when empty.
 template <class T>
 Vector3<T> extent(const Bounds3<T>& b) {
   return b.empty() ? Vector3<T>{} : b.upper - b.lower;
@@ -46,6 +51,7 @@ T surface_area(const Bounds3<T>& b) {
   return T(2) * (e.x * e.y + e.y * e.z + e.z * e.x);
 }
 
+// NaN when empty.
 template <class T>
 Point3<T> center(const Bounds3<T>& b) {
   return {(b.lower.x + b.upper.x) / 2, (b.lower.y + b.upper.y) / 2, (b.lower.z + b.upper.z) / 2};

@@ -7,9 +7,9 @@
 
 #include <cmath>
 
-namespace vitrail {
+#include "scene/geometry/pi.h"
 
-inline constexpr double pi = 3.14159265358979323846;
+namespace vitrail {
 
 // sin x for |x| ≤ π/4: Taylor to x¹⁷.
 constexpr double sin_small(double x) {

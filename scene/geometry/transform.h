@@ -15,8 +15,10 @@ struct Transform {
   bool operator==(const Transform&) const = default;
 };
 
+// First b, then a.
 Transform operator*(const Transform& a, const Transform& b);
 
+// By these distances; by these factors.
 Transform translate(Vector3d by);
 Transform scale(Vector3d by);
 // Right-handed rotation by `angle_rad` about `axis` (any length; zero gives the identity).
@@ -42,6 +44,7 @@ Normal3d transform_normal(const Transform& t, Normal3d n);
 // comes out equal.
 Transform snapped(const Transform& t);
 
+// Of the upper 3×3 block.
 double determinant3(const Transform& t);
 // Mirrors: the handedness of the upper 3×3 block changes.
 bool swaps_handedness(const Transform& t);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "scene/geometry/pi.h"
 #include "scene/geometry/vec.h"
 
 namespace vitrail {
-
-inline constexpr double pi = 3.14159265358979323846;
 
 // (cos, sin) of an angle in [0, 2π] rad, within 4e-16. By + − × only: the C library's own differ in their
 // last bit between processors, and tessellations have to be equal everywhere. Exact at the multiples of π/2

@@ -24,6 +24,7 @@ struct Lens {
   bool operator==(const Lens&) const = default;
 };
 
+// A pinhole, or a thin lens.
 struct PerspectiveCamera {
   Transform camera_to_world;
   ScreenWindow screen;  // tan of the half angles: ±tan(fov/2) on the axis that fov measures
@@ -31,6 +32,7 @@ struct PerspectiveCamera {
   bool operator==(const PerspectiveCamera&) const = default;
 };
 
+// Sees along parallel rays.
 struct OrthographicCamera {
   Transform camera_to_world;
   ScreenWindow screen;
@@ -55,6 +57,7 @@ struct Sensor {
   Vector3d normal{0, 0, 1};  // unit
   bool operator==(const Sensor&) const = default;
 };
+// Measures irradiance at points.
 struct SensorCamera {
   Transform camera_to_world;
   std::vector<Sensor> sensors;
@@ -77,6 +80,7 @@ struct ExitPupil {
   double weight = 0;
   bool operator==(const ExitPupil&) const = default;
 };
+// A lens of several surfaces, as pbrt's.
 struct RealisticCamera {
   Transform camera_to_world;
   double film_diagonal = 0;

@@ -26,6 +26,7 @@ enum class Layer : std::uint8_t {
 };
 inline constexpr std::size_t layer_count = 10;
 
+// What there is to know of a layer.
 struct LayerKind {
   const char* name;  // of options and of Mitsuba's integrator `aov`, where that has it
   // Of the channels of a picture; those of pbrt's film `gbuffer`, where that has them.
@@ -46,12 +47,15 @@ inline constexpr std::array<LayerKind, layer_count> layer_kinds{
      {"prim_index", {"Id.primitive"}, 0, false, false},
      {"alpha", {"A"}, 1, false, false}}};
 
+// Its row of layer_kinds.
 constexpr const LayerKind& kind_of(Layer layer) { return layer_kinds[static_cast<std::size_t>(layer)]; }
 
+// A set of layers.
 struct FilmLayers {
   std::uint32_t bits = 0;        // 1 << Layer
   bool in_camera_space = false;  // what has a frame; else the world's
 
+  // Whether there is one; whether it is among them; adds it.
   constexpr bool any() const { return bits != 0; }
   constexpr bool has(Layer layer) const { return bits >> static_cast<unsigned>(layer) & 1; }
   constexpr void add(Layer layer) { bits |= 1u << static_cast<unsigned>(layer); }

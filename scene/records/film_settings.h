@@ -15,10 +15,12 @@ struct BoxFilter {
   double radius_x = 0.5, radius_y = 0.5;
   bool operator==(const BoxFilter&) const = default;
 };
+// Falls linearly to 0 at the radius.
 struct TriangleFilter {
   double radius_x = 2, radius_y = 2;
   bool operator==(const TriangleFilter&) const = default;
 };
+// A Gaussian less its value at the radius.
 struct GaussianFilter {
   double radius_x = 1.5, radius_y = 1.5, sigma = 0.5;
   bool operator==(const GaussianFilter&) const = default;
@@ -41,6 +43,7 @@ struct PixelRect {
   bool operator==(const PixelRect&) const = default;
 };
 
+// Size, filter, spectrum and layers of a film.
 struct FilmSettings {
   int width = 1280, height = 720;
   PixelRect crop{0, 1280, 0, 720};

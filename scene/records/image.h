@@ -13,11 +13,13 @@ struct Image {
   int width = 0, height = 0, channels = 3;
   std::vector<float> values;
 
+  // Of 2 or 4 channels; width × height.
   bool has_alpha() const { return channels == 2 || channels == 4; }
   std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
   bool operator==(const Image&) const = default;
 };
 
+// All values are 0.
 inline Image black_image(int width, int height, int channels) {
   Image image{width, height, channels, {}};
   image.values.resize(image.pixels() * static_cast<std::size_t>(channels));

@@ -10,6 +10,7 @@
 
 namespace vitrail {
 
+// What `inspect` calls it: "tabulated", "diffuse", "point" …
 const char* kind_of(const Spectrum& spectrum);
 const char* kind_of(const TextureModel& model);
 const char* kind_of(const MaterialModel& model);

@@ -141,6 +141,7 @@ struct LightModel : LightVariant {
   bool operator==(const LightModel&) const;
 };
 
+// A light that is no surface of the scene.
 struct Light {
   LightModel model;
   Origin origin;

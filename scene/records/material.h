@@ -76,6 +76,7 @@ struct PerfectReflector {
 };
 using Metal = std::variant<ComplexIndex, NormalReflectance, PerfectReflector>;
 
+// A metal, smooth or rough.
 struct ConductorMaterial {
   Metal metal;
   Roughness roughness;
@@ -111,6 +112,7 @@ struct CoatedDiffuseMaterial {
   bool operator==(const CoatedDiffuseMaterial&) const = default;
 };
 
+// A metal below a clear coat.
 struct CoatedConductorMaterial {
   Metal metal;
   Roughness conductor_roughness;
@@ -140,15 +142,18 @@ struct PrincipledMaterial {
 
 // A dielectric boundary with a scattering interior; coefficients are per unit of length, times `scale`.
 struct SubsurfaceMaterial {
+  // By what the medium absorbs and scatters, 1/scene unit.
   struct Coefficients {
     SpectrumParameter sigma_a, sigma_s;
     bool operator==(const Coefficients&) const = default;
   };
-  struct Effective {  // the diffuse reflectance and the mean free path that lead to the coefficients
+  // By the diffuse reflectance and the mean free path that lead to the coefficients.
+  struct Effective {
     SpectrumParameter reflectance, mean_free_path;
     bool operator==(const Effective&) const = default;
   };
-  struct Named {  // of pbrt's list of measured media: "Skin1"
+  // By a name of pbrt's list of measured media: "Skin1".
+  struct Named {
     std::string name;
     bool operator==(const Named&) const = default;
   };
@@ -240,6 +245,7 @@ struct MaterialModel : MaterialVariant {
   bool operator==(const MaterialModel&) const;
 };
 
+// A material with its name and what holds for all kinds.
 struct Material {
   MaterialModel model;
   // Whether an opaque surface scatters on its back as on its front (pbrt), or is black there (Mitsuba's bare

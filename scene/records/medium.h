@@ -39,11 +39,13 @@ struct AbsorptionScattering {
   VolumeParameter sigma_a = ConstantSpectrum{1}, sigma_s = ConstantSpectrum{1};
   bool operator==(const AbsorptionScattering&) const = default;
 };
+// σ_t and the share of it that scatters.
 struct ExtinctionAlbedo {
   VolumeParameter sigma_t = ConstantSpectrum{1}, albedo = ConstantSpectrum{0.75f};
   bool operator==(const ExtinctionAlbedo&) const = default;
 };
-struct NamedMedium {  // of pbrt's list of measured media: "Skin1"
+// By a name of pbrt's list of measured media: "Skin1".
+struct NamedMedium {
   std::string name;
   bool operator==(const NamedMedium&) const = default;
 };
@@ -55,6 +57,7 @@ struct CloudDensity {
   bool operator==(const CloudDensity&) const = default;
 };
 
+// What fills a space: it absorbs, scatters and shines.
 struct Medium {
   std::string name;
   std::variant<AbsorptionScattering, ExtinctionAlbedo, NamedMedium> coefficients;

@@ -43,6 +43,7 @@ struct AdaptiveTable {
   bool operator==(const AdaptiveTable&) const = default;
 };
 
+// Whether turning the surface in its plane changes nothing.
 inline bool is_isotropic(const AdaptiveTable& table) { return table.phi_i.size() <= 2; }
 
 using ScatteringTable = std::variant<FourierTable, AdaptiveTable>;

@@ -62,6 +62,7 @@ struct Prototype {
   bool operator==(const Prototype&) const = default;
 };
 
+// Everything that a scene file says, in one form for all formats.
 struct Scene {
   Scene();
   Scene(const Scene&);

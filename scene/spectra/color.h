@@ -8,6 +8,7 @@
 
 namespace vitrail {
 
+// CIE 1931 tristimulus values.
 struct XYZ {
   double x = 0, y = 0, z = 0;
   bool operator==(const XYZ&) const = default;
@@ -32,6 +33,7 @@ struct Chromaticity {
   double x = 0, y = 0;
   bool operator==(const Chromaticity&) const = default;
 };
+// Of a space of colours.
 struct Chromaticities {
   Chromaticity red, green, blue, white;
 };
@@ -45,6 +47,7 @@ std::array<RGB, 3> primaries_in_srgb(const Chromaticities& c);
 double srgb_encode(double linear);
 double srgb_decode(double encoded);
 
+// ∫ S(λ) (x̄, ȳ, z̄)(λ) dλ / ∫ ȳ dλ, of an emission.
 XYZ to_xyz(const Spectrum& emission);
 
 // CIE 1931 2° observer x̄, ȳ, z̄ at 360, 361 … 830 nm, and ∫ȳ dλ over that grid in nm.

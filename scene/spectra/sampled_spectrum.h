@@ -19,6 +19,7 @@ struct SampledWavelengths {
 // One value a wavelength of a SampledWavelengths.
 struct SampledSpectrum {
   std::array<float, hero_count> v{};
+  // By number: 0 is the hero.
   float operator[](int i) const { return v[static_cast<std::size_t>(i)]; }
   float& operator[](int i) { return v[static_cast<std::size_t>(i)]; }
   bool operator==(const SampledSpectrum&) const = default;

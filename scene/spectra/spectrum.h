@@ -14,6 +14,7 @@ inline constexpr double lambda_min_nm = 360;
 inline constexpr double lambda_max_nm = 830;
 inline constexpr int table_size = 471;  // values at 360, 361 … 830 nm
 
+// The same value at all wavelengths.
 struct ConstantSpectrum {
   float value = 0;
   bool operator==(const ConstantSpectrum&) const = default;

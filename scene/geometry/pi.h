@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace vitrail {
+
+inline constexpr double pi = 3.14159265358979323846;
+
+}  // namespace vitrail
