@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What speed.py measured as docs/why/speed.md and two plots."""
 import math
+import textwrap
 
 COLOURS = {"vitrail": "#1b6f8a", "llvm_ad_spectral": "#d1762c", "scalar_spectral": "#8f8f8f", "cycles": "#5b8c3a", "pbrt": "#8a4f9e"}
 LABELS = {"vitrail": "Vitrail", "llvm_ad_spectral": "Mitsuba, llvm_ad_spectral", "scalar_spectral": "Mitsuba, scalar_spectral",
@@ -9,14 +10,17 @@ COLUMNS = LABELS | {"llvm_ad_spectral": "Mitsuba, llvm", "scalar_spectral": "Mit
 
 TEXT = """# Speed
 
-Written by `tests/bench/speed.py` from what it measured: the numbers are of one sitting, on one machine; ratios are what to read.
+`tests/bench/speed.py` measured these numbers and wrote this page. All are of one run on one machine. Compare
+ratios; seconds are of that machine.
 
 ## To a given error, beside each peer's best
 
-One thread each, start-up left out, pictures of {size} × {size} pixels. A renderer's *noise* is the relative mean square error between two
-seeds, so that differences of models do not count; its *time* is that of the processor, the lesser of the two. Noise falls as 1/time, or faster, so that
-time × noise measures a renderer; the table has that of the peer over that of Vitrail, at {spp} samples a pixel: **above 1, Vitrail is
-sooner at the same error; below, the peer is**. Vitrail runs with its defaults.
+One thread each, start-up left out, pictures of {size} × {size} pixels. A renderer's *noise* is the relative mean
+square error between two seeds, so differences of models do not count. Its *time* is processor time, the lesser of
+the two. Noise falls as 1/time, or faster, so time × noise measures a renderer.
+
+The table has time × noise of the peer over that of Vitrail, at {spp} samples a pixel. **Above 1, Vitrail is sooner at
+the same error; below, the peer is.** Vitrail runs with its defaults.
 
 {peers}
 
@@ -28,7 +32,8 @@ sooner at the same error; below, the peer is**. Vitrail runs with its defaults.
 
 ![ratios](../images/speed-ratios.svg)
 
-What each took, Vitrail with its defaults and each peer at its best: nanoseconds a sample · noise. {marks}
+Nanoseconds a sample · noise, of Vitrail with its defaults and of each peer at its best.
+{marks}
 
 {details}
 
@@ -36,26 +41,31 @@ Each panel is one scene: noise against nanoseconds a pixel, from {least} to {spp
 
 ![noise against time](../images/speed-noise.svg)
 
-### What else one may choose
+### Other ways to sample
 
-The same comparison, of path tracing by the peers at their best, where a scene asks for something else than path tracing with the usual
-samples: `--integrator photon --photons N` with a photon a pixel and iteration for light that glass and white walls gather, `--splat` where the
-scene's filter is wider than a pixel. Photons have a bias, so what counts of them is no noise: it is the error to 4096 paths a pixel of Mitsuba, less the
+Some scenes gain from another way than path tracing with the usual samples. The peers stay at their best, with path
+tracing:
+
+- `--integrator photon --photons N`, a photon a pixel and iteration, for light that glass and white walls gather;
+- `--splat`, where the scene's filter is wider than a pixel;
+- `--adaptive`, where a part of the picture has most of the noise.
+
+Photons have a bias, so their *error* counts in place of noise: the error to 4096 paths a pixel of Mitsuba, less the
 noise of those. The last row has the better of the two for each scene.
 
 {ways}
 
-What to know of the rows:
+Notes on the rows:
 
-- *hotel room*, *city*: Mitsuba's path tracer cannot connect through panes to the sun, so its picture lacks the sunlight in the rooms (the
-  means show it) and what makes ours noisy. The two do not solve the same problem there.
-- The pixel filters of these two, of *killeroo-simple* and of *Cornell of Tungsten* are wider than a pixel: Mitsuba adds each sample to several
-  pixels, as Vitrail does with `--splat`; without it Vitrail chooses the sample's place by the filter. The first makes neighbouring pixels
-  alike, which this measure counts as less noise.
-- *killeroo-simple*: Mitsuba gets what `vitrail convert` writes of the lamps, spheres of PBRT.
-- Means that differ by more than the noise are said in the table: a model is then not the same, and its row says less.
-- Spheres are meshes to Cycles, of 131,000 triangles; to the others they are spheres. Its lamps let light through, so that it sees the ceiling behind them: its
-  means are 1 % higher. It computes in RGB; the others sample wavelengths.
+- *hotel room*, *city*: Mitsuba's path tracer cannot connect through panes to the sun. Its picture lacks the sunlight
+  in the rooms (the means show it), and with it most of our noise. The two do not solve the same problem there.
+- The pixel filters of these two, of *killeroo-simple* and of *Cornell of Tungsten* are wider than a pixel. Mitsuba
+  adds each sample to several pixels, as Vitrail does with `--splat`. Otherwise Vitrail chooses the sample's place by
+  the filter. `--splat` makes neighbouring pixels alike, and this measure counts that as less noise.
+- *killeroo-simple*: Mitsuba gets the spherical lamps of PBRT from `vitrail convert`.
+- The table has the difference of means where it exceeds the noise. The models then differ, and the row says less.
+- Cycles gets spheres as meshes of 131,000 triangles; the others get spheres. Lamps of Cycles let light through, so it
+  sees the ceiling behind them: its means are 1 % higher. It computes in RGB; the others sample wavelengths.
 
 ## Beside its own intersector
 
@@ -78,6 +88,11 @@ tests/bench/speed.py --quick --bpy VENV/bin/python         # smaller and with fe
 tests/bench/speed.py --also crown=crown.pbrt               # a scene that the corpus has not
 ```
 """
+
+
+def wrapped(words):
+    """A paragraph or an item of a list in lines of at most 112 columns."""
+    return textwrap.fill(words, 112, subsequent_indent="  " if words.startswith("- ") else "", break_long_words=False, break_on_hyphens=False)
 
 
 def bold(r):
@@ -251,8 +266,8 @@ def write_page(options, found, seconds, version):
     used = {way for best in found["best"].values() for way in best.values()}
     marks = ["multijitter ᵐ"] * ("multijitter" in used) + ["without adaptive sampling ᵘ"] * ("uniform" in used)
     page = TEXT.format(size=options.size, spp=options.spp[-1], least=options.spp[0], table=table(found), ways=table_of_ways(found),
-                       peers="\n".join(PEERS[p].format(version=version) for p in PEERS if p in options.peers),
+                       peers="\n".join(wrapped(PEERS[p].format(version=version)) for p in PEERS if p in options.peers),
                        details=details(found), marks="Marked: " + ", ".join(marks) + "." if marks else "",
-                       verdict=verdict(found["ratios"]), missing=missing(options, found), minutes=math.ceil(seconds / 60), **own)
+                       verdict=wrapped(verdict(found["ratios"])), missing=wrapped(missing(options, found)), minutes=math.ceil(seconds / 60), **own)
     (folder / "why").mkdir(exist_ok=True)
     (folder / "why/speed.md").write_text(page)
