@@ -11,6 +11,8 @@
 #include <stdexcept>
 
 #include "images/image_files.h"
+#include "partitioner/caching/bundle_cache.h"
+#include "partitioner/caching/world_key.h"
 #include "partitioner/cutting/kd_plan.h"
 #include "partitioner/divide_cell.h"
 #include "partitioner/memory_ledger.h"
@@ -122,22 +124,45 @@ class Partitioner {
  public:
   Partitioner(const Scene& scene, std::filesystem::path bundle, const PartitionOptions& options,
               const ProgressFunction& progress)
-      : bundle_(std::move(bundle)),
+      : scene_(scene),
+        options_(options),
+        bundle_(std::move(bundle)),
         median_(options.median),
         phases_(progress),
         world_(world_of(scene, bundle_, {!options.flatten, options.everything, options.cache})) {
+    coarse_ = world_.coarse;
+    glazings_ = in_bundle(options.glazings, world_.material_ids);
+    quadrics_ = world_.quadrics;
+  }
+
+  // A profile is no scene's content.
+  PartitionStats run() {
+    const BundleCache cache(options_.profile ? std::filesystem::path() : options_.bundles);
+    if (!cache.is_on()) return finish(place());
+    const WorldKey key(world_, scene_.settings, options_);
+    if (std::optional<PlacedScene> placed = cache.take(key.text(), bundle_)) {
+      place_as(*placed);
+      return finish(placed->census);
+    }
+    const CensusResult found = place();
+    PartitionStats stats = finish(found);
+    if (key.holds()) cache.keep(key.text(), bundle_, {std::move(manifest_), std::move(block_hashes_), found});
+    return stats;
+  }
+
+ private:
+  // Objects, and how the rest is to be divided.
+  void begin() {
+    const PartitionOptions& options = options_;
     MemoryNeeds needs{.budget_bytes = options.memory_bytes,
                       .triangles = world_.own_triangles,
-                      .scene_bytes = ledger_of(scene).all(),
+                      .scene_bytes = ledger_of(scene_).all(),
                       .domains = options.domains,
                       .domain_bytes = options.domain_bytes,
                       .image_library = image_library_is_loaded(),
                       .threads = tbb::this_task_arena::max_concurrency()};
-    for (const TriangleMesh& mesh : scene.meshes)
+    for (const TriangleMesh& mesh : scene_.meshes)
       if (mesh.deferred) needs.largest_mesh = std::max(needs.largest_mesh, mesh.deferred->bytes);
-    coarse_ = world_.coarse;
-    glazings_ = in_bundle(options.glazings, world_.material_ids);
-    quadrics_ = world_.quadrics;
     const std::uint64_t in_objects = triangles_of_objects(world_);
     const auto all = static_cast<double>(std::max<std::uint64_t>(in_objects + world_.own_triangles, 1));
     phases_.begin("writing objects", static_cast<double>(in_objects) / all, in_objects);
@@ -160,7 +185,8 @@ class Partitioner {
     world_.manifest.kd_nodes.resize(plan_.domains - 1);
   }
 
-  PartitionStats run() {
+  CensusResult place() {
+    begin();
     Census census(world_.manifest.triangles, ids_of_instances());
     if (plan_.domains_at_once >= plan_.domains)
       at_once(census);
@@ -173,13 +199,34 @@ class Partitioner {
     const std::vector<std::uint32_t> kept = leave_out_unused_domains(manifest_);
     for (std::uint32_t i = 0; i < kept.size(); ++i)
       if (kept[i] != i) std::filesystem::rename(domain_path(bundle_, kept[i]), domain_path(bundle_, i));
+    return found;
+  }
+
+  // What the placed scene is made of is what this one is.
+  void place_as(PlacedScene& placed) {
+    manifest_ = std::move(world_.manifest);
+    Manifest& from = placed.manifest;
+    manifest_.cut_triangles = from.cut_triangles;
+    manifest_.bounds = from.bounds;
+    manifest_.scale = from.scale;
+    manifest_.kd_nodes = std::move(from.kd_nodes);
+    manifest_.domains = std::move(from.domains);
+    manifest_.objects = std::move(from.objects);
+    manifest_.emissive_triangles = std::move(from.emissive_triangles);
+    manifest_.emissive_attributes = std::move(from.emissive_attributes);
+    manifest_.emissive_opacities = std::move(from.emissive_opacities);
+    manifest_.emissive_quadrics = std::move(from.emissive_quadrics);
+    manifest_.scene_hash = scene_hash_of(world_, manifest_, placed.block_hashes);
+  }
+
+  PartitionStats finish(const CensusResult& found) {
     manifest_.switching_glazings = static_cast<std::uint32_t>(glazings_.size());
     write_manifest(bundle_, manifest_);
     write_glazings(bundle_, manifest_.scene_hash, glazings_);
     phases_.end();
     PartitionStats stats = statistics(manifest_, found, bundle_);
     stats.buckets = buckets_;
-    stats.domains_planned = plan_.domains;
+    stats.domains_planned = std::max<std::uint64_t>(plan_.domains, stats.domains);
     stats.spill_bytes = spill_bytes_;
     stats.coarse_shapes = coarse_;
     stats.quadrics = quadrics_;
@@ -187,7 +234,6 @@ class Partitioner {
     return stats;
   }
 
- private:
   // As many pieces are reckoned with as a sample becomes.
   MemoryPlan plan_with_pieces(MemoryNeeds& needs) const {
     constexpr std::uint64_t samples = 1u << 15;
@@ -220,6 +266,7 @@ class Partitioner {
     FlatScene flat =
         flatten(std::move(world_), plan_.load_bytes, [&](std::uint64_t n) { phases_.advance(n); });
     manifest_ = std::move(flat.manifest);
+    block_hashes_ = std::move(flat.block_hashes);
     phases_.begin("cutting and writing domains", 0.8 * rest_, triangles);
     const InstanceDealer instances = dealer_of_all(manifest_.bounds);
     divide_cell(flat, {}, {manifest_.bounds, 0, 0, plan_.domains}, writer(census, instances));
@@ -243,6 +290,7 @@ class Partitioner {
     SceneTally tally(world_);
     spill_scene(world_, top, plan_.load_bytes, spill, tally, [&](std::uint64_t n) { phases_.advance(n); });
     tally.finish(world_.manifest);
+    block_hashes_ = tally.block_hashes();
     std::vector<Bounds3f> cells;
     for (const Subtree& leaf : top.leaves) cells.push_back(leaf.cell);
     InstanceSpill runs(bundle_ / "spill", cells, bounds,
@@ -295,6 +343,8 @@ class Partitioner {
     return ranges;
   }
 
+  const Scene& scene_;
+  const PartitionOptions& options_;
   std::filesystem::path bundle_;
   bool median_;
   WorkEstimate work_;
@@ -306,6 +356,7 @@ class Partitioner {
   double rest_ = 1;                          // of all work, without the objects'
   MemoryPlan plan_;
   Manifest manifest_;
+  std::vector<std::uint64_t> block_hashes_;  // SceneTally's
   std::vector<KeptGlazing> glazings_;
   std::uint64_t buckets_ = 1, spill_bytes_ = 0;
 };

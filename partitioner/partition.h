@@ -27,6 +27,7 @@ struct PartitionOptions {
   bool durable = false;               // on the disk before it returns, also after a power failure
   bool median = false;                // cuts in the middle, for comparison
   std::filesystem::path cache;        // of baked images (FileCache); empty: none
+  std::filesystem::path bundles;      // of domains and objects (BundleCache); empty: none
   bool everything = false;            // as if the scene required all that there is, for measuring
 };
 

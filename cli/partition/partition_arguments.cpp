@@ -30,6 +30,7 @@ void declare(CLI::App& app, PartitionArguments& a) {
       "disk beside the bundle on its way");
   app.add_flag("--no-sync{false}", a.options.durable, "do not wait until the bundle is on the disk");
   app.add_flag("--no-cache{false}", a.cached, no_cache_help);
+  app.add_flag("--keep-domains", a.keeps_domains)->group("");
   app.add_option("--threads", a.options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
   app.add_option("--stats", a.stats, "write statistics as JSON");
   app.add_option("--profile", a.profile,

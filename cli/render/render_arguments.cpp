@@ -254,7 +254,9 @@ void declare(CLI::App& app, RenderArguments& a) {
   declare_import_options(app, a.imports);
   declare_rgb_option(app, a.rgb);
   declare_mesh_options(app, a.meshes);
-  app.add_flag("--no-cache{false}", a.cached, no_cache_help);
+  app.add_flag("--no-cache{false}", a.cached,
+               "bake all images and cut the scene: keep nothing, and use nothing that is kept, in "
+               "$XDG_CACHE_HOME/vitrail or ~/.cache/vitrail");
   declare_words(app, a);
   declare_tests(app, a.options);
 }
@@ -389,7 +391,7 @@ std::vector<std::string> partition_arguments(const RenderArguments& a) {
   arguments.insert(arguments.end(), {"--no-sync", "--no-summary"});
   std::ranges::copy(arguments_of(a.imports), std::back_inserter(arguments));
   if (a.rgb != usual_rgb) arguments.push_back("--rgb=" + a.rgb);
-  if (!a.cached) arguments.push_back("--no-cache");
+  arguments.push_back(a.cached ? "--keep-domains" : "--no-cache");
   if (a.quiet) arguments.push_back("--quiet");
   if (a.strict) arguments.push_back("--strict");
   if (!a.aov.empty()) arguments.insert(arguments.end(), {"--aov", a.aov});

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
@@ -21,7 +22,11 @@ namespace {
                                  scratch_directory().string(), std::generic_category().message(errno)));
 }
 
-off_t offset_of(RayFile::Place place) { return static_cast<off_t>(place.slot) * RayBatch::full_bytes; }
+off_t offset_of(RayFile::Place place) { return static_cast<off_t>(place.unit) * FileRoom::unit_bytes; }
+
+std::uint32_t units_of(std::size_t bytes) {
+  return std::max(1u, static_cast<std::uint32_t>((bytes + FileRoom::unit_bytes - 1) / FileRoom::unit_bytes));
+}
 
 }  // namespace
 
@@ -47,13 +52,8 @@ void RayFile::open() {
 RayFile::Place RayFile::write(const RayBatch& batch) {
   const Underway underway("writing rays to the folder for temporary files");
   if (descriptor_ < 0) open();
-  Place place{slots_, static_cast<std::uint32_t>(batch.bytes().size())};
-  if (free_.empty()) {
-    ++slots_;
-  } else {
-    place.slot = free_.back();
-    free_.pop_back();
-  }
+  const std::size_t bytes = batch.bytes().size();
+  const Place place{room_.take(units_of(bytes)), static_cast<std::uint32_t>(bytes)};
   for (std::size_t at = 0; at < place.bytes;) {
     const ssize_t written = ::pwrite(descriptor_, batch.bytes().data() + at, place.bytes - at,
                                      offset_of(place) + static_cast<off_t>(at));
@@ -75,7 +75,7 @@ RayBatch RayFile::read(Place place) {
     if (got <= 0) fail("read");
     at += static_cast<std::size_t>(got);
   }
-  free_.push_back(place.slot);
+  room_.give_back(place.unit, units_of(place.bytes));
   return RayBatch(std::move(bytes));
 }
 

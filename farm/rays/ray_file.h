@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "farm/rays/batch.h"
+#include "farm/rays/file_room.h"
 
 namespace vitrail {
 
@@ -13,7 +14,7 @@ class RayFile {
  public:
   // Where a batch lies.
   struct Place {
-    std::uint32_t slot = 0, bytes = 0;
+    std::uint32_t unit = 0, bytes = 0;  // the first of FileRoom's units
   };
 
   RayFile() = default;
@@ -30,8 +31,7 @@ class RayFile {
   void open();
 
   int descriptor_ = -1;
-  std::uint32_t slots_ = 0;          // of RayBatch::full_bytes
-  std::vector<std::uint32_t> free_;  // of these
+  FileRoom room_;
   std::uint64_t written_ = 0;
 };
 

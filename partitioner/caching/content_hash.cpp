@@ -25,10 +25,12 @@ void ContentHash::add_bytes(std::span<const std::byte> bytes) {
   XXH3_128bits_update(&state_->xxh, bytes.data(), bytes.size());
 }
 
-void ContentHash::add(std::string_view text) {
-  const std::uint64_t size = text.size();
+void ContentHash::add(std::string_view text) { add(std::as_bytes(std::span(text))); }
+
+void ContentHash::add(std::span<const std::byte> bytes) {
+  const std::uint64_t size = bytes.size();
   add_bytes(std::as_bytes(std::span(&size, 1)));
-  add_bytes(std::as_bytes(std::span(text)));
+  add_bytes(bytes);
 }
 
 void ContentHash::add_content(const std::filesystem::path& file) {

@@ -21,6 +21,7 @@ class ContentHash {
 
   // With its length, so that two texts are not taken for one.
   void add(std::string_view text);
+  void add(std::span<const std::byte> bytes);
   // Throws Error where the file cannot be read.
   void add_content(const std::filesystem::path& file);
   // 32 digits.

@@ -26,6 +26,7 @@ FlatScene flatten(World world, std::uint64_t load_bytes, const std::function<voi
   });
   tally.finish(world.manifest);
   flat.manifest = std::move(world.manifest);
+  flat.block_hashes = tally.block_hashes();
   return flat;
 }
 

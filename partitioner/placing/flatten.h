@@ -11,7 +11,8 @@ namespace vitrail {
 
 // The triangles that no instance has.
 struct FlatScene : NumberedTriangles {
-  Manifest manifest;  // all but the kd-tree, the domains and cut_triangles
+  Manifest manifest;                        // all but the kd-tree, the domains and cut_triangles
+  std::vector<std::uint64_t> block_hashes;  // SceneTally's
 };
 
 // See world_of and place_scene. `placed` is told of how many triangles, from any thread.

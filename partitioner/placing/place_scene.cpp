@@ -198,9 +198,14 @@ void SceneTally::finish(Manifest& m) {
   m.emissive_attributes = std::move(emissive_.attributes);
   m.emissive_opacities = std::move(emissive_.opacities);
   m.emissive_quadrics = std::move(emissive_.quadrics);
+  m.scene_hash = scene_hash_of(world_, m, hashes_);
+}
+
+std::uint64_t scene_hash_of(const World& world, const Manifest& m,
+                            std::span<const std::uint64_t> block_hashes) {
   const std::uint64_t records = hash_of_records(m);
   Hasher hasher;
-  hasher.add(std::as_bytes(std::span(hashes_)));
+  hasher.add(std::as_bytes(block_hashes));
   for (const ObjectInfo& object : m.objects) hasher.add(std::as_bytes(std::span(&object.hash, 1)));
   // A member at a time: what lies between them is anything.
   const auto add_use = [&](const ObjectUse& use) {
@@ -208,10 +213,10 @@ void SceneTally::finish(Manifest& m) {
     hasher.add(std::as_bytes(std::span(use.to_parent.m)));
     hasher.add(std::as_bytes(std::span(&use.first_triangle, 1)));
   };
-  for (const ObjectUse& use : world_.uses) add_use(use);
-  for (const QuadricRun& run : world_.runs) for_each_use(run, add_use);
+  for (const ObjectUse& use : world.uses) add_use(use);
+  for (const QuadricRun& run : world.runs) for_each_use(run, add_use);
   hasher.add(std::as_bytes(std::span(&records, 1)));
-  m.scene_hash = hasher.digest();
+  return hasher.digest();
 }
 
 }  // namespace vitrail

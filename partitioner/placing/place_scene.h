@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "partitioner/placing/world.h"
@@ -41,6 +42,8 @@ class SceneTally {
   void add(const Block& block, const PlacedTriangles& placed, std::uint64_t at);
   // bounds, scale, emissive_triangles and what belongs to them, scene_hash. The objects have been written.
   void finish(Manifest& manifest);
+  // Of all blocks, in the order of placements.
+  const std::vector<std::uint64_t>& block_hashes() const { return hashes_; }
 
  private:
   void add_shining(const ShiningPlacement& shining);
@@ -54,5 +57,10 @@ class SceneTally {
   Emissive emissive_;
   bool emissive_attributes_ = false, emissive_opacities_ = false;  // whether there are any
 };
+
+// Manifest::scene_hash, from the hashes of the blocks. Of the manifest all but the kd-tree and the domains is
+// there.
+std::uint64_t scene_hash_of(const World& world, const Manifest& manifest,
+                            std::span<const std::uint64_t> block_hashes);
 
 }  // namespace vitrail

@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <csignal>
+#include <random>
 #include <set>
 #include <vector>
 
@@ -93,10 +95,35 @@ TEST_F(TheRayFile, UsesRoomAgain) {
     }
     kept.emplace_back(file.write(full_batch(1000 * i)), 1000 * i);
     std::set<std::uint32_t> slots;
-    for (const auto& [place, first] : kept) slots.insert(place.slot);
+    for (const auto& [place, first] : kept) slots.insert(place.unit);
     EXPECT_EQ(slots.size(), kept.size()) << "two in one place";
-    EXPECT_LT(*slots.rbegin(), most);
+    EXPECT_LT(*slots.rbegin(), most * FileRoom::slab_units);
   }
+}
+
+// As long as what it holds at the most, and a unit a batch.
+TEST_F(TheRayFile, TakesNoMoreRoomThanItsBatches) {
+  RayFile file;
+  std::mt19937 random(1);
+  std::vector<std::pair<RayFile::Place, RayBatch>> kept;
+  std::uint64_t held = 0, most = 0;
+  for (int i = 0; i < 4000; ++i) {
+    if (kept.size() > 500 || (kept.size() > 10 && random() % 3 == 0)) {
+      std::swap(kept[random() % kept.size()], kept.back());
+      const auto [place, batch] = kept.back();
+      ASSERT_EQ(file.read(place).bytes(), batch.bytes());
+      held -= place.bytes;
+      kept.pop_back();
+    }
+    const RayBatch batch = batch_of(static_cast<std::uint32_t>(i), 1 + random() % 20);
+    kept.emplace_back(file.write(batch), batch);
+    held += batch.bytes().size();
+    most = std::max(most, held);
+  }
+  struct stat status {};
+  ASSERT_EQ(::fstat(descriptor(), &status), 0);
+  EXPECT_LT(static_cast<std::uint64_t>(status.st_size), most + most / 2 + 500 * FileRoom::unit_bytes);
+  for (const auto& [place, batch] : kept) ASSERT_EQ(file.read(place).bytes(), batch.bytes());
 }
 
 TEST_F(TheRayFile, IsMadeWithTheFirstBatch) {
