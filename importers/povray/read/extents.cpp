@@ -28,6 +28,24 @@ Bounds3d around(Point3d center, double radius) {
   return {center - r, center + r};
 }
 
+// Of a plane across an axis, the half of space that it keeps.
+Bounds3d half_of(const Object& object, const PlaneShape& plane) {
+  const Vector3d n = to_vector(transform_normal(object.to_parent, to_normal(plane.normal)));
+  const Point3d on = transform_point(object.to_parent, Point3d{} + plane.normal * plane.distance);
+  Bounds3d half = everything;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(n[axis]) < (1 - 1e-12) * length(n)) continue;
+    ((n[axis] > 0) != object.inverse ? half.upper : half.lower)[axis] = on[axis];
+  }
+  return half;
+}
+
+// What of the space the object may fill.
+Bounds3d region_of(const Object& object) {
+  if (const auto* plane = std::get_if<PlaneShape>(&object.shape)) return half_of(object, *plane);
+  return object.inverse ? everything : extents_of(object);
+}
+
 // Of a disc across `axis`.
 Bounds3d around_disc(Point3d center, Vector3d axis, double radius) {
   const Vector3d n = normalize(axis);
@@ -58,6 +76,7 @@ Bounds3d shape_box(const Object& object) {
     return box;
   }
   if (const auto* s = std::get_if<SolidShape>(&object.shape)) {
+    if (s->box) return *s->box;
     try {
       return s->make ? solids::bounds_of(s->make()) : everything;
     } catch (const Error&) {
@@ -68,7 +87,7 @@ Bounds3d shape_box(const Object& object) {
     Bounds3d box;
     bool first = true;
     for (const auto& child : object.children) {
-      const Bounds3d one = extents_of(*child);
+      const Bounds3d one = region_of(*child);
       if (group->kind == Word::difference_) {
         if (first) box = one;
       } else if (group->kind == Word::intersection_) {
@@ -95,9 +114,11 @@ Bounds3d common(const Bounds3d& a, const Bounds3d& b) {
   return result;
 }
 
-Bounds3d extents_of(const Object& object) {
+const Bounds3d& own_box(const Object& object) {
   if (!object.box) object.box = shape_box(object);
-  return moved_box(object.inverse ? everything : *object.box, object.to_parent);
+  return *object.box;
 }
+
+Bounds3d extents_of(const Object& object) { return moved_box(own_box(object), object.to_parent); }
 
 }  // namespace vitrail::pov

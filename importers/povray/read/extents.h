@@ -12,10 +12,9 @@ class Reader;
 // What both hold; empty where they do not meet.
 Bounds3d common(const Bounds3d& a, const Bounds3d& b);
 
-// By the box of what the object is made of, under its transformation; of what has no end, ±1e7.
+// The box of what the object is made of, before its transformation; of what has no end, ±1e7.
+const Bounds3d& own_box(const Object& object);
+// That box under the transformation: min_extent() and max_extent(). What is inverse keeps it.
 Bounds3d extents_of(const Object& object);
-
-// inside() and trace(), behind the opening bracket.
-Numbers ask_object(Reader& reader, const Token& function);
 
 }  // namespace vitrail::pov

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "importers/povray/read/number_words.h"
+#include "importers/povray/read/pattern_field.h"
 #include "importers/povray/read/reader.h"
+#include "importers/povray/read/spline.h"
 #include "importers/povray/read/surface.h"
 
 namespace vitrail::pov {
@@ -16,8 +16,6 @@ namespace vitrail::pov {
 namespace {
 
 using Op = Instruction::Op;
-
-constexpr std::size_t most_operands = 64;
 
 class Compiler {
  public:
@@ -38,7 +36,7 @@ class Compiler {
     function_.code.push_back(i);
     operands_ = static_cast<std::size_t>(static_cast<int>(operands_) + growth);
     function_.depth = std::max(function_.depth, operands_);
-    if (operands_ > most_operands) reader_.fail("a function is too deep", reader_.here());
+    if (operands_ > Function::most_operands) reader_.fail("a function is too deep", reader_.here());
   }
   void constant(double value) {
     Instruction i;
@@ -145,17 +143,48 @@ class Compiler {
       drop.op = Op::one, drop.one = [](double) { return 0.0; };
       return emit(drop, 0);
     }
-    const std::size_t wanted = callee->built_in ? callee->count : callee->parameters.size();
-    if (callee->pigment || callee->placement)
-      reader_.fail("functions of pigments and transformations in other functions are not read", name.place);
+    const std::size_t wanted = callee->arguments();
     if (count != wanted)
       reader_.fail(fmt::format("function {} takes {} arguments, not {}", name.symbol->name, wanted, count),
                    name.place);
     Instruction i;
-    i.op = Op::call;
+    i.op = callee->gives_vector() ? Op::part : Op::call;
+    if (callee->gives_vector()) i.component = component_name();
     i.index = static_cast<std::uint32_t>(function_.callees.size());
     function_.callees.push_back(callee);
     emit(i, 1 - static_cast<int>(count));
+  }
+
+  // ".red", ".x" … behind a call.
+  std::uint8_t component_name() {
+    reader_.expect('.', "behind a function that gives a vector");
+    const Token name = reader_.next();
+    if (name.kind == TokenKind::word) {
+      if (name.symbol->name == "hf") return height_component;
+      switch (name.symbol->word) {
+        case Word::x_:
+        case Word::u_:
+        case Word::red_:
+          return 0;
+        case Word::y_:
+        case Word::v_:
+        case Word::green_:
+          return 1;
+        case Word::z_:
+        case Word::blue_:
+          return 2;
+        case Word::t_:
+        case Word::filter_:
+          return 3;
+        case Word::transmit_:
+          return 4;
+        case Word::gray_:
+          return grey_component;
+        default:
+          break;
+      }
+    }
+    reader_.unexpected(name, "a component of a vector or colour");
   }
 
   void operand() {
@@ -226,93 +255,8 @@ class Compiler {
 
 }  // namespace
 
-double evaluate(const Function& f, const double* arguments) {
-  if (f.built_in) return f.built_in(arguments);
-  std::array<double, most_operands + 2> stack;
-  std::size_t top = 0;  // operands
-  constexpr double tolerance = 1e-10;
-  for (const Instruction& i : f.code) {
-    double* const a = stack.data() + (top >= 2 ? top - 2 : 0);  // of two operands
-    const double b = top > 0 ? stack[top - 1] : 0;
-    switch (i.op) {
-      case Op::constant:
-        stack[top++] = i.value;
-        continue;
-      case Op::argument:
-        stack[top++] = arguments[i.index];
-        continue;
-      case Op::one:
-        stack[top - 1] = i.one(b);
-        continue;
-      case Op::negate:
-        stack[top - 1] = -b;
-        continue;
-      case Op::invert:
-        stack[top - 1] = b == 0;
-        continue;
-      case Op::choose: {
-        const double* const s = stack.data() + (top - i.index);
-        const double chosen = s[0] < 0 ? s[1] : s[0] == 0 || i.index == 3 ? s[2] : s[3];
-        top -= i.index - 1;
-        stack[top - 1] = chosen;
-        continue;
-      }
-      case Op::call: {
-        const Function& callee = *f.callees[i.index];
-        const std::size_t count = callee.built_in ? callee.count : callee.parameters.size();
-        const double result = evaluate(callee, stack.data() + (top - count));
-        top -= count;
-        stack[top++] = result;
-        continue;
-      }
-      case Op::two:
-        *a = i.two(*a, b);
-        break;
-      case Op::add:
-        *a += b;
-        break;
-      case Op::subtract:
-        *a -= b;
-        break;
-      case Op::multiply:
-        *a *= b;
-        break;
-      case Op::divide:
-        *a = b == 0 ? 0 : *a / b;
-        break;
-      case Op::less:
-        *a = *a < b;
-        break;
-      case Op::greater:
-        *a = *a > b;
-        break;
-      case Op::less_equal:
-        *a = *a <= b + tolerance;
-        break;
-      case Op::greater_equal:
-        *a = *a >= b - tolerance;
-        break;
-      case Op::equal:
-        *a = std::abs(*a - b) < tolerance;
-        break;
-      case Op::unequal:
-        *a = std::abs(*a - b) >= tolerance;
-        break;
-      case Op::both:
-        *a = *a != 0 && b != 0;
-        break;
-      case Op::either:
-        *a = *a != 0 || b != 0;
-        break;
-    }
-    --top;
-  }
-  return stack[0];
-}
-
 Shared<Function> read_function(Reader& reader) {
   auto function = std::make_shared<Function>();
-  const Place place = reader.here();
   if (reader.accept('(')) {
     while (!reader.accept(')')) {
       const Token name = reader.next();
@@ -327,13 +271,14 @@ Shared<Function> read_function(Reader& reader) {
   reader.expect('{', "behind function");
   const Token first = reader.next();
   if (first.is(Word::pigment_)) {
-    function->pigment = read_pigment_block(reader);
+    function->pigment = std::make_shared<PatternField>(reader, *read_pigment_block(reader));
   } else if (first.is(Word::pattern_)) {
-    function->pigment = read_pattern_block(reader);
+    function->pattern = std::make_shared<PatternField>(reader, *read_pattern_block(reader));
   } else if (first.is(Word::transform_)) {
     function->placement = std::make_shared<Placement>(Placement{read_transform_block(reader)});
   } else if (first.is(Word::spline_)) {
-    reader.fail("functions of splines are not read", place);
+    reader.put_back(first);
+    function->spline = std::get<std::shared_ptr<Spline>>(read_value(reader));
   } else if (first.is(Word::internal_)) {
     reader.expect('(', "behind internal");
     const int number = reader.integer("the number of a function");
@@ -354,13 +299,7 @@ Shared<Function> read_function(Reader& reader) {
 
 Value call_function(Reader& reader, const Function& function, const std::vector<double>& arguments,
                     const Token& name) {
-  const auto first = [&](std::size_t i) { return i < arguments.size() ? arguments[i] : 0; };
-  if (function.pigment) return mean_color(*function.pigment);
-  if (function.placement) {
-    const Point3d moved = transform_point(function.placement->transform, {first(0), first(1), first(2)});
-    return Numbers::vector(moved.x, moved.y, moved.z);
-  }
-  const std::size_t wanted = function.built_in ? function.count : function.parameters.size();
+  const std::size_t wanted = function.arguments();
   if (function.unknown) {
     reader.notes.approximated("a formula of functions.inc that is not known: 0", reader.location(name.place));
     return Numbers(0.0);
@@ -369,6 +308,7 @@ Value call_function(Reader& reader, const Function& function, const std::vector<
     reader.fail(
         fmt::format("function {} takes {} arguments, not {}", name.symbol->name, wanted, arguments.size()),
         name.place);
+  if (function.gives_vector()) return evaluate_vector(function, arguments.data());
   return Numbers(evaluate(function, arguments.data()));
 }
 

@@ -9,6 +9,7 @@
 
 namespace vitrail::pov {
 
+class PatternField;
 class Reader;
 struct Token;
 struct Symbol;
@@ -35,8 +36,10 @@ struct Instruction {
     either,
     choose,  // select(): four operands
     call,    // another function, by `index`
+    part,    // `component` of what another function gives, a colour or a vector
   };
   Op op = Op::constant;
+  std::uint8_t component = 0;
   std::uint32_t index = 0;  // of an argument or a function
   union {
     double value = 0;
@@ -46,20 +49,32 @@ struct Instruction {
 };
 
 struct Function {
+  static constexpr std::size_t most_operands = 64;  // on the stack
   std::vector<Symbol*> parameters;
   bool unnamed = false;  // x, y, z, as it gives none; u and v are then the first two
   std::vector<Instruction> code;
   std::vector<Shared<Function>> callees;
   double (*built_in)(const double* arguments) = nullptr;  // in place of code, of so many arguments
   std::size_t count = 3;
-  bool unknown = false;         // a formula that is not known here: 0
-  std::size_t depth = 0;        // of the stack
-  Shared<Pigment> pigment;      // in place of code: a colour at a point
-  Shared<Placement> placement;  // in place of code: a point moved
+  bool unknown = false;   // a formula that is not known here: 0
+  std::size_t depth = 0;  // of the stack
+  // In place of code:
+  std::shared_ptr<const PatternField> pattern, pigment;  // a number or a colour at a point
+  Shared<Placement> placement;                           // a point moved
+  std::shared_ptr<const Spline> spline;
+
+  bool gives_vector() const { return pigment || placement || spline; }
+  std::size_t arguments() const { return built_in ? count : spline ? 1 : parameters.size(); }
 };
 
-// The value for `count` arguments. Thread-safe; never throws.
+// Components that a colour has beside its five numbers: grey, and the height that red and green code.
+inline constexpr std::uint8_t grey_component = 5, height_component = 6;
+
+// The value for `arguments()` numbers; of a colour its grey, of a vector the first. Thread-safe; never
+// throws.
 double evaluate(const Function& function, const double* arguments);
+// Of a function that gives a vector.
+Numbers evaluate_vector(const Function& function, const double* arguments);
 
 // Behind the word `function`.
 Shared<Function> read_function(Reader& reader);

@@ -66,7 +66,10 @@ SolidShape endless(Reader& reader, const Place& place, int order, std::vector<do
   reader.notes.approximated(
       "a surface of a polynomial: what is within 20 of the origin, or of what it is cut by",
       reader.location(place));
-  return {[within] { return within(alone); }, within};
+  const solids::Field field = solids::polynomial(order, std::move(coefficients));
+  SolidShape shape{[within] { return within(alone); }, within, {}, {}};
+  shape.inside = [field](Point3d p) { return field(p) < 0; };
+  return shape;
 }
 
 std::vector<double> coefficients(Reader& reader, int order) {
@@ -99,6 +102,18 @@ SolidShape poly(Reader& reader, const Place& place, int order) {
   }
   if (order < 1 || order > 35) reader.fail(fmt::format("the order of a polynomial is {}", order), place);
   return endless(reader, place, order, coefficients(reader, order));
+}
+
+// Of the spheres within which its parts count.
+Bounds3d around(const solids::Blob& blob) {
+  Bounds3d box;
+  for (const solids::BlobComponent& part : blob.components)
+    for (const Point3d& end : {part.end1, part.end2})
+      for (int corner = 0; corner < 8; ++corner)
+        extend(box, transform_point(part.to_blob, end + Vector3d{corner & 1 ? part.radius : -part.radius,
+                                                                 corner & 2 ? part.radius : -part.radius,
+                                                                 corner & 4 ? part.radius : -part.radius}));
+  return box;
 }
 
 SolidShape blob(Reader& reader, Object& object) {
@@ -148,7 +163,23 @@ SolidShape blob(Reader& reader, Object& object) {
     part.to_blob = modified.to_parent;
     blob.components.push_back(part);
   }
-  return {[blob] { return solids::blob(blob); }, {}};
+  return {[blob] { return solids::blob(blob); }, {}, {}, around(blob)};
+}
+
+Bounds3d around(const solids::Container& container) {
+  if (const auto* box = std::get_if<Bounds3d>(&container)) return *box;
+  const auto& sphere = std::get<solids::ContainingSphere>(container);
+  const Vector3d r{sphere.radius, sphere.radius, sphere.radius};
+  return {sphere.center - r, sphere.center + r};
+}
+
+bool is_within(const solids::Container& container, Point3d p) {
+  if (const auto* sphere = std::get_if<solids::ContainingSphere>(&container))
+    return length(p - sphere->center) < sphere->radius;
+  const auto& box = std::get<Bounds3d>(container);
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(p[axis] > box.lower[axis] && p[axis] < box.upper[axis])) return false;
+  return true;
 }
 
 solids::Container read_container(Reader& reader) {
@@ -210,7 +241,10 @@ SolidShape isosurface(Reader& reader) {
     const double at[3] = {p.x, p.y, p.z};
     return evaluate(*function, at) - threshold;
   };
-  return {[implicit] { return solids::implicit(implicit); }, {}};
+  const auto inside = [implicit](Point3d p) {
+    return is_within(implicit.container, p) && implicit.field(p) < 0;
+  };
+  return {[implicit] { return solids::implicit(implicit); }, {}, inside, around(implicit.container)};
 }
 
 SolidShape parametric(Reader& reader) {
@@ -246,7 +280,9 @@ SolidShape parametric(Reader& reader) {
     const double at[3] = {u, v, 0};
     return Point3d{evaluate(*functions[0], at), evaluate(*functions[1], at), evaluate(*functions[2], at)};
   };
-  return {[surface] { return solids::parametric(surface); }, {}};
+  std::optional<Bounds3d> box;
+  if (surface.contained_by) box = around(*surface.contained_by);
+  return {[surface] { return solids::parametric(surface); }, {}, {}, box};
 }
 
 SolidShape height_field(Reader& reader, const Place& place) {
@@ -287,13 +323,13 @@ SolidShape height_field(Reader& reader, const Place& place) {
     for (int row = field.rows - 1; row >= 0; --row)
       for (int column = 0; column < field.columns; ++column) {
         const double at[3] = {column / (field.columns - 1.0), row / (field.rows - 1.0), 0};
-        const double height = function->pigment ? 0.5 : evaluate(*function, at);
+        const double height = evaluate(*function, at);
         field.heights.push_back(std::clamp(height, 0.0, 1.0));
       }
   } else {
     read_heights(file, field, reader, place);
   }
-  return {[field] { return solids::height_field(field); }, {}};
+  return {[field] { return solids::height_field(field); }, {}, {}, {}};
 }
 
 }  // namespace

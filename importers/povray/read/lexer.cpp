@@ -62,10 +62,22 @@ void Lexer::skip_blanks() {
         if (*at_ == '\n') ++line_, line_begin_ = at_ + 1;
         at_ += open || close ? 2 : 1;
       } while (depth > 0);
+    } else if (*at_ == '#') {  // one without a directive means nothing
+      const char* const behind = behind_sign(at_);
+      if (behind != end_ && starts_word(*behind)) return;
+      at_ = behind;
     } else {
       return;
     }
   }
+}
+
+// Where the word of a directive begins.
+const char* Lexer::behind_sign(const char* sign) const {
+  do {
+    ++sign;
+  } while (sign != end_ && (*sign == ' ' || *sign == '\t'));
+  return sign;
 }
 
 Token Lexer::next() {
@@ -79,8 +91,7 @@ Token Lexer::next() {
   if (starts_word(c)) return word(token, TokenKind::word);
   if (c == '"') return text(token);
   if (c == '#') {
-    for (++at_; at_ != end_ && (*at_ == ' ' || *at_ == '\t');) ++at_;
-    if (at_ == end_ || !starts_word(*at_)) throw LexicalError("a # has no directive behind it", token.place);
+    at_ = behind_sign(at_);
     return word(token, TokenKind::directive);
   }
   token.kind = TokenKind::sign;

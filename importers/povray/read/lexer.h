@@ -28,6 +28,7 @@ class Lexer {
 
  private:
   void skip_blanks();
+  const char* behind_sign(const char* sign) const;
   Place place() const;
   Token number(Token token);
   Token word(Token token, TokenKind kind);

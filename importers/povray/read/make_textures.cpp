@@ -118,44 +118,34 @@ FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform&
 
 std::optional<PatternTexture> Surfaces::pattern_texture(const Pattern& pattern, const Transform& to_world,
                                                         const Place& place) {
-  const auto kind = pattern_kind(pattern.kind);
-  if (!kind) {
+  if (!pattern_kind(pattern.kind)) {
     dropped(fmt::format("this pattern ({}): the mean of its colours", name_of(pattern.kind)), place);
     return std::nullopt;
   }
-  PatternTexture t;
-  t.kind = *kind;
+  PatternTexture t = record_of(pattern);
   t.texture_to_world = to_world;
-  if (!is_invertible(to_world)) return std::nullopt;
-  t.turbulence = {pattern.turbulence, std::clamp(pattern.octaves, 1, 10), static_cast<float>(pattern.lambda),
-                  static_cast<float>(pattern.omega)};
   for (const Warp& warp : pattern.warps) {
-    if (warp.kind == Warp::Kind::turbulence && t.turbulence.amount == Vector3d{0, 0, 0}) {
+    if (warp.kind == Warp::Kind::transform) {
+      t.texture_to_world = t.texture_to_world * warp.transform;
+    } else if (warp.kind == Warp::Kind::turbulence && t.turbulence.amount == Vector3d{0, 0, 0}) {
       t.turbulence = {warp.amount, std::clamp(warp.octaves, 1, 10), static_cast<float>(warp.lambda),
                       static_cast<float>(warp.omega)};
     } else if (warp.kind == Warp::Kind::repeat && t.repeat == Vector3d{0, 0, 0}) {
       t.repeat = warp.amount;
+      if (warp.flip != Vector3d{} || warp.offset != Vector3d{})
+        approximated("flip and offset of a repetition: without them", place);
     } else {
       dropped("a warp of this kind", place);
     }
   }
-  t.frequency = static_cast<float>(pattern.frequency);
-  t.phase = static_cast<float>(pattern.phase);
-  t.wave = wave_of(pattern.wave, pattern.kind);
-  t.exponent = static_cast<float>(pattern.wave_exponent);
-  t.direction = pattern.direction;
-  t.brick = {pattern.brick_size, static_cast<float>(pattern.mortar)};
-  t.crackle = {pattern.crackle_form, static_cast<float>(std::max(pattern.crackle_metric, 0.1)),
-               static_cast<float>(pattern.crackle_offset), pattern.crackle_solid};
-  t.arms = pattern.arms;
-  t.agate_turb = static_cast<float>(pattern.agate_turb);
-  t.iterations = std::clamp(pattern.iterations, 1, 10000);
+  if (!is_invertible(t.texture_to_world)) return std::nullopt;
   if (is_of_noise(t)) approximated("noise: of the same statistics as POV-Ray's, and in other places", place);
   return t;
 }
 
-SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern&, const Transform& to_world,
-                                          bool by_uv, double factor, const Place& place) {
+SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& pattern,
+                                          const Transform& to_world, bool by_uv, double factor,
+                                          const Place& place) {
   if (image.filename.empty()) return Spectrum{ConstantSpectrum{static_cast<float>(0.5 * factor)}};
   ImageTexture texture;
   texture.filename = std::filesystem::absolute(image.filename).string();
@@ -165,7 +155,13 @@ SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern&,
   if (by_uv) {
     texture.mapping = UvMapping{};
   } else if (image.map_type == 0) {
-    texture.mapping = PlanarMapping{to_world};
+    PlanarMapping planar{to_world};
+    for (const Warp& warp : pattern.warps)
+      if (warp.kind == Warp::Kind::transform)
+        planar.texture_to_world = planar.texture_to_world * warp.transform;
+      else
+        dropped("a warp of an image", place);
+    texture.mapping = planar;
   } else {
     approximated("an image around a sphere, cylinder or torus: by (u,v) of the surface", place);
     texture.mapping = UvMapping{};

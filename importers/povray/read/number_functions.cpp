@@ -3,6 +3,7 @@
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include "importers/povray/read/number_words.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/transforms.h"
+#include "scene/models/lattice_noise.h"
 
 namespace vitrail::pov {
 
@@ -137,9 +139,12 @@ std::optional<Numbers> Reader::function_of(const Token& word) {
       result = numbers_of(transform_vector(rotate(degrees * std::numbers::pi / 180, axis), a));
     }
     if (name == Word::vturbulence_) {
-      notes.approximated("vturbulence(): the point itself, as the noise is another", location(word.place));
-      const double octaves [[maybe_unused]] = argument(), lambda [[maybe_unused]] = argument();
-      result = vector_argument();
+      notes.approximated("noise: of the same statistics as POV-Ray's, and in other places",
+                         location(word.place));
+      const double omega = argument(), octaves = argument();
+      const Vector3d p = first_three(vector_argument().promoted(3));
+      result = numbers_of(
+          vector_turbulence(Point3d{} + p, {static_cast<int>(std::clamp(octaves, 1.0, 10.0)), a.x, omega}));
     }
   }
   if (!result) return result;
@@ -224,9 +229,12 @@ std::optional<Numbers> Reader::query_of(const Token& word) {
       break;
     }
     case Word::inside_:
-    case Word::trace_:
-      result = ask_object(*this, word);
+    case Word::trace_: {
+      const auto object = identifier<Shared<Object>>();
+      if (!object) unexpected(next(), "the name of an object");
+      result = name == Word::inside_ ? inside_of(**object) : traced(**object);
       break;
+    }
     default:
       unexpected(word, "a number");
   }

@@ -15,6 +15,8 @@
 
 namespace vitrail::pov {
 
+class TriangleTree;
+
 struct SphereShape {
   Point3d center;
   double radius = 1;
@@ -50,6 +52,8 @@ struct MeshShape {
 struct SolidShape {
   std::function<solids::Solid()> make;
   std::optional<solids::Unbounded> unbounded;  // in place of it
+  std::function<bool(Point3d)> inside;         // where a formula says it; else its triangles do
+  std::optional<Bounds3d> box;  // what POV-Ray takes for its extents; else those of what is made
 };
 struct GroupShape {
   Word kind = Word::union_;  // union_, merge_, intersection_, difference_, light_group_
@@ -79,9 +83,10 @@ struct Object {
   Shared<Interior> interior;
   std::vector<Shared<Object>> clipped_by;
   bool inverse = false, no_shadow = false, no_image = false, hollow = false, uv_mapping = false;
-  bool declared = false;                // an identifier stands for it
-  mutable std::optional<Bounds3d> box;  // of the shape, once it was asked for (extents.h)
-  Shared<Object> original;              // of a copy: what its shape was made as, so that both share it
+  bool declared = false;                             // an identifier stands for it
+  mutable std::optional<Bounds3d> box;               // of the shape, once it was asked for (extents.h)
+  mutable std::shared_ptr<const TriangleTree> tree;  // of the shape, once trace() asked (shape_hits.h)
+  Shared<Object> original;  // of a copy: what its shape was made as, so that both share it
 };
 
 }  // namespace vitrail::pov

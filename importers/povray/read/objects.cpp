@@ -284,7 +284,7 @@ Shared<Object> read_object(Reader& reader) {
       }
       break;
     case Word::light_source_:
-      if (!layers && object->children.empty()) read_light(reader, *object);
+      if (!std::holds_alternative<LightShape>(object->shape)) read_light(reader, *object);
       break;
     default:
       if (std::holds_alternative<GroupShape>(object->shape)) read_shape(reader, word, *object);

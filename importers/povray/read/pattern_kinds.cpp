@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/povray/read/pattern_kinds.h"
 
+#include <algorithm>
+
 namespace vitrail::pov {
 
 std::optional<PatternTexture::Kind> pattern_kind(Word word) {
@@ -81,6 +83,25 @@ PatternTexture::Wave wave_of(Word wave, Word pattern) {
       return pattern == Word::marble_ || pattern == Word::wood_ || pattern == Word::spiral1_ ? Wave::triangle
                                                                                              : Wave::ramp;
   }
+}
+
+PatternTexture record_of(const Pattern& pattern) {
+  PatternTexture t;
+  t.kind = pattern_kind(pattern.kind).value_or(t.kind);
+  t.turbulence = {pattern.turbulence, std::clamp(pattern.octaves, 1, 10), static_cast<float>(pattern.lambda),
+                  static_cast<float>(pattern.omega)};
+  t.frequency = static_cast<float>(pattern.frequency);
+  t.phase = static_cast<float>(pattern.phase);
+  t.wave = wave_of(pattern.wave, pattern.kind);
+  t.exponent = static_cast<float>(pattern.wave_exponent);
+  t.direction = pattern.direction;
+  t.brick = {pattern.brick_size, static_cast<float>(pattern.mortar)};
+  t.crackle = {pattern.crackle_form, static_cast<float>(std::max(pattern.crackle_metric, 0.1)),
+               static_cast<float>(pattern.crackle_offset), pattern.crackle_solid};
+  t.arms = pattern.arms;
+  t.agate_turb = static_cast<float>(pattern.agate_turb);
+  t.iterations = std::clamp(pattern.iterations, 1, 10000);
+  return t;
 }
 
 bool is_of_noise(const PatternTexture& t) {

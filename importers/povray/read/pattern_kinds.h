@@ -11,6 +11,9 @@ namespace vitrail::pov {
 
 // The record's kind of a pattern's word; none: it has no such.
 std::optional<PatternTexture::Kind> pattern_kind(Word word);
+// The pattern in its own space, without a map. Of a kind that the record has not, all but the kind. Its warps
+// are left to the caller.
+PatternTexture record_of(const Pattern& pattern);
 // `none` is what the pattern has by default.
 PatternTexture::Wave wave_of(Word wave, Word pattern);
 // Whether noise shows in it.

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "importers/povray/read/function.h"
 #include "importers/povray/read/objects.h"
+#include "importers/povray/read/pattern_warps.h"
 #include "importers/povray/read/reader.h"
 
 namespace vitrail::pov {
@@ -149,12 +151,12 @@ void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>&
       break;
     case Word::object_:
       reader.expect('{', "behind object");
-      read_object_in(reader);
-      reader.expect('}', "at the end of an object");
+      pattern.object = read_object_in(reader);
       read_list(reader, map);
+      reader.expect('}', "at the end of an object");
       break;
     case Word::pigment_pattern_:
-      read_pigment_block(reader);
+      pattern.pigment = read_pigment_block(reader);
       break;
     case Word::density_file_:
       reader.accept(Word::df3_);
@@ -178,67 +180,6 @@ void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>&
       read_numbers_of(reader, word, pattern);
   }
 }
-
-namespace {
-
-void read_warp(Reader& reader, Pattern& pattern) {
-  reader.expect('{', "behind warp");
-  Warp warp;
-  bool flat = false;
-  while (!reader.accept('}')) {
-    const Token token = reader.next();
-    if (token.kind != TokenKind::word) {
-      if (!token.is(',')) reader.unexpected(token, "a part of warp");
-      continue;
-    }
-    switch (token.symbol->word) {
-      case Word::turbulence_:
-        warp.kind = Warp::Kind::turbulence;
-        warp.amount = reader.vector("turbulence");
-        break;
-      case Word::octaves_:
-        warp.octaves = reader.integer("octaves");
-        break;
-      case Word::lambda_:
-        warp.lambda = reader.number("lambda");
-        break;
-      case Word::omega_:
-        warp.omega = reader.number("omega");
-        break;
-      case Word::repeat_:
-        warp.kind = Warp::Kind::repeat;
-        warp.amount = reader.vector("the step of a repetition");
-        break;
-      case Word::offset_:
-      case Word::flip_:
-        flat = true;
-        reader.numbers();
-        break;
-      case Word::black_hole_:
-        warp.kind = Warp::Kind::black_hole;
-        reader.numbers();
-        reader.comma();
-        reader.numbers();
-        break;
-      case Word::transform_:
-        warp.kind = Warp::Kind::transform;
-        warp.transform = read_transform_block(reader);
-        break;
-      default:
-        if (warp.kind != Warp::Kind::black_hole) warp.kind = Warp::Kind::other;
-        while (reader.number_follows()) {
-          reader.numbers();
-          reader.comma();
-        }
-    }
-  }
-  if (flat && warp.kind == Warp::Kind::repeat)
-    reader.notes.approximated("flip and offset of a repetition: without them",
-                              reader.location(reader.here()));
-  pattern.warps.push_back(warp);
-}
-
-}  // namespace
 
 bool read_pattern_modifier(Reader& reader, Pattern& pattern, Shared<BlendMap>& map, Transform& to_object) {
   if (read_transform(reader, to_object)) return true;
@@ -283,7 +224,13 @@ bool read_pattern_modifier(Reader& reader, Pattern& pattern, Shared<BlendMap>& m
       if (reader.number_follows()) pattern.wave_exponent = reader.number("an exponent");
       return true;
     case Word::warp_:
-      read_warp(reader, pattern);
+      // A transformation before a warp belongs to the pattern alone, one behind it to both.
+      if (to_object != Transform{}) {
+        Warp before;
+        before.transform = std::exchange(to_object, Transform{});
+        pattern.warps.push_back(before);
+      }
+      pattern.warps.push_back(read_warp(reader));
       return true;
     case Word::brick_size_:
       pattern.brick_size = reader.vector("brick_size");

@@ -37,6 +37,17 @@ struct Macro {
   std::size_t begin = 0, end = 0;
 };
 
+// Whether an element of the array, or of one within it, is of kind T.
+template <class T>
+bool holds(const Array& array) {
+  for (const Value& element : array.elements) {
+    if (std::holds_alternative<T>(element)) return true;
+    const auto* inner = std::get_if<std::shared_ptr<Array>>(&element);
+    if (inner && holds<T>(**inner)) return true;
+  }
+  return false;
+}
+
 // What `#default` says of objects to come.
 struct Defaults {
   Shared<Texture> texture;
@@ -103,7 +114,7 @@ class Reader {
     if (token.kind == TokenKind::word && token.symbol->word == Word::none)
       if (Value* value = token.symbol->value()) {
         if (const T* held = std::get_if<T>(value)) return *held;
-        if (std::holds_alternative<std::shared_ptr<Array>>(*value)) {
+        if (const auto* array = std::get_if<std::shared_ptr<Array>>(value); array && holds<T>(**array)) {
           Value element = postfixed(token);
           if (const T* held = std::get_if<T>(&element)) return std::move(*held);
           fail(std::string("this is ") + kind_of(element), token.place);
@@ -219,6 +230,8 @@ class Reader {
   std::optional<Numbers> constant_of(Word word);
   std::optional<Numbers> function_of(const Token& word);
   std::optional<Numbers> query_of(const Token& word);
+  Numbers inside_of(const Object& object);
+  Numbers traced(const Object& object);
   std::optional<std::string> text_function(Word word);
   double defined_value();
   double argument(bool first = false);

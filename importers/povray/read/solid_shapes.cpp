@@ -21,19 +21,19 @@ SolidShape torus(Reader& reader) {
   const double major = reader.number("the radius of a torus");
   reader.comma();
   const double minor = reader.number("the radius of a torus' tube");
-  return {[=] { return solids::torus(std::abs(major), std::abs(minor)); }, {}};
+  return {[=] { return solids::torus(std::abs(major), std::abs(minor)); }, {}, {}, {}};
 }
 
 SolidShape superellipsoid(Reader& reader) {
   const Point2d e = reader.point2("the exponents of a superellipsoid");
-  return {[=] { return solids::superellipsoid(e.x, e.y); }, {}};
+  return {[=] { return solids::superellipsoid(e.x, e.y); }, {}, {}, {}};
 }
 
 SolidShape ovus(Reader& reader) {
   const double bottom = reader.number("the radius of an ovus");
   reader.comma();
   const double top = reader.number("the radius of an ovus");
-  return {[=] { return solids::ovus(bottom, top); }, {}};
+  return {[=] { return solids::ovus(bottom, top); }, {}, {}, {}};
 }
 
 std::vector<Point2d> plane_points(Reader& reader) {
@@ -76,21 +76,21 @@ SolidShape prism(Reader& reader) {
   reader.comma();
   prism.points = plane_points(reader);
   prism.open = reader.accept(Word::open_);
-  return {[prism] { return solids::prism(prism); }, {}};
+  return {[prism] { return solids::prism(prism); }, {}, {}, {}};
 }
 
 SolidShape lathe(Reader& reader) {
   solids::Lathe lathe;
   lathe.spline = spline_kind_of(reader);
   lathe.points = plane_points(reader);
-  return {[lathe] { return solids::lathe(lathe); }, {}};
+  return {[lathe] { return solids::lathe(lathe); }, {}, {}, {}};
 }
 
 SolidShape revolution(Reader& reader) {
   solids::SurfaceOfRevolution sor;
   sor.points = plane_points(reader);
   sor.open = reader.accept(Word::open_);
-  return {[sor] { return solids::surface_of_revolution(sor); }, {}};
+  return {[sor] { return solids::surface_of_revolution(sor); }, {}, {}, {}};
 }
 
 SolidShape letters(Reader& reader) {
@@ -109,7 +109,7 @@ SolidShape letters(Reader& reader) {
   text.thickness = reader.number("the thickness of a text");
   reader.comma();
   text.offset = reader.vector("the offset of letters");
-  return {[text] { return solids::text(text); }, {}};
+  return {[text] { return solids::text(text); }, {}, {}, {}};
 }
 
 SolidShape sphere_sweep(Reader& reader) {
@@ -129,7 +129,7 @@ SolidShape sphere_sweep(Reader& reader) {
     sweep.spheres.push_back({center, reader.number("the radius of a sphere")});
   }
   if (reader.accept(Word::tolerance_)) reader.numbers();
-  return {[sweep] { return solids::sphere_sweep(sweep); }, {}};
+  return {[sweep] { return solids::sphere_sweep(sweep); }, {}, {}, {}};
 }
 
 SolidShape bicubic_patch(Reader& reader) {
@@ -148,7 +148,7 @@ SolidShape bicubic_patch(Reader& reader) {
     p = reader.point("a point of a patch");
     reader.comma();
   }
-  return {[points] { return solids::bicubic_patch(points); }, {}};
+  return {[points] { return solids::bicubic_patch(points); }, {}, {}, {}};
 }
 
 std::array<double, 4> four(Reader& reader, const char*) {
@@ -187,7 +187,7 @@ SolidShape julia_fractal(Reader& reader) {
       break;
     }
   }
-  return {[fractal] { return solids::julia_fractal(fractal); }, {}};
+  return {[fractal] { return solids::julia_fractal(fractal); }, {}, {}, {}};
 }
 
 }  // namespace

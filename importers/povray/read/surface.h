@@ -40,12 +40,27 @@ struct ImageMap {
 
 // What is done to the point before the pattern is looked up, in the order of the file.
 struct Warp {
-  enum class Kind { turbulence, transform, repeat, black_hole, other };
+  enum class Kind {
+    turbulence,
+    transform,
+    repeat,
+    black_hole,
+    planar,
+    cylindrical,
+    spherical,
+    toroidal,
+  };
   Kind kind = Kind::transform;
   Vector3d amount;  // of turbulence; of a repetition, its step
   int octaves = 6;
   double lambda = 2, omega = 0.5;
   Transform transform;
+  Vector3d offset, flip;  // of a repetition
+  Point3d center;         // of a black hole
+  double radius = 1, strength = 1, falloff = 2;
+  bool inverse = false;
+  Vector3d orientation{0, 0, 1};  // of planar … toroidal
+  double distance = 0, dist_exp = 0, major_radius = 1;
 };
 
 // A pattern with its modifiers; `kind` none: there is none.
@@ -67,6 +82,8 @@ struct Pattern {
   int arms = 1, iterations = 10;
   double agate_turb = 1, control0 = 1, control1 = 1;
   Shared<Function> function;
+  Shared<Object> object;
+  Shared<Pigment> pigment;  // of pigment_pattern
   std::vector<Warp> warps;
   bool uv_mapping = false;
 };

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The colours of an image_map at points.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "importers/povray/read/surface.h"
+#include "scene/records/image.h"
+
+namespace vitrail::pov {
+
+// An image with where it lies: in the unit square of x and y, or around a sphere, cylinder or torus.
+class ImageValues {
+ public:
+  // Throws Error at `place` where the file is not read.
+  ImageValues(Reader& reader, const ImageMap& map, const Place& place);
+
+  // In the numbers of the scene; clear beyond an image that is there once.
+  Numbers color(Point3d p) const;
+  // Grey, of the numbers as the file has them: image_pattern.
+  double grey(Point3d p) const;
+
+ private:
+  std::optional<Point2d> square_of(Point3d p) const;
+  Numbers looked_up(Point2d at, bool as_light) const;
+  Numbers decoded(Numbers c) const;
+  Numbers pixel(int column, int row) const;
+
+  ImageMap map_;
+  Image image_;
+  bool decoded_ = false;         // the file's numbers are of the screen, and the scene's linear
+  std::optional<double> gamma_;  // of the scene
+};
+
+}  // namespace vitrail::pov

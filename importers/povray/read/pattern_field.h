@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pigments and patterns at points, as formulas ask for them (`function { pigment {…} }`).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "importers/povray/read/image_values.h"
+#include "importers/povray/read/surface.h"
+#include "scene/records/pattern_texture.h"
+
+namespace vitrail::pov {
+
+// Values at a point of the space that has the pigment. Noises are those of our patterns, in other places than
+// POV-Ray's. Thread-safe once it is made.
+class PatternField {
+ public:
+  // Says what is approximated; throws Error where an image cannot be read.
+  PatternField(Reader& reader, const Pigment& pigment);
+
+  // Red, green, blue, filter, transmit; in the numbers of the scene.
+  Numbers color(Point3d p) const;
+  // Of the pattern alone: 0 … 1; of checker, brick, hexagon and object the place in their list.
+  double value(Point3d p) const;
+
+ private:
+  struct Entry {
+    double at = 0;
+    Numbers color;
+    std::shared_ptr<const PatternField> pigment;  // in place of the colour
+    Numbers at_point(Point3d p) const { return pigment ? pigment->color(p) : color; }
+  };
+  Point3d moved(Point3d p) const;
+  double own_value(Point3d p) const;
+  Numbers blended(Point3d p) const;
+  Numbers average(Point3d p) const;
+
+  Numbers color_;
+  bool plain_ = false;  // of this one colour
+  Pattern pattern_;
+  Transform from_object_;
+  PatternTexture record_;  // its kind, if the record has it, and its wave
+  bool recorded_ = false;
+  std::vector<Entry> entries_;
+  std::shared_ptr<const ImageValues> image_;
+  std::shared_ptr<const PatternField> inner_;  // of pigment_pattern
+};
+
+}  // namespace vitrail::pov

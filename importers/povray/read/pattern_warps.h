@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// What warps and turbulence do to the point at which a pattern is looked up (POV-Ray's documentation,
+// "Pattern modifiers"; where it leaves a choice, as povray 3.7 shows).
+#pragma once
+
+#include "importers/povray/read/surface.h"
+#include "scene/geometry/vec.h"
+
+namespace vitrail::pov {
+
+// Behind the word `warp`.
+Warp read_warp(Reader& reader);
+
+Point3d warped(const Warp& warp, Point3d p);
+// By `turbulence` outside of a warp. Its noise is ours.
+Point3d turbulent(const Pattern& pattern, Point3d p);
+
+}  // namespace vitrail::pov
