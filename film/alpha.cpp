@@ -14,7 +14,8 @@ const PictureChannel* alpha_of(const Picture& picture) {
 void make_straight(Picture& picture) {
   const PictureChannel* const covers = alpha_of(picture);
   if (!covers) return;
-  std::vector<float>& values = picture.layers[static_cast<std::size_t>(covers - picture.layers.data())].values;
+  std::vector<float>& values =
+      picture.layers[static_cast<std::size_t>(covers - picture.layers.data())].values;
   for (std::size_t p = 0; p < picture.rgb.pixels(); ++p) {
     float& alpha = values[p];
     alpha = std::clamp(alpha, 0.0f, 1.0f);

@@ -149,8 +149,9 @@ void declare_film(CLI::App& app, RenderArguments& a) {
   app.add_flag("--alpha", a.alpha,
                "the picture has a channel of how much of a pixel something covers: surfaces and what media "
                "scatter, but no surroundings; .exr and .png keep it");
-  app.add_flag(
-      "--hide-emitters,!--show-emitters", o.picture.hides_emitters,
+  // Not by its address: CLI11 would count it, and say false where it is not given.
+  app.add_flag_function(
+      "--hide-emitters,!--show-emitters", [&o](std::int64_t given) { o.picture.hides_emitters = given > 0; },
       "lamps and surroundings light the scene, but the camera does not see them directly; default: as the "
       "scene says");
   app.add_flag("--light-groups", o.picture.light_groups.each,
