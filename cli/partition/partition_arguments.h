@@ -14,7 +14,7 @@ namespace vitrail {
 struct PartitionArguments {
   std::filesystem::path input, output, stats, profile;
   std::string domain_bytes, memory, aov, progress = "auto";
-  bool force = false, strict = false, quiet = false, summary = true, cached = true;
+  bool force = false, strict = false, quiet = false, summary = true, cached = true, view_only = false;
   ImportArguments imports;
   std::string rgb = usual_rgb;
   MeshOptions meshes;
