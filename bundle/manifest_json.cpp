@@ -437,4 +437,20 @@ Manifest manifest_from_json(const Json& j) {
   return m;
 }
 
+Json view_to_json(const View& view) {
+  Json j{{"camera", camera_to_json(view.camera)},
+         {"shutter_s", {view.shutter.open_s, view.shutter.close_s}},
+         {"film", {view.width, view.height}}};
+  if (view.motion.moves()) j["camera_motion"] = motion_to_json(view.motion);
+  return j;
+}
+
+View view_from_json(const Json& j) {
+  return {camera_from_json(j.at("camera")),
+          motion_from_json(j, "camera_motion"),
+          {number<double>(j.at("shutter_s"), 0), number<double>(j.at("shutter_s"), 1)},
+          number<int>(j.at("film"), 0),
+          number<int>(j.at("film"), 1)};
+}
+
 }  // namespace vitrail

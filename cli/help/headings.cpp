@@ -8,6 +8,9 @@ namespace {
 constexpr Heading scene{
     "How the scene is read",
     "define=NAME=VALUE camera sky=SKY rgb missing root=FOLDER include-limit=SIZE no-cache strict"};
+constexpr Heading scene_of_render{
+    "How the scene is read",
+    "define=NAME=VALUE sky=SKY rgb missing root=FOLDER include-limit=SIZE no-cache strict"};
 constexpr Heading meshes{"What becomes of its meshes",
                          "tessellate=SEGMENTS repair orient subdivide=LEVELS decimate=FRACTION"};
 
@@ -15,7 +18,7 @@ const std::vector<Heading> of_render{
     {"What to render",
      "input=SCENE|BUNDLE width=PIXELS height=PIXELS scale=FACTOR crop=X0,X1,Y0,Y1 max-depth integrator "
      "hide-emitters "
-     "look-at=X,Y,Z,X,Y,Z fov=DEGREES frames=FILE sensors=FILE set=NAME.PROPERTY=VALUE"},
+     "camera=FILE look-at=X,Y,Z,X,Y,Z fov=DEGREES frames=FILE sensors=FILE set=NAME.PROPERTY=VALUE"},
     {"How good", "quality spp target-error=ERROR adaptive seed clamp=RADIANCE denoise find-denoiser"},
     {"How long",
      "time=SECONDS dry-run checkpoint-every=SECONDS resume force restarts=TIMES launcher=COMMAND"},
@@ -29,7 +32,7 @@ const std::vector<Heading> of_render{
      "filter=NAME[:RADIUS] splat one-sequence texture-filter roulette wavelengths light-sampling "
      "light-candidates threshold=SHARE"},
     {"Photon mapping", "photons photon-radius=LENGTH photon-alpha"},
-    scene,
+    scene_of_render,
     meshes,
 };
 

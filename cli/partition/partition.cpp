@@ -7,6 +7,8 @@
 #include <csignal>
 #include <iterator>
 
+#include "bundle/checked_json.h"
+#include "bundle/manifest_json.h"
 #include "cli/common/bundle_origin.h"
 #include "cli/common/diagnostics_report.h"
 #include "cli/common/import_arguments.h"
@@ -126,6 +128,12 @@ int run(PartitionArguments& a, Stage& stage) {
         },
         import_options(a.imports));
   });
+  if (a.view_only) {
+    const Scene& scene = imported.scene;
+    write_checked_json(a.output, view_to_json({scene.camera, scene.camera_motion, scene.shutter,
+                                               scene.film.width, scene.film.height}));
+    return exit_done;
+  }
   imported.scene.settings.rgb = rgb_method(a.rgb);
   stage = {"preparing the scene", 0, to_string(ledger_of(imported.scene))};
   Diagnostics diagnostics = std::move(imported.diagnostics);

@@ -45,6 +45,7 @@ void declare(CLI::App& app, PartitionArguments& a) {
       ->check(CLI::IsMember({"auto", "bar", "none"}))
       ->capture_default_str();
   app.add_flag("--no-summary{false}", a.summary)->group("");
+  app.add_flag("--view-only", a.view_only)->group("");  // for render --camera: how the scene is seen, as JSON
   app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
 }
 

@@ -17,6 +17,7 @@
 #include "cli/render/display_server.h"
 #include "cli/render/frames.h"
 #include "cli/render/job_limits.h"
+#include "cli/render/other_camera.h"
 #include "cli/render/picture_output.h"
 #include "cli/render/preview.h"
 #include "cli/render/render_arguments.h"
@@ -88,6 +89,9 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
     if (first && !a.glazing.empty()) set_glazing(a);
   });
   share_from_root(transport, a.options.picture.sheets);
+  if (!a.camera_file.empty())
+    a.options.picture.view.view = view_of_scene(
+        transport, a.camera_file, fs::path(a.options.outputs.film).replace_extension(".tmp.camera"));
   agree(transport, [] {
     if (stop_signal()) throw Interrupted(stop_signal(), "interrupted before rendering began");
   });

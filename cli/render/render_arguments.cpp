@@ -149,8 +149,9 @@ void declare_film(CLI::App& app, RenderArguments& a) {
   app.add_flag("--alpha", a.alpha,
                "the picture has a channel of how much of a pixel something covers: surfaces and what media "
                "scatter, but no surroundings; .exr and .png keep it");
-  app.add_flag(
-      "--hide-emitters,!--show-emitters", o.picture.hides_emitters,
+  // Not by its address: CLI11 would count it, and say false where it is not given.
+  app.add_flag_function(
+      "--hide-emitters,!--show-emitters", [&o](std::int64_t given) { o.picture.hides_emitters = given > 0; },
       "lamps and surroundings light the scene, but the camera does not see them directly; default: as the "
       "scene says");
   app.add_flag("--light-groups", o.picture.light_groups.each,
@@ -203,10 +204,10 @@ void declare_outputs(CLI::App& app, RenderArguments& a) {
       "--sensors", o.picture.sensors,
       "measure irradiance instead of a picture: a text of x y z nx ny nz lines, or plane O U V NXxNY; "
       "each sensor gets 16 times --spp samples; develop writes the .csv");
-  app.add_option(
-      "--frames", a.frames,
-      "a text with a line of --look-at, --fov, --set, --seed or --spp for each picture of a bundle; "
-      "--output has %04d for its number, from 1. Pictures that are there stay, unless --force");
+  app.add_option("--frames", a.frames,
+                 "a text with a line of --camera, --look-at, --fov, --set, --seed or --spp for each picture "
+                 "of a bundle; "
+                 "--output has %04d for its number, from 1. Pictures that are there stay, unless --force");
   app.add_option(
       "--preview", a.preview,
       "a picture of what is done, .png or another: at once, after twice the time and so on, and where "
@@ -252,6 +253,11 @@ void declare(CLI::App& app, RenderArguments& a) {
   declare_job(app, a);
   declare_outputs(app, a);
   declare_import_options(app, a.imports);
+  app.remove_option(app.get_option("--camera"));
+  app.add_option(
+      "--camera", a.camera,
+      "which sensor of a Mitsuba scene, or camera of a glTF, from 0; or FILE: the camera of another "
+      "scene of any format, without partitioning again");
   declare_rgb_option(app, a.rgb);
   declare_mesh_options(app, a.meshes);
   app.add_flag("--no-cache{false}", a.cached,
@@ -339,7 +345,23 @@ ProgressMode progress_mode(const RenderArguments& a) {
 
 }  // namespace
 
+namespace {
+
+// A number is a camera of the scene's own.
+void interpret_camera(RenderArguments& a) {
+  int number = 0;
+  const char* const end = a.camera.data() + a.camera.size();
+  const auto [at, failed] = std::from_chars(a.camera.data(), end, number);
+  if (failed == std::errc() && at == end && number >= 0)
+    a.imports.camera = number;
+  else if (!a.camera.empty())
+    a.camera_file = a.camera;
+}
+
+}  // namespace
+
 void interpret(const CLI::App& app, RenderArguments& a) {
+  interpret_camera(a);
   require_renderable(a);
   a.name_outputs();
   const std::string extension = a.output.extension().string();

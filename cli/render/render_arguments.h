@@ -12,9 +12,10 @@
 namespace vitrail {
 
 struct RenderArguments {
-  std::filesystem::path input, output, film, frames;
+  std::filesystem::path input, output, film, frames, camera_file;
   int bins = 0, max_depth = 0;
-  std::string memory, crop, integrator, aov, aov_space, look_at, target_error, quality, progress = "auto";
+  std::string memory, crop, integrator, aov, aov_space, camera, look_at, target_error, quality,
+      progress = "auto";
   std::vector<std::string> settings;      // of --set
   std::vector<std::string> glazing;       // those of them that are of glass that switches
   std::vector<std::string> light_groups;  // of --light-group

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -41,6 +42,18 @@ ScreenWindow screen_under(double fov_deg, const FilmSettings& film) {
   return {-x * half, x * half, -y * half, y * half};
 }
 
+// Its screen is fitted with the film (resize_film). Where objects of the bundle move, its shutter stays, as
+// their times are.
+void put_view(const View& view, Manifest& m) {
+  m.camera = view.camera;
+  std::visit([&](auto& c) { c.camera_to_world = translate(-m.offset) * c.camera_to_world; }, m.camera);
+  m.camera_motion = translate(-m.offset) * view.motion;
+  const bool objects_move =
+      std::ranges::any_of(m.objects, [](const ObjectInfo& object) { return object.motion.moves(); });
+  if (!objects_move) m.shutter = view.shutter;
+  m.requirements.motion = objects_move || m.camera_motion.moves();
+}
+
 }  // namespace
 
 ViewEdit::LookAt parse_look_at(const std::string& text) {
@@ -62,7 +75,8 @@ ViewEdit::LookAt parse_look_at(const std::string& text) {
 }
 
 void edit_view(const ViewEdit& edit, Manifest& m) {
-  if (!edit.look_at && !edit.fov_deg) return;
+  if (!edit.view && !edit.look_at && !edit.fov_deg) return;
+  if (edit.view) put_view(*edit.view, m);
   if (edit.look_at) {
     std::visit(
         [&](auto& camera) {
@@ -76,7 +90,8 @@ void edit_view(const ViewEdit& edit, Manifest& m) {
     if (!perspective) throw UsageError("--fov is of perspective cameras, and the scene's is none");
     perspective->screen = screen_under(*edit.fov_deg, m.film);
   }
-  const std::string camera = camera_to_json(m.camera).dump();
+  std::string camera = camera_to_json(m.camera).dump();
+  if (edit.view) camera += view_to_json(*edit.view).dump();
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(&m.scene_hash, 1)));
   hasher.add(std::as_bytes(std::span(camera)));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bundle/manifest.h"
+#include "bundle/view.h"
 
 namespace vitrail {
 
@@ -14,6 +15,7 @@ struct ViewEdit {
     Point3d eye, target;
     Vector3d up{0, 0, 0};  // 0: the direction that was up before
   };
+  std::optional<View> view;       // of another scene; what stands around the camera stays the bundle's
   std::optional<LookAt> look_at;  // in the world of the scene's file; the camera then stands still
   std::optional<double> fov_deg;  // over the shorter side of the picture
 };

@@ -10,6 +10,7 @@
 
 #include "importers/mitsuba/aovs.h"
 #include "importers/mitsuba/screen.h"
+#include "importers/mitsuba/write/unseen_lamps.h"
 #include "importers/mitsuba/write/write_film.h"
 #include "scene/geometry/bounds.h"
 #include "scene/models/paraxial_lens.h"
@@ -276,7 +277,7 @@ void write_integrator(Context& context, Element root) {
     Element element = add(root, "integrator", "direct");
     add_integer(element, "emitter_samples", 1);
     add_integer(element, "bsdf_samples", 1);
-    return add_boolean(element, "hide_emitters", scene.settings.hides_emitters);
+    return add_boolean(element, "hide_emitters", hides_emitters(scene));
   }
   if (scene.settings.photons) {
     context.begin(RecordKind::integrator, scene.integrator_origin);
@@ -301,7 +302,7 @@ void write_integrator(Context& context, Element root) {
   add_integer(element, "max_depth",
               depth >= unlimited_depth ? -1 : depth + 1);  // Mitsuba counts the eye's ray
   add_integer(element, "rr_depth", 5);
-  add_boolean(element, "hide_emitters", scene.settings.hides_emitters);
+  add_boolean(element, "hide_emitters", hides_emitters(scene));
 }
 
 void write_camera(Context& context, Element root) {

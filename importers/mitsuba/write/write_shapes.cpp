@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "importers/mitsuba/write/unseen_lamps.h"
 #include "importers/mitsuba/write/write_curves.h"
 #include "importers/mitsuba/write/write_lights.h"
 #include "importers/mitsuba/write/write_materials.h"
@@ -137,7 +138,9 @@ void add_media(const Context& context, Element element, const Shape& shape) {
 AreaLight light_of(Context& context, const Shape& shape) {
   AreaLight light = context.exposed.area_lights[shape.area_light->value];
   if (shape.opacity == FloatParameter{0.0f})
-    context.approximated("a light that nothing meets is seen in Mitsuba");
+    context.approximated(hides_emitters(context.scene)
+                             ? "a light that nothing meets casts shadows in Mitsuba, and mirrors show it"
+                             : "a light that nothing meets is seen in Mitsuba");
   else if (!is_there(shape))
     light.scale *= constant_of(context, shape.opacity, "the opacity of what shines");
   return light;

@@ -530,9 +530,23 @@ TEST_F(WriteMitsuba, WhatIsNotThereDoesNotShine) {
   scene.shapes[0].opacity = 0.25f;
   const pugi::xml_node emitter = write(scene).child("shape").child("emitter");
   EXPECT_EQ(value(emitter, "radiance"), "0.5") << text_;
+}
+
+// pbrt's invisible lamps: the integrator hides them from the camera, where it hides nothing else with them.
+TEST_F(WriteMitsuba, LampsThatNothingMeetsAreHidden) {
+  Scene scene = square_scene({});
+  scene.area_lights.push_back({ConstantSpectrum{2}});
+  scene.shapes[0].area_light = Id<AreaLight>{0};
   scene.shapes[0].opacity = 0.0f;
-  write(scene);
-  EXPECT_THAT(diagnostics_, approximates("nothing meets"));
+  EXPECT_EQ(value(write(scene).child("integrator"), "hide_emitters"), "true");
+  EXPECT_THAT(diagnostics_, approximates("mirrors show it"));
+  scene.shapes.push_back(scene.shapes[0]);
+  scene.shapes[1].opacity = 1.0f;
+  EXPECT_EQ(value(write(scene).child("integrator"), "hide_emitters"), "false") << "a lamp that is seen";
+  EXPECT_THAT(diagnostics_, approximates("is seen in Mitsuba"));
+  scene.shapes.pop_back();
+  scene.lights.push_back({InfiniteLight{ConstantSpectrum{1}}});
+  EXPECT_EQ(value(write(scene).child("integrator"), "hide_emitters"), "false") << "surroundings are seen";
 }
 
 }  // namespace

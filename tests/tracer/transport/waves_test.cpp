@@ -117,6 +117,15 @@ std::vector<Case> cases() {
        }},
       {"a point", light(PointLight{{0.3, 0.2, -0.4}, ConstantSpectrum{1}})},
       {"no lamp", [](Scene& s) { s.shapes.pop_back(); }},
+      {"hidden lamps",
+       [](Scene& s) {
+         s.meshes[0].triangles.resize(8);
+         add_block(s, material(DielectricMaterial{ConstantSpectrum{1.5f}}));
+         add_ball(s, material(DiffuseMaterial{}), AreaLight{ConstantSpectrum{4}});
+         s.lights.push_back(Light{InfiniteLight{ConstantSpectrum{0.5f}}});
+         s.settings.hides_emitters = true;
+         s.film.layers.add(Layer::alpha);
+       }},
       {"an open box under a sky",
        [](Scene& s) {
          s.meshes[0].triangles.resize(8);
