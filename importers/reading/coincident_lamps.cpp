@@ -15,6 +15,11 @@ namespace vitrail {
 
 namespace {
 
+// Rays find a glow at the nearest surface alone: it counts once as it is.
+bool is_lamp(const Scene& scene, const Shape& shape) {
+  return shape.area_light && scene.area_lights[shape.area_light->value].sampled;
+}
+
 // A triangle that shines.
 struct Lamp {
   std::uint32_t shape, triangle;
@@ -42,13 +47,14 @@ class LampsOfSpace {
 
  private:
   const AreaLight& light_of(const Shape& shape) const { return scene_.area_lights[shape.area_light->value]; }
+  bool shines(const Shape& shape) const { return is_lamp(scene_, shape); }
 
   // That shine. Each takes some 200 bytes here.
   static constexpr std::uint64_t most_triangles = 1 << 20;
   std::uint64_t triangles() const {
     std::uint64_t count = 0;
     for (const Shape& shape : shapes_)
-      if (const TriangleMesh& mesh = scene_.meshes[shape.mesh.value]; shape.area_light && !mesh.quadric)
+      if (const TriangleMesh& mesh = scene_.meshes[shape.mesh.value]; shines(shape) && !mesh.quadric)
         count += triangles_of(mesh);
     return count;
   }
@@ -64,7 +70,7 @@ class LampsOfSpace {
     for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
       const Shape& shape = shapes_[i];
       const TriangleMesh& mesh = scene_.meshes[shape.mesh.value];
-      if (!shape.area_light || light_of(shape).two_sided != two_sided || mesh.quadric) continue;
+      if (!shines(shape) || light_of(shape).two_sided != two_sided || mesh.quadric) continue;
       TriangleMesh storage;
       add(loaded(mesh, storage), i);
     }
@@ -166,7 +172,7 @@ class LampsOfSpace {
     std::vector<std::uint32_t> lamps;
     for (std::uint32_t i = 0; i < shapes_.size(); ++i)
       if (const TriangleMesh& mesh = scene_.meshes[shapes_[i].mesh.value];
-          shapes_[i].area_light && mesh.quadric && !mesh.places)
+          shines(shapes_[i]) && mesh.quadric && !mesh.places)
         lamps.push_back(i);
     std::ranges::stable_sort(lamps, {}, [&](std::uint32_t i) {
       return std::tuple{shapes_[i].object_to_world.m, !light_of(shapes_[i]).two_sided};
@@ -202,7 +208,7 @@ std::vector<bool> shining(const Scene& scene) {
   std::vector<bool> shine;
   for (const Prototype& p : scene.prototypes)
     shine.push_back(
-        std::ranges::any_of(p.shapes, [](const Shape& s) { return s.area_light.has_value(); }) ||
+        std::ranges::any_of(p.shapes, [&](const Shape& s) { return is_lamp(scene, s); }) ||
         std::ranges::any_of(p.instances, [&](const Instance& i) { return shine[i.prototype.value]; }));
   return shine;
 }

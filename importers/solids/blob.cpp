@@ -46,6 +46,27 @@ class BlobField {
     return threshold_ - sum;
   }
 
+  // Where no part reaches the sum is 0, which is below a positive threshold.
+  bool is_outside(const Bounds3d& box) const {
+    if (!(threshold_ > 0)) return false;
+    const Vector3d size = extent(bounds_);
+    std::array<std::size_t, 3> low{}, high{};
+    std::size_t cells = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      low[i] = cell(box.lower[axis], axis, size), high[i] = cell(box.upper[axis], axis, size);
+      cells *= high[i] - low[i] + 1;
+    }
+    constexpr std::size_t most_cells = 64;
+    if (cells > most_cells) return false;
+    for (std::size_t z = low[2]; z <= high[2]; ++z)
+      for (std::size_t y = low[1]; y <= high[1]; ++y)
+        for (std::size_t x = low[0]; x <= high[0]; ++x)
+          for (const std::uint32_t i : lists_[(z * side + y) * side + x])
+            if (parts_[i].strength > 0 && boxes_meet(parts_[i].bounds, box)) return false;
+    return true;
+  }
+
   const Bounds3d& bounds() const { return bounds_; }
 
  private:
@@ -105,6 +126,7 @@ Solid blob(const Blob& blob, const Tessellation& tessellation) {
   const double wanted = 5 * std::max({size.x, size.y, size.z}) / smallest;
   return implicit({.field = [field](const Point3d& p) { return (*field)(p); },
                    .container = field->bounds(),
+                   .is_outside = [field](const Bounds3d& box) { return field->is_outside(box); },
                    .cells = static_cast<int>(std::clamp(wanted, 32.0, 160.0))},
                   tessellation);
 }

@@ -26,8 +26,10 @@ struct Implicit {
   Container container = Bounds3d{{-1, -1, -1}, {1, 1, 1}};
   bool open = false;        // what the container closes is `unseen`
   double max_gradient = 0;  // a bound of |∇field|: cells that cannot hold a zero are skipped. 0: unknown
-  int cells = 48;           // along the greatest edge: what is thinner than a cell may be lost
-  int most_halvings = 4;    // of a triangle's edges, to come near enough to the zero
+  // Whether the field is positive all over a box, as far as that is known at once; none: it never is.
+  std::function<bool(const Bounds3d&)> is_outside = {};
+  int cells = 48;         // along the greatest edge: what is thinner than a cell may be lost
+  int most_halvings = 4;  // of a triangle's edges, to come near enough to the zero
 };
 
 // Triangles are cut of tetrahedra (Doi and Koide 1991) and then halved until edges are as near to the zero as

@@ -120,6 +120,12 @@ class Marching {
       const double reach = implicit_.max_gradient * length(b - a) / 2 * chart_.stretch();
       if (v > reach || (v < -reach && !at_side)) return;
     }
+    if (implicit_.is_outside && std::holds_alternative<Bounds3d>(implicit_.container)) {
+      Bounds3d cells;
+      extend(cells, chart_.lattice(low));
+      extend(cells, chart_.lattice(high));
+      if (implicit_.is_outside(cells)) return;
+    }
     if (size == leaf) return cut(low, high);
     for (int i = 0; i < 8; ++i) {
       const int half = size / 2;

@@ -122,6 +122,13 @@ TEST_F(CoincidentLamps, LeaveAloneWhatDoesNotShineOrTouchesOnly) {
   EXPECT_EQ(scene().shapes.size(), 4u);
 }
 
+TEST_F(CoincidentLamps, GlowsThatAreNoLampsStay) {
+  for (AreaLight& one : scene().area_lights) one.sampled = false;
+  add({quad, back_of(quad), quad}, light(true));
+  EXPECT_EQ(left(), 6u);
+  EXPECT_EQ(said(), "");
+}
+
 TEST_F(CoincidentLamps, TriangulatedOtherwiseCountOnce) {
   std::vector<Quad> fan;  // quads of a disk around its middle, as triangles with a double corner
   const auto at = [](int i) {
