@@ -22,9 +22,10 @@ enum class Layer : std::uint8_t {
   shape,
   material,
   primitive,
-  alpha  // how much of a pixel something covers; what is infinitely far covers nothing
+  alpha,  // how much of a pixel something covers; what is infinitely far covers nothing
+  motion  // how far what is seen goes over the picture while the shutter is open, in pixels
 };
-inline constexpr std::size_t layer_count = 10;
+inline constexpr std::size_t layer_count = 11;
 
 struct LayerKind {
   const char* name;  // of options and of Mitsuba's integrator `aov`, where that has it
@@ -44,7 +45,8 @@ inline constexpr std::array<LayerKind, layer_count> layer_kinds{
      {"shape_index", {"Id.shape"}, 0, false, false},
      {"material_index", {"Id.material"}, 0, false, false},
      {"prim_index", {"Id.primitive"}, 0, false, false},
-     {"alpha", {"A"}, 1, false, false}}};
+     {"alpha", {"A"}, 1, false, false},
+     {"motion", {"forward.u", "forward.v"}, 2, false, false}}};
 
 constexpr const LayerKind& kind_of(Layer layer) { return layer_kinds[static_cast<std::size_t>(layer)]; }
 
@@ -55,6 +57,7 @@ struct FilmLayers {
   constexpr bool any() const { return bits != 0; }
   constexpr bool has(Layer layer) const { return bits >> static_cast<unsigned>(layer) & 1; }
   constexpr void add(Layer layer) { bits |= 1u << static_cast<unsigned>(layer); }
+  constexpr void remove(Layer layer) { bits &= ~(1u << static_cast<unsigned>(layer)); }
   bool operator==(const FilmLayers&) const = default;
 };
 inline constexpr std::uint32_t all_layers = (1u << layer_count) - 1;

@@ -138,7 +138,7 @@ TEST(FilmLayers, ColoursDoNotKnowOfThem) {
             film_bytes(settings({})));
   EXPECT_EQ(std::as_const(with).sums().size_bytes() + with.counts().size_bytes() + with.ids().size_bytes(),
             film_bytes(settings(everything)));
-  EXPECT_EQ(film_bytes(settings(everything)) - film_bytes(settings({})), 12u * (15 * 16 + 3 * 8));
+  EXPECT_EQ(film_bytes(settings(everything)) - film_bytes(settings({})), 12u * (18 * 16 + 3 * 8));
 }
 
 TEST(FilmLayers, FilesKeepThem) {
@@ -194,7 +194,7 @@ TEST(FilmLayers, DevelopIntoNamedChannels) {
       if (c.name == name) return c;
     throw std::out_of_range(name);
   };
-  EXPECT_EQ(picture.layers.size(), 18u);
+  EXPECT_EQ(picture.layers.size(), 21u);
   EXPECT_NEAR(channel("Albedo.R").values[2], 1, 1e-6);
   EXPECT_NEAR(channel("Albedo.G").values[2], 0.5, 1e-6);
   EXPECT_NEAR(channel("Albedo.B").values[2], 0.25, 1e-6);

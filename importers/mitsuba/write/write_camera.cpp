@@ -250,8 +250,11 @@ Element layers_around(Context& context, Element root) {
   FilmLayers layers = context.scene.film.layers;
   if (!layers.any()) return root;
   context.begin(RecordKind::integrator, context.scene.integrator_origin);
+  layers.remove(Layer::alpha);  // the film's (write_film)
   if (layers.has(Layer::material)) context.dropped("Mitsuba has no index of materials");
-  layers.bits &= ~(1u << static_cast<unsigned>(Layer::material));
+  layers.remove(Layer::material);
+  if (layers.has(Layer::motion)) context.dropped("Mitsuba has no motion over the picture");
+  layers.remove(Layer::motion);
   if (!layers.any()) return root;
   if (layers.in_camera_space)
     context.approximated("the layers of first surfaces: Mitsuba's positions and normals are the world's");
