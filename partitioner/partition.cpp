@@ -10,6 +10,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "bundle/matte_names.h"
 #include "images/image_files.h"
 #include "partitioner/cutting/kd_plan.h"
 #include "partitioner/divide_cell.h"
@@ -138,6 +139,7 @@ class Partitioner {
     coarse_ = world_.coarse;
     glazings_ = in_bundle(options.glazings, world_.material_ids);
     quadrics_ = world_.quadrics;
+    shape_names_ = std::move(world_.shape_names);
     const std::uint64_t in_objects = triangles_of_objects(world_);
     const auto all = static_cast<double>(std::max<std::uint64_t>(in_objects + world_.own_triangles, 1));
     phases_.begin("writing objects", static_cast<double>(in_objects) / all, in_objects);
@@ -175,6 +177,7 @@ class Partitioner {
       if (kept[i] != i) std::filesystem::rename(domain_path(bundle_, kept[i]), domain_path(bundle_, i));
     manifest_.switching_glazings = static_cast<std::uint32_t>(glazings_.size());
     write_manifest(bundle_, manifest_);
+    if (tells_shapes(manifest_.film.layers)) write_shape_names(bundle_, shape_names_);
     write_glazings(bundle_, manifest_.scene_hash, glazings_);
     phases_.end();
     PartitionStats stats = statistics(manifest_, found, bundle_);
@@ -306,6 +309,7 @@ class Partitioner {
   double rest_ = 1;                          // of all work, without the objects'
   MemoryPlan plan_;
   Manifest manifest_;
+  std::vector<std::string> shape_names_;
   std::vector<KeptGlazing> glazings_;
   std::uint64_t buckets_ = 1, spill_bytes_ = 0;
 };

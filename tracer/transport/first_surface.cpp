@@ -124,9 +124,16 @@ void record_first_surface(Tracing& tracing, CameraPath& path, const Event& event
     if (layers.has(layer))
       tracing.film.put_id(path.film.pixel, path.film.sample, layer, static_cast<std::uint32_t>(id));
   };
-  put_id(Layer::shape, static_cast<std::size_t>(&surface - tracing.manifest().surfaces.data()));
+  const auto number = static_cast<std::size_t>(&surface - tracing.manifest().surfaces.data());
+  put_id(Layer::shape, number);
   put_id(Layer::material, surface.material);
   put_id(Layer::primitive, at.triangle);
+  const MatteIds& ids = tracing.scene.mattes;
+  if (!ids.surfaces.empty())
+    tracing.film.put_matte(path.film.pixel, Layer::crypto_object, ids.surfaces[number], weight, spread);
+  if (!ids.materials.empty())
+    tracing.film.put_matte(path.film.pixel, Layer::crypto_material, ids.materials[surface.material], weight,
+                           spread);
 }
 
 }  // namespace vitrail

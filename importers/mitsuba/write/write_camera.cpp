@@ -253,8 +253,10 @@ Element layers_around(Context& context, Element root) {
   layers.remove(Layer::alpha);  // the film's (write_film)
   if (layers.has(Layer::material)) context.dropped("Mitsuba has no index of materials");
   layers.remove(Layer::material);
-  if (layers.has(Layer::motion)) context.dropped("Mitsuba has no motion over the picture");
-  layers.remove(Layer::motion);
+  FilmLayers lost;
+  for (const Layer layer : {Layer::motion, Layer::crypto_object, Layer::crypto_material})
+    if (layers.has(layer)) lost.add(layer), layers.remove(layer);
+  if (lost.any()) context.dropped("layers that Mitsuba has not: " + names_of(lost));
   if (!layers.any()) return root;
   if (layers.in_camera_space)
     context.approximated("the layers of first surfaces: Mitsuba's positions and normals are the world's");

@@ -321,7 +321,7 @@ TEST(MitsubaIntegrator, AovsAreWritten) {
   Scene scene = read_text(sensor("perspective", "") + "<integrator type='path'/>").scene;
   scene.film.layers.bits = all_layers;
   for (const Layer layer :
-       {Layer::material, Layer::alpha, Layer::motion})
+       {Layer::material, Layer::alpha, Layer::motion, Layer::crypto_object, Layer::crypto_material})
     scene.film.layers.remove(layer);
   EXPECT_EQ(written_and_read(scene).scene.film.layers, scene.film.layers);
   EXPECT_EQ(written_and_read(scene).scene.settings, scene.settings);
@@ -332,8 +332,8 @@ TEST(MitsubaIntegrator, AovsAreWritten) {
   EXPECT_THAT(written, says("no index of materials"));
   EXPECT_THAT(written, says("are the world's"));
   scene.film.layers = {};
-  scene.film.layers.add(Layer::alpha), scene.film.layers.add(Layer::motion);
-  EXPECT_THAT(write_mitsuba(scene, folder / "scene.xml"), says("no motion over the picture"));
+  scene.film.layers.add(Layer::alpha), scene.film.layers.add(Layer::crypto_object);
+  EXPECT_THAT(write_mitsuba(scene, folder / "scene.xml"), says("Mitsuba has not: crypto_object"));
   std::ifstream file(folder / "scene.xml");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   EXPECT_THAT(text, ::testing::HasSubstr("value=\"rgba\""));
