@@ -10,6 +10,7 @@
 
 #include "cli/common/main_guard.h"
 #include "cli/common/rectangle.h"
+#include "cli/develop/chosen_layers.h"
 #include "cli/develop/develop_arguments.h"
 #include "cli/develop/exposed_films.h"
 #include "denoise/denoise_picture.h"
@@ -156,8 +157,13 @@ int develop_all(const DevelopArguments& a) {
   }
   Picture picture = sum ? measured_picture(*sum, a) : read_picture(a.films.front());
   require_parts(picture, a);
-  if (!a.spectral) picture.spectrum = {};
-  if (!a.with_variance) picture.variance = {};
+  if (!a.layers.empty()) {
+    keep_layers(picture, parse_chosen_layers(a.layers), a.films.front());
+    if (a.denoised) picture.variance = {};  // of what was measured
+  } else {
+    if (!a.spectral) picture.spectrum = {};
+    if (!a.with_variance) picture.variance = {};
+  }
   if (denoiser) denoise_by_guides(picture, *denoiser, a.quiet);
   cut_and_resize(picture, a);
   if (!a.layer.empty()) show_layer(picture, a.layer, !a.writes_light());

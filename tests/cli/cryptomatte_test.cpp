@@ -94,12 +94,18 @@ TEST_F(CryptomatteTyped, AreDevelopedCutAndShown) {
   const auto develop = [&](const std::string& to, const std::string& more) {
     return run(fmt::format("{} {} -o {} {}", vitrail("develop"), path("a.film"), path(to), more));
   };
-  ASSERT_EQ(develop("all.exr", "--variance").status, 0);
+  ASSERT_EQ(develop("all.exr", "--layers all").status, 0);
   Json read = masks("all.exr");
   EXPECT_TRUE(read.at("channels").contains("Variance.Y"));
   EXPECT_TRUE(read.at("channels").contains("Albedo.R"));
   EXPECT_EQ(read.at("masks").size(), 2u);
   const double whole = sum(read.at("masks").at("CryptoObject").at("left"));
+  ASSERT_EQ(develop("some.exr", "--layers crypto_object,groups").status, 0);
+  read = masks("some.exr");
+  EXPECT_EQ(read.at("masks").size(), 1u);
+  EXPECT_FALSE(read.at("channels").contains("Albedo.R"));
+  EXPECT_FALSE(read.at("channels").contains("Variance.Y"));
+  EXPECT_THAT(read.at("channels").dump(), HasSubstr("Light."));
   ASSERT_EQ(develop("cut.exr", "--crop 0,20,0,24").status, 0);
   const double half = sum(masks("cut.exr").at("masks").at("CryptoObject").at("left"));
   EXPECT_TRUE(half == whole || half == 0) << "it is in one half of the picture";
@@ -107,6 +113,11 @@ TEST_F(CryptomatteTyped, AreDevelopedCutAndShown) {
   EXPECT_THAT(resized.output, HasSubstr("ids do not mix"));
   EXPECT_EQ(masks("small.exr").at("masks").size(), 0u);
   EXPECT_EQ(develop("a.png", "--layer crypto_object").status, 0);
+  const CommandResult none = develop("b.exr", "--layers depth");
+  EXPECT_EQ(none.status, 3);
+  EXPECT_THAT(none.output, HasSubstr("no layer depth"));
+  EXPECT_EQ(develop("b.exr", "--layers nothing").status, 2);
+  EXPECT_EQ(develop("b.png", "--layers all").status, 2);
 }
 
 TEST_F(CryptomatteTyped, ABundleHasToTellShapesApart) {
