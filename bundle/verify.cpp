@@ -14,6 +14,7 @@
 #include "bundle/held_ids.h"
 #include "bundle/kept_glazing.h"
 #include "bundle/manifest.h"
+#include "bundle/matte_names.h"
 #include "bundle/origin_file.h"
 #include "bundle/texture_file.h"
 #include "scene/system/diagnostics.h"
@@ -43,6 +44,7 @@ class Verifier {
     const auto start = std::chrono::steady_clock::now();
     read_records();
     read_glazing();
+    read_names_of_shapes();
     if (manifest_) {
       plan_domains();
       plan_objects();
@@ -127,6 +129,15 @@ class Verifier {
     expect(file);
     read(file, [&] {
       if (manifest_) read_glazings(bundle_, *manifest_);
+    });
+  }
+
+  void read_names_of_shapes() {
+    const fs::path file = shape_names_path(bundle_);
+    if (!present_.contains(file) && !(manifest_ && tells_shapes(manifest_->film.layers))) return;
+    expect(file);
+    read(file, [&] {
+      if (manifest_) read_shape_names(bundle_, *manifest_);
     });
   }
 

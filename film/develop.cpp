@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "film/cryptomatte.h"
 #include "film/group_mix.h"
 #include "scene/system/diagnostics.h"
 
@@ -43,6 +44,11 @@ void add_sums(const Film& film, Layer layer, std::vector<PictureChannel>& out) {
     }
     for (std::size_t i = 0; i < kind.sums; ++i) out[first + i].values[p] = static_cast<float>(mean[i]);
   }
+}
+
+void add_mattes(const Film& film, Layer layer, Picture& out) {
+  for (PictureChannel& channel : matte_channels(film, layer)) out.layers.push_back(std::move(channel));
+  out.mattes.push_back({kind_of(layer).channels[0], ""});
 }
 
 void add_ids(const Film& film, Layer layer, std::vector<PictureChannel>& out) {
@@ -90,10 +96,12 @@ Picture develop(const Film& film) {
   for (std::size_t i = 0; i < layer_count; ++i) {
     const auto layer = static_cast<Layer>(i);
     if (!film.layers().has(layer) || layer == Layer::alpha) continue;
-    if (kind_of(layer).sums > 0)
-      add_sums(film, layer, picture.layers);
-    else
+    if (kind_of(layer).is_matte)
+      add_mattes(film, layer, picture);
+    else if (kind_of(layer).is_id())
       add_ids(film, layer, picture.layers);
+    else
+      add_sums(film, layer, picture.layers);
   }
   for (PictureChannel& channel : group_channels(film)) picture.layers.push_back(std::move(channel));
   constexpr std::uint64_t most_int = 0x7fffffff;

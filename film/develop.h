@@ -28,13 +28,19 @@ struct PictureChannel {
   std::vector<std::uint32_t> ids;  // 0: none
 };
 
+// Masks among the channels (cryptomatte.h).
+struct PictureMattes {
+  std::string layer;     // what their channels begin with: "CryptoObject"
+  std::string manifest;  // the names of their ids (matte_manifest); "" where names are not known
+};
+
 // An image and what is known of how it came to be. Zero stands for unknown.
 struct Picture {
   Image rgb;       // linear sRGB
   Image variance;  // of the mean luminance of each pixel, one channel; 0 × 0 where unknown
   Image spectrum;  // mean radiance of each bin, one channel a bin; 0 × 0 where unknown
   SpectralBins bins;
-  std::vector<PictureChannel> layers;  // of an .exr; its ids are not read
+  std::vector<PictureChannel> layers;  // of an .exr; its ids and mattes are not read
   PixelRect window;
   int full_width = 0, full_height = 0;
   int samples_per_pixel = 0;
@@ -42,6 +48,7 @@ struct Picture {
   double shared_error = 0;  // Film's
   Neighbours neighbours;
   PictureOrigin origin;  // of an .exr
+  std::vector<PictureMattes> mattes;
 };
 
 // The means of the film in linear sRGB, not clamped, and the variances of their luminance;

@@ -64,7 +64,8 @@ std::uint64_t film_bytes(const FilmSettings& settings, const FilmKey& key) {
                                sum_planes(settings.layers) + planes_a_group * key.groups.names.size() +
                                (key.splats ? sample_groups : 0);
   return pixels_of(settings) * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
-                                id_planes(settings.layers) * sizeof(std::int64_t));
+                                id_planes(settings.layers) * sizeof(std::int64_t) +
+                                matte_planes(settings.layers) * sizeof(MattePixel));
 }
 
 Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent, int length_exponent)
@@ -77,6 +78,7 @@ Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent, int l
   sums_.resize((first_weights() + (key_.splats ? sample_groups : 0)) * size + single_sums(key_));
   counts_.resize(sample_groups * size);
   ids_.resize(id_planes(settings_.layers) * size);
+  mattes_.resize(matte_planes(settings_.layers) * size);
 }
 
 // The seeds of films that are to be merged follow on each other as a rule: so the first samples of each,
@@ -106,16 +108,10 @@ void Film::add(std::size_t plane, std::uint32_t pixel, const WideSum& quanta, co
   assert((spread != nullptr) == key_.splats);
   WideSum* const sums = sums_.data() + plane * pixels();
   if (!spread) return add_shared(sums[pixel], quanta);
-  const auto across = static_cast<std::uint32_t>(width());
-  const int x0 = static_cast<int>(pixel % across) + spread->x,
-            y0 = static_cast<int>(pixel / across) + spread->y;
-  const int first = std::max(0, -x0), end = std::min(spread->wide, width() - x0);
   const Int128 value = value_of(quanta);
-  for (int j = std::max(0, -y0); j < std::min(spread->high, height() - y0); ++j)
-    for (int i = first; i < end; ++i)
-      if (const std::int32_t w = spread->weights[static_cast<std::size_t>(j * spread->wide + i)]; w != 0)
-        add_shared(sums[static_cast<std::size_t>(y0 + j) * across + static_cast<std::size_t>(x0 + i)],
-                   wide_sum(value * w));
+  for_each_pixel(*spread, pixel, width(), height(), [&](std::size_t at, std::int32_t weight) {
+    add_shared(sums[at], wide_sum(value * weight));
+  });
 }
 
 bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value, const Footprint* spread,
@@ -265,15 +261,18 @@ void Film::merge(const Film& other) {
   for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
   for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
   for (std::size_t i = 0; i < ids_.size(); ++i) ids_[i] = std::max(ids_[i], other.ids_[i]);
+  for (std::size_t i = 0; i < mattes_.size(); ++i) mattes_[i] += other.mattes_[i];
   refused_.nonfinite += other.refused_.nonfinite;
   refused_.too_large += other.refused_.too_large;
 }
 
 std::uint64_t Film::hash() const {
-  const std::array<std::uint64_t, 3> parts{XXH3_64bits(sums_.data(), sums_.size() * sizeof sums_[0]),
+  const std::array<std::uint64_t, 4> parts{XXH3_64bits(sums_.data(), sums_.size() * sizeof sums_[0]),
                                            XXH3_64bits(counts_.data(), counts_.size() * sizeof counts_[0]),
-                                           XXH3_64bits(ids_.data(), ids_.size() * sizeof ids_[0])};
-  return XXH3_64bits(parts.data(), (ids_.empty() ? 2 : 3) * sizeof parts[0]);
+                                           XXH3_64bits(ids_.data(), ids_.size() * sizeof ids_[0]),
+                                           XXH3_64bits(mattes_.data(), mattes_.size() * sizeof mattes_[0])};
+  const std::size_t used = !mattes_.empty() ? 4 : !ids_.empty() ? 3 : 2;
+  return XXH3_64bits(parts.data(), used * sizeof parts[0]);
 }
 
 }  // namespace vitrail

@@ -12,6 +12,7 @@
 #include "film/film_key.h"
 #include "film/footprint.h"
 #include "film/light_groups.h"
+#include "film/mattes.h"
 #include "film/sample_groups.h"
 #include "film/untouched.h"
 #include "film/wide_sum.h"
@@ -104,6 +105,10 @@ class Film {
   // To a layer of ids that the film keeps. A pixel has the id of the first of its samples that has one, by
   // number; of films of several seeds, the least of the first ones. `id` < 2³² − 1.
   void put_id(std::uint32_t pixel, std::uint32_t sample, Layer layer, std::uint32_t id);
+  // To a layer of mattes that the film keeps: a thing that the sample sees, which is not 0. `weight`: the
+  // sample's by its filter, where the film does not splat.
+  void put_matte(std::uint32_t pixel, Layer layer, std::uint32_t id, double weight,
+                 const Footprint* spread = nullptr);
   // Counts one sample of a pixel, whatever it deposits.
   void count_sample(std::uint32_t pixel, std::uint32_t sample, const Footprint* spread = nullptr);
 
@@ -121,6 +126,9 @@ class Film {
   XYZ mean_of_group(std::uint32_t pixel, std::size_t group) const;
   // Of a layer of ids: 1 + the id; 0 where no sample has one.
   std::uint32_t id(std::uint32_t pixel, Layer layer) const;
+  const MattePixel& matte(std::uint32_t pixel, Layer layer) const;
+  // The part of the pixel that a matte's sum is.
+  double coverage(std::uint32_t pixel, std::int64_t sum) const;
   // Variance of the mean's Y, from the scatter of the groups; 0 where one has no samples, or all are one
   // sequence. An estimate
   // of one degree of freedom: of use where many are put together.
@@ -139,7 +147,7 @@ class Film {
   // True when a deposit was too large: the picture is then not to be trusted.
   bool saturated() const { return refused_.too_large > 0; }
 
-  // xxh3 over all sums, counts and ids.
+  // xxh3 over all sums, counts, ids and mattes.
   std::uint64_t hash() const;
 
   // The raw planes, for exchange between ranks: X, Z, Y of each group, then one a spectral bin and those of
@@ -153,6 +161,8 @@ class Film {
   Refused& refused() { return refused_; }
   // Those of layers, each width·height: of two, the greater one counts. 0: none.
   std::span<std::int64_t> ids() { return ids_; }
+  // Those of layers, each width·height.
+  std::span<MattePixel> mattes() { return mattes_; }
 
  private:
   friend Film read_film(const std::filesystem::path& file, struct FilmProgress* progress);
@@ -172,6 +182,7 @@ class Film {
   std::size_t first_plane(Layer layer) const;
   int exponent_of(Layer layer) const;
   std::size_t place_of_id(std::uint32_t pixel, Layer layer) const;
+  std::size_t place_of_matte(std::uint32_t pixel, Layer layer) const;
   std::size_t first_batch() const { return sums_.size() - single_sums(key_); }
 
   FilmSettings settings_{.width = 0, .height = 0, .crop = {}};
@@ -181,6 +192,7 @@ class Film {
   UntouchedVector<std::uint32_t> counts_;
   UntouchedVector<std::int64_t> ids_;
   Refused refused_;
+  UntouchedVector<MattePixel> mattes_;
 };
 
 // What keeps two films from being samples of one picture, in words; "" where nothing does. Seeds and sample

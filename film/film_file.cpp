@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film file, little-endian: a header with the checksum of what comes before it, then six arrays, each
-// followed by its xxh3: FilmProgress's earlier_ends, about and done, the sums, the counts, the ids; and of a
-// film within an adaptive round a seventh, `more`. docs/why/color-and-film.md has the header byte by byte.
+// followed by its xxh3: FilmProgress's earlier_ends, about and done, the sums, the counts, the ids; of a film
+// that keeps mattes a seventh, these; and of a film within an adaptive round a last one, `more`.
+// docs/why/color-and-film.md has the header byte by byte.
 #include <fmt/format.h>
 
 #define XXH_INLINE_ALL
@@ -212,9 +213,10 @@ struct Arrays {
 void check_size(const Reader& in, const Header& h, const Arrays& arrays) {
   const std::uint64_t but_for_done =
       arrays.pixels * (arrays.planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
-                       id_planes(arrays.layers) * sizeof(std::int64_t)) +
-      h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 6 * 8 +
-      (h.clamp > 0 ? sizeof(WideSum) : 0) + arrays.group_bytes +
+                       id_planes(arrays.layers) * sizeof(std::int64_t) +
+                       matte_planes(arrays.layers) * sizeof(MattePixel)) +
+      (matte_planes(arrays.layers) > 0 ? 8 : 0) + h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} +
+      h.about_bytes + 6 * 8 + (h.clamp > 0 ? sizeof(WideSum) : 0) + arrays.group_bytes +
       (h.version == photon_version ? sizeof(PhotonKey) + 8 + 2 * photon_batches * sizeof(WideSum) : 0) +
       (arrays.open_round ? arrays.pixels * sizeof(std::uint32_t) + 8 : 0);
   const std::uint64_t bytes = in.size() - sizeof h;
@@ -324,6 +326,7 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   write_array(out, film.sums_);
   write_array(out, film.counts_);
   write_array(out, film.ids_);
+  if (!film.mattes_.empty()) write_array(out, film.mattes_);
   if (!progress.more.empty()) write_array(out, progress.more);
   out.commit();
 }
@@ -348,6 +351,8 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   in.read_array(film.sums_, arrays.planes * arrays.pixels + single_sums(film.key_), "sums");
   in.read_array(film.counts_, sample_groups * arrays.pixels, "counts");
   in.read_array(film.ids_, id_planes(arrays.layers) * arrays.pixels, "ids");
+  if (matte_planes(arrays.layers) > 0)
+    in.read_array(film.mattes_, matte_planes(arrays.layers) * arrays.pixels, "mattes");
   if (arrays.open_round) in.read_array(read.more, arrays.pixels, "open round");
   if (progress) *progress = std::move(read);
   return film;

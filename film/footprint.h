@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace vitrail {
@@ -17,5 +19,17 @@ struct Footprint {
   int x = 0, y = 0, wide = 0, high = 0;
   std::array<std::int32_t, most_splat_pixels * most_splat_pixels> weights;
 };
+
+// Of a sample of `pixel`, in a picture of width × height: visit(pixel, weight) of those in it that get any.
+template <class Visit>
+void for_each_pixel(const Footprint& of, std::uint32_t pixel, int width, int height, Visit&& visit) {
+  const auto across = static_cast<std::uint32_t>(width);
+  const int x0 = static_cast<int>(pixel % across) + of.x, y0 = static_cast<int>(pixel / across) + of.y;
+  const int first = std::max(0, -x0), end = std::min(of.wide, width - x0);
+  for (int j = std::max(0, -y0); j < std::min(of.high, height - y0); ++j)
+    for (int i = first; i < end; ++i)
+      if (const std::int32_t w = of.weights[static_cast<std::size_t>(j * of.wide + i)]; w != 0)
+        visit(static_cast<std::size_t>(y0 + j) * across + static_cast<std::size_t>(x0 + i), w);
+}
 
 }  // namespace vitrail

@@ -10,6 +10,7 @@
 #include <ctime>
 #include <span>
 
+#include "film/cryptomatte.h"
 #include "film/exr_bytes.h"
 #include "film/fixed_date.h"
 #include "film/picture_attributes.h"
@@ -97,6 +98,18 @@ void put_origin(PictureFile& file, const PictureOrigin& origin) {
       file.attributes.emplace_back(m.name, transposed(std::span<const float, 16>(origin.*m.matrix)));
 }
 
+// By the specification of Cryptomatte: a layer is known by seven digits of the hash of its name.
+void put_mattes(PictureFile& file, const PictureMattes& mattes) {
+  const std::string key = fmt::format("{:08x}", murmur_hash(mattes.layer)).substr(0, 7);
+  const auto put = [&](const char* name, const std::string& value) {
+    file.attributes.emplace_back(fmt::format("cryptomatte/{}/{}", key, name), value);
+  };
+  put("name", mattes.layer);
+  put("hash", "MurmurHash3_32");
+  put("conversion", "uint32_to_float32");
+  if (!mattes.manifest.empty()) put("manifest", mattes.manifest);
+}
+
 void put_numbers(PictureFile& file, const Picture& picture) {
   const auto put = [&](const char* name, double value) {
     file.attributes.emplace_back(name, static_cast<float>(value));
@@ -113,6 +126,7 @@ void write_exr(const std::filesystem::path& path, const Picture& picture) {
   PictureFile file = file_of(picture);
   put_numbers(file, picture);
   put_origin(file, picture.origin);
+  for (const PictureMattes& mattes : picture.mattes) put_mattes(file, mattes);
   if (picture.spectrum.pixels() > 0) {
     file.attributes.emplace_back("spectralLayoutVersion", "1.0");
     file.attributes.emplace_back("emissiveUnits", "W.m^-2.sr^-1");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "scene/records/film_layers.h"
@@ -15,15 +16,20 @@ namespace vitrail {
 
 namespace {
 
-const PictureChannel* channel_of(const Picture& picture, const char* name) {
-  const auto found = std::ranges::find(picture.layers, std::string_view(name), &PictureChannel::name);
+const PictureChannel* channel_of(const Picture& picture, const std::string& name) {
+  const auto found = std::ranges::find(picture.layers, name, &PictureChannel::name);
   return found == picture.layers.end() ? nullptr : &*found;
+}
+
+std::string first_channel(const LayerKind& kind) {
+  return kind.is_matte ? fmt::format("{}00.R", kind.channels[0]) : kind.channels[0];
 }
 
 std::string layers_of(const Picture& picture) {
   std::string names;
   for (const LayerKind& kind : layer_kinds)
-    if (channel_of(picture, kind.channels[0])) names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    if (channel_of(picture, first_channel(kind)))
+      names += (names.empty() ? "" : ", ") + std::string(kind.name);
   return names.empty() ? "none: render with --aov" : names;
 }
 
@@ -71,6 +77,20 @@ void show_ids(Image& rgb, const PictureChannel& channel, bool shown) {
   }
 }
 
+// The colours of what covers a pixel, each as much as it covers.
+void show_mattes(Image& rgb, const Picture& picture, const LayerKind& kind) {
+  for (int i = 0;; ++i) {
+    const std::string level = fmt::format("{}{:02}.", kind.channels[0], i / 2);
+    const auto* const ids = channel_of(picture, level + "RB"[i % 2]);
+    const auto* const covered = channel_of(picture, level + "GA"[i % 2]);
+    if (!ids || !covered) return;
+    for (std::size_t p = 0; p < rgb.pixels(); ++p) {
+      const std::array<float, 3> color = color_of_id(std::bit_cast<std::uint32_t>(ids->values[p]));
+      for (std::size_t c = 0; c < 3; ++c) rgb.values[3 * p + c] += covered->values[p] * color[c];
+    }
+  }
+}
+
 }  // namespace
 
 void show_layer(Picture& picture, const std::string& name, bool shown) {
@@ -81,15 +101,17 @@ void show_layer(Picture& picture, const std::string& name, bool shown) {
     return asked.has(static_cast<Layer>(&k - layer_kinds.data()));
   });
   for (std::size_t c = 0; c < std::max<std::size_t>(kind->sums, 1); ++c)
-    if (!channel_of(picture, kind->channels[c]))
+    if (!channel_of(picture, c == 0 ? first_channel(*kind) : kind->channels[c]))
       throw Error(fmt::format("there is no layer {}; there is {}", kind->name, layers_of(picture)));
   Image rgb = black_image(picture.rgb.width, picture.rgb.height, 3);
-  if (kind->sums == 0)
+  if (kind->is_matte)
+    show_mattes(rgb, picture, *kind);
+  else if (kind->is_id())
     show_ids(rgb, *channel_of(picture, kind->channels[0]), shown);
   else
     show_values(rgb, picture, *kind, shown);
   picture.rgb = std::move(rgb);
-  picture.layers.clear();
+  picture.layers.clear(), picture.mattes.clear();
   picture.variance = picture.spectrum = {};
 }
 

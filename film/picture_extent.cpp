@@ -108,6 +108,9 @@ void cut_to(Picture& picture, const PixelRect& window) {
 }
 
 void resize(Picture& picture, int width, int height) {
+  for (const PictureMattes& mattes : picture.mattes)
+    std::erase_if(picture.layers, [&](const auto& layer) { return layer.name.starts_with(mattes.layer); });
+  picture.mattes.clear();
   const std::vector<Taps> columns = taps_along(picture.rgb.width, width),
                           rows = taps_along(picture.rgb.height, height);
   for (PictureChannel& layer : picture.layers) {

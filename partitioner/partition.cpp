@@ -10,6 +10,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "bundle/matte_names.h"
 #include "images/image_files.h"
 #include "partitioner/caching/bundle_cache.h"
 #include "partitioner/caching/world_key.h"
@@ -133,6 +134,7 @@ class Partitioner {
     coarse_ = world_.coarse;
     glazings_ = in_bundle(options.glazings, world_.material_ids);
     quadrics_ = world_.quadrics;
+    shape_names_ = std::move(world_.shape_names);
   }
 
   // A profile is no scene's content.
@@ -222,6 +224,7 @@ class Partitioner {
   PartitionStats finish(const CensusResult& found) {
     manifest_.switching_glazings = static_cast<std::uint32_t>(glazings_.size());
     write_manifest(bundle_, manifest_);
+    if (tells_shapes(manifest_.film.layers)) write_shape_names(bundle_, shape_names_);
     write_glazings(bundle_, manifest_.scene_hash, glazings_);
     phases_.end();
     PartitionStats stats = statistics(manifest_, found, bundle_);
@@ -357,6 +360,7 @@ class Partitioner {
   MemoryPlan plan_;
   Manifest manifest_;
   std::vector<std::uint64_t> block_hashes_;  // SceneTally's
+  std::vector<std::string> shape_names_;
   std::vector<KeptGlazing> glazings_;
   std::uint64_t buckets_ = 1, spill_bytes_ = 0;
 };

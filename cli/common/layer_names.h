@@ -9,9 +9,8 @@ namespace vitrail {
 
 inline constexpr const char* layers_help =
     "keep these of the first surface that each sample sees, with commas between them: albedo, position, "
-    "geo_normal, sh_normal (or normal), uv, depth, shape_index, material_index, prim_index; none; default: "
-    "as "
-    "the scene says";
+    "geo_normal, sh_normal (or normal), uv, depth, shape_index, material_index, prim_index, alpha, motion, "
+    "cryptomatte (crypto_object and crypto_material); none; default: as the scene says";
 
 // What `--aov` names. Throws UsageError for unknown ones.
 FilmLayers parse_layers(const std::string& names);

@@ -10,10 +10,12 @@
 
 #include "cli/common/main_guard.h"
 #include "cli/common/rectangle.h"
+#include "cli/develop/chosen_layers.h"
 #include "cli/develop/develop_arguments.h"
 #include "cli/develop/exposed_films.h"
 #include "denoise/denoise_picture.h"
 #include "film/alpha.h"
+#include "film/cryptomatte.h"
 #include "film/false_color.h"
 #include "film/group_mix.h"
 #include "film/image_io.h"
@@ -84,6 +86,11 @@ Picture measured_picture(const Exposed& sum, const DevelopArguments& a) {
         100 * sum.film.clamped_share());
   if (a.with_variance && sum.film.key().one_sequence)
     throw Error("the film knows no variance: it was rendered with --one-sequence", {sum.file.string()});
+  for (const Layer layer : {Layer::crypto_object, Layer::crypto_material})
+    if (sum.film.layers().has(layer) && !a.quiet)
+      if (const double share = share_without_matte(sum.film, layer); share > 0)
+        say("vitrail: pixels with more than {} masks of {} leave {:.2g} % of what is seen in none\n",
+            most_mattes, kind_of(layer).name, 100 * share);
   Picture picture = picture_of(sum);
   if (a.groups.empty()) return picture;
   picture.rgb = mixed_groups(sum.film, parse_group_weights(a.groups));
@@ -110,6 +117,7 @@ void cut_and_resize(Picture& picture, const DevelopArguments& a) {
   }
   if (a.size.empty()) return;
   if (a.with_variance) throw UsageError("--resize mixes pixels, whose variances are then not known");
+  if (!picture.mattes.empty() && !a.quiet) say("vitrail: --resize leaves the masks out: ids do not mix\n");
   const auto [width, height] = parse_size("--resize", a.size, {picture.rgb.width, picture.rgb.height});
   resize(picture, width, height);
 }
@@ -149,8 +157,13 @@ int develop_all(const DevelopArguments& a) {
   }
   Picture picture = sum ? measured_picture(*sum, a) : read_picture(a.films.front());
   require_parts(picture, a);
-  if (!a.spectral) picture.spectrum = {};
-  if (!a.with_variance) picture.variance = {};
+  if (!a.layers.empty()) {
+    keep_layers(picture, parse_chosen_layers(a.layers), a.films.front());
+    if (a.denoised) picture.variance = {};  // of what was measured
+  } else {
+    if (!a.spectral) picture.spectrum = {};
+    if (!a.with_variance) picture.variance = {};
+  }
   if (denoiser) denoise_by_guides(picture, *denoiser, a.quiet);
   cut_and_resize(picture, a);
   if (!a.layer.empty()) show_layer(picture, a.layer, !a.writes_light());

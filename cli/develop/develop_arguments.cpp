@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "cli/develop/chosen_layers.h"
 #include "denoise/denoiser.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/say.h"
@@ -26,6 +27,9 @@ void declare(CLI::App& app, DevelopArguments& a) {
                  "to WIDTHxHEIGHT in pixels, to a WIDTH and the height in proportion, or to PERCENT%");
   app.add_option("--layer", a.layer,
                  "show this layer of the first surfaces, as render --aov names it, in place of the colours");
+  app.add_option("--layers", a.layers,
+                 "what an .exr has beside the colours, with commas between: all that the film has, or names "
+                 "of render --aov, variance, spectrum, groups; default: all but variance and spectrum");
   app.add_option("--groups,--group", a.groups,
                  "NAME=WEIGHT,…: weigh the light of these groups of a film of render --light-groups, by a "
                  "number or red:green:blue each; * is all groups, and a group that is not named has 1");
@@ -95,8 +99,13 @@ void require_agreement(const DevelopArguments& a) {
   if (!a.layer.empty() &&
       (is_exposed || a.denoised || a.with_variance || a.spectral || !a.false_color.empty()))
     throw UsageError("--layer shows numbers as they are: only --crop, --resize and --bits go with it");
-  if (!a.groups.empty() && (a.with_variance || a.spectral || !a.layer.empty() || a.writes(".csv") ||
-                            a.writes(".film") || a.reads_picture()))
+  if (!a.layers.empty() && (!a.writes(".exr") || !a.layer.empty() || a.with_variance || a.spectral))
+    throw UsageError("--layers says what an .exr holds: not with --layer, --variance or --spectral");
+  const ChosenLayers chosen = parse_chosen_layers(a.layers);
+  if (chosen.variance && (a.denoised || !a.size.empty()))
+    throw UsageError("neither --denoise nor --resize knows the variance of what it makes");
+  if (!a.groups.empty() && (chosen.groups || a.with_variance || a.spectral || !a.layer.empty() ||
+                            a.writes(".csv") || a.writes(".film") || a.reads_picture()))
     throw UsageError(
         "--groups weighs the colours that a film keeps: not with --variance, --spectral or --layer, not as "
         ".csv or .film, and not of pictures");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "film/cryptomatte.h"
 #include "film/film_progress.h"
 #include "film/film_seeds.h"
 #include "scene/system/diagnostics.h"
@@ -61,6 +62,22 @@ void put_about(PictureOrigin& origin, const std::string& about) {
   origin.world_to_ndc = matrix("world_to_ndc");
 }
 
+// The names of masks, as the render wrote them.
+void name_mattes(Picture& picture, const std::string& about) {
+  const nlohmann::json json = nlohmann::json::parse(about, nullptr, false);
+  if (!json.is_object() || !json.contains("mattes") || !json.at("mattes").is_object()) return;
+  for (const LayerKind& kind : layer_kinds)
+    for (PictureMattes& mattes : picture.mattes) {
+      const auto names = json.at("mattes").find(kind.name);
+      if (mattes.layer != kind.channels[0] || names == json.at("mattes").end() || !names->is_array())
+        continue;
+      std::vector<std::string> list;
+      for (const nlohmann::json& name : *names)
+        if (name.is_string()) list.push_back(name.get<std::string>());
+      mattes.manifest = matte_manifest(list);
+    }
+}
+
 }  // namespace
 
 Exposed merge_all(const DevelopArguments& a) {
@@ -110,6 +127,7 @@ Picture picture_of(const Exposed& sum) {
   picture.render_time_s = sum.render_time_s;
   picture.origin.seeds = fmt::format("{}", fmt::join(sum.seeds, ","));
   put_about(picture.origin, sum.about);
+  name_mattes(picture, sum.about);
   picture.neighbours = neighbours_of(sum.about);
   return picture;
 }

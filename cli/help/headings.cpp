@@ -60,7 +60,7 @@ const std::vector<Heading> of_compare{
 };
 
 const std::vector<Heading> of_develop{
-    {"What to develop", "FILM=FILM layer=NAME crop=X0,X1,Y0,Y1 resize=SIZE strict"},
+    {"What to develop", "FILM=FILM layer=NAME layers=NAMES crop=X0,X1,Y0,Y1 resize=SIZE strict"},
     {"How it looks",
      "groups=NAME=WEIGHT,… exposure=STOPS white-balance=KELVIN tone false-color=MAXIMUM log denoise "
      "find-denoiser"},

@@ -29,8 +29,12 @@ void override_layers(Manifest& m, const PictureSettings& picture, const std::fil
                               kind_of(layer).name),
                   {bundle.string()});
   };
+  if (m.film.layers.has(Layer::motion) && !std::holds_alternative<PerspectiveCamera>(m.camera) &&
+      !std::holds_alternative<OrthographicCamera>(m.camera))
+    throw UsageError("--aov motion is of perspective and orthographic cameras, and the scene's is another");
   require(Layer::uv, m.requirements.uv, "(u,v), as nothing in the scene needs them");
-  require(Layer::shape, kept.has(Layer::shape), "account of which shape is which");
+  for (const Layer layer : {Layer::shape, Layer::crypto_object})
+    require(layer, tells_shapes(kept), "account of which shape is which");
 }
 
 Point3d place_of(const Camera& camera) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bundle/matte_names.h"
 #include "farm/run/scene_parts.h"
 #include "scene/records/kinds.h"
 #include "tracer/view/pixel_filter.h"
@@ -62,6 +63,9 @@ std::string about(const Manifest& m, const RenderOptions& options) {
       const Vector3d n = transform_vector(camera_to_bundle, s.normal);
       about["sensors"].push_back({p.x, p.y, p.z, n.x, n.y, n.z});
     }
+  if (m.film.layers.has(Layer::crypto_object))
+    about["mattes"]["crypto_object"] = object_names(m, options.bundle);
+  if (m.film.layers.has(Layer::crypto_material)) about["mattes"]["crypto_material"] = material_names(m);
   if (const auto ndc = to_ndc(m.camera)) about["world_to_ndc"] = numbers_of(*ndc * world_to_camera);
   return about.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

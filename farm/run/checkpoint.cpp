@@ -46,6 +46,7 @@ void gather_film(Transport& transport, Film& film, std::vector<std::uint64_t>& d
   transport.sum_to_root(film.sums());
   transport.sum_to_root(film.counts());
   transport.max_to_root(film.ids());
+  transport.sum_to_root(film.mattes());
   Refused& refused = film.refused();
   std::array<std::int64_t, 2> counts{static_cast<std::int64_t>(refused.nonfinite),
                                      static_cast<std::int64_t>(refused.too_large)};

@@ -25,8 +25,9 @@ constexpr std::size_t collective_part = collective_bytes / sizeof(T);
 constexpr int tag_of_rays = 0, tag_of_words = 1;
 constexpr int report_values = sizeof(RankReport) / sizeof(std::int64_t);
 
-void add_wide_sums(void* from, void* to, int* count, MPI_Datatype*) {
-  for (int i = 0; i < *count; ++i) static_cast<WideSum*>(to)[i] += static_cast<const WideSum*>(from)[i];
+template <class T>
+void add_all(void* from, void* to, int* count, MPI_Datatype*) {
+  for (int i = 0; i < *count; ++i) static_cast<T*>(to)[i] += static_cast<const T*>(from)[i];
 }
 
 class MpiTransport final : public Transport {
@@ -43,12 +44,17 @@ class MpiTransport final : public Transport {
     reports_.resize(static_cast<std::size_t>(size_));
     MPI_Type_contiguous(2, MPI_UINT64_T, &wide_sum_);
     MPI_Type_commit(&wide_sum_);
-    MPI_Op_create(add_wide_sums, /*commute=*/1, &add_wide_sums_);
+    MPI_Op_create(add_all<WideSum>, /*commute=*/1, &add_wide_sums_);
+    MPI_Type_contiguous(sizeof(MattePixel), MPI_BYTE, &matte_pixel_);
+    MPI_Type_commit(&matte_pixel_);
+    MPI_Op_create(add_all<MattePixel>, /*commute=*/1, &add_matte_pixels_);
     listen();
   }
   ~MpiTransport() override {
     MPI_Cancel(&hearing_);
     MPI_Request_free(&hearing_);
+    MPI_Op_free(&add_matte_pixels_);
+    MPI_Type_free(&matte_pixel_);
     MPI_Op_free(&add_wide_sums_);
     MPI_Type_free(&wide_sum_);
     MPI_Finalize();
@@ -136,6 +142,7 @@ class MpiTransport final : public Transport {
   void sum_to_root(std::span<std::uint32_t> values) override { reduce(values, MPI_UINT32_T, MPI_SUM); }
   void sum_to_root(std::span<double> values) override { reduce(values, MPI_DOUBLE, MPI_SUM); }
   void sum_to_root(std::span<WideSum> values) override { reduce(values, wide_sum_, add_wide_sums_); }
+  void sum_to_root(std::span<MattePixel> values) override { reduce(values, matte_pixel_, add_matte_pixels_); }
   void max_to_root(std::span<std::int64_t> values) override { reduce(values, MPI_INT64_T, MPI_MAX); }
 
   void broadcast_from_root(std::span<std::uint64_t> values) override { broadcast(values, MPI_UINT64_T); }
@@ -230,8 +237,8 @@ class MpiTransport final : public Transport {
   RankReport report_;
   std::vector<RankReport> reports_;
   std::array<MPI_Request, 2> round_{MPI_REQUEST_NULL, MPI_REQUEST_NULL};
-  MPI_Datatype wide_sum_ = MPI_DATATYPE_NULL;
-  MPI_Op add_wide_sums_ = MPI_OP_NULL;
+  MPI_Datatype wide_sum_ = MPI_DATATYPE_NULL, matte_pixel_ = MPI_DATATYPE_NULL;
+  MPI_Op add_wide_sums_ = MPI_OP_NULL, add_matte_pixels_ = MPI_OP_NULL;
 };
 
 }  // namespace

@@ -29,6 +29,7 @@ class SoloTransport final : public Transport {
   void sum_to_root(std::span<std::uint32_t>) override {}
   void sum_to_root(std::span<double>) override {}
   void sum_to_root(std::span<WideSum>) override {}
+  void sum_to_root(std::span<MattePixel>) override {}
   void max_to_root(std::span<std::int64_t>) override {}
   void broadcast_from_root(std::span<std::uint64_t>) override {}
   void broadcast_from_root(std::span<std::uint32_t>) override {}

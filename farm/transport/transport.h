@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "farm/scheduler/round.h"
+#include "film/mattes.h"
 #include "film/wide_sum.h"
 
 namespace vitrail {
@@ -60,6 +61,7 @@ class Transport {
   virtual void sum_to_root(std::span<std::uint32_t> values) = 0;
   virtual void sum_to_root(std::span<double> values) = 0;
   virtual void sum_to_root(std::span<WideSum> values) = 0;
+  virtual void sum_to_root(std::span<MattePixel> values) = 0;
   virtual void max_to_root(std::span<std::int64_t> values) = 0;
   virtual void broadcast_from_root(std::span<std::uint64_t> values) = 0;
   virtual void broadcast_from_root(std::span<std::uint32_t> values) = 0;

@@ -236,7 +236,7 @@ class Planner {
   // All but where it stands is the shape's. Where the film tells shapes apart each has an object of its own.
   std::uint32_t object_of_quadric(const Shape& shape) {
     const auto [known, is_new] = quadrics_.try_emplace(key_of(shape));
-    if (is_new || scene_.film.layers.has(Layer::shape)) {
+    if (is_new || tells_shapes(scene_.film.layers)) {
       const TriangleMesh& mesh = scene_.meshes[shape.mesh.value];
       const Bounds3f box = bounds_of(mesh);
       Assembly object;

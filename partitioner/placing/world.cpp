@@ -20,17 +20,19 @@ std::int32_t new_id(const std::vector<std::int32_t>& ids, const auto& old) {
 
 // One a run of placements that are alike, or where the film tells shapes apart one each. Returns how many.
 std::uint32_t make_surfaces(const Appearance& appearance, const std::vector<Placement>& placements,
-                            VertexDoubts& doubts, Manifest& m) {
+                            VertexDoubts& doubts, World& world) {
+  Manifest& m = world.manifest;
   const std::size_t first = m.surfaces.size();
   for (const Placement& p : placements) {
     Surface surface = surface_of(p, appearance);
     surface.vertex_doubt = doubts.of(p);
-    if (m.surfaces.size() > first && !m.film.layers.has(Layer::shape)) {
+    if (m.surfaces.size() > first && !tells_shapes(m.film.layers)) {
       Surface same = m.surfaces.back();
       same.first_triangle = surface.first_triangle;
       if (same == surface) continue;
     }
     m.surfaces.push_back(surface);
+    if (tells_shapes(m.film.layers)) world.shape_names.push_back(p.shape->name);
   }
   return static_cast<std::uint32_t>(m.surfaces.size() - first);
 }
@@ -123,7 +125,7 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
     world.shining.push_back({p, static_cast<std::uint32_t>(surface.area_light), surface.opacity});
   }
   VertexDoubts doubts(appearance);
-  make_surfaces(appearance, plan.scene.placements, doubts, m);
+  make_surfaces(appearance, plan.scene.placements, doubts, world);
   for (const Placement& p : plan.scene.placements) world.own_triangles += triangles_of(*p.mesh);
   world.placements = std::move(plan.scene.placements);
   world.uses = std::move(plan.scene.uses);
@@ -132,7 +134,7 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   for (Assembly& object : plan.objects) {
     const auto first = static_cast<std::uint32_t>(m.surfaces.size());
     const std::uint32_t count = make_surfaces(
-        appearance, object.quadric ? std::vector{*object.quadric} : object.placements, doubts, m);
+        appearance, object.quadric ? std::vector{*object.quadric} : object.placements, doubts, world);
     world.objects.push_back({std::move(object), first, count});
   }
   move_records(scene, appearance, m);

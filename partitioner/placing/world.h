@@ -46,6 +46,7 @@ struct World {
   std::uint64_t coarse = 0;  // as in ScenePlan
   std::vector<TextureBaker::Attribute> attributes;
   std::vector<std::int32_t> material_ids;  // of the manifest, by that of the scene; −1: not used
+  std::vector<std::string> shape_names;    // of the manifest's surfaces, where the film tells shapes apart
 
   PlacementRule rule() const {
     return {manifest.offset, manifest.requirements.shading_normals, manifest.requirements.uv, attributes};

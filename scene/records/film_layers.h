@@ -22,18 +22,26 @@ enum class Layer : std::uint8_t {
   shape,
   material,
   primitive,
-  alpha  // how much of a pixel something covers; what is infinitely far covers nothing
+  alpha,   // how much of a pixel something covers; what is infinitely far covers nothing
+  motion,  // how far what is seen goes over the picture while the shutter is open, in pixels
+  // Cryptomatte: masks of shapes and of materials, by their names.
+  crypto_object,
+  crypto_material
 };
-inline constexpr std::size_t layer_count = 10;
+inline constexpr std::size_t layer_count = 13;
 
 // What there is to know of a layer.
 struct LayerKind {
   const char* name;  // of options and of Mitsuba's integrator `aov`, where that has it
-  // Of the channels of a picture; those of pbrt's film `gbuffer`, where that has them.
+  // Of the channels of a picture; those of pbrt's film `gbuffer`, where that has them. Of a matte: what its
+  // channels begin with.
   std::array<const char*, 3> channels;
-  std::size_t sums;  // planes of a film that it adds to; 0: an id, which is not added up
+  std::size_t sums;  // planes of a film that it adds to; 0: an id, which is not added up, or a matte
   // Of what its values are: of lengths the quantum of a film's sums follows from the scene.
   bool is_length, has_frame;
+  bool is_matte = false;
+
+  constexpr bool is_id() const { return sums == 0 && !is_matte; }
 };
 inline constexpr std::array<LayerKind, layer_count> layer_kinds{
     {{"albedo", {"Albedo.R", "Albedo.G", "Albedo.B"}, 3, false, false},
@@ -45,7 +53,10 @@ inline constexpr std::array<LayerKind, layer_count> layer_kinds{
      {"shape_index", {"Id.shape"}, 0, false, false},
      {"material_index", {"Id.material"}, 0, false, false},
      {"prim_index", {"Id.primitive"}, 0, false, false},
-     {"alpha", {"A"}, 1, false, false}}};
+     {"alpha", {"A"}, 1, false, false},
+     {"motion", {"forward.u", "forward.v"}, 2, false, false},
+     {"crypto_object", {"CryptoObject"}, 0, false, false, true},
+     {"crypto_material", {"CryptoMaterial"}, 0, false, false, true}}};
 
 // Its row of layer_kinds.
 constexpr const LayerKind& kind_of(Layer layer) { return layer_kinds[static_cast<std::size_t>(layer)]; }
@@ -59,11 +70,17 @@ struct FilmLayers {
   constexpr bool any() const { return bits != 0; }
   constexpr bool has(Layer layer) const { return bits >> static_cast<unsigned>(layer) & 1; }
   constexpr void add(Layer layer) { bits |= 1u << static_cast<unsigned>(layer); }
+  constexpr void remove(Layer layer) { bits &= ~(1u << static_cast<unsigned>(layer)); }
   bool operator==(const FilmLayers&) const = default;
 };
 inline constexpr std::uint32_t all_layers = (1u << layer_count) - 1;
 
-// Planes of sums and of ids of the layers below `end`.
+// Whether shapes that are alike in all but their names are told apart.
+constexpr bool tells_shapes(const FilmLayers& layers) {
+  return layers.has(Layer::shape) || layers.has(Layer::crypto_object);
+}
+
+// Planes of sums, of ids and of mattes of the layers below `end`.
 constexpr std::size_t sum_planes(const FilmLayers& layers, std::size_t end = layer_count) {
   std::size_t planes = 0;
   for (std::size_t i = 0; i < end; ++i)
@@ -73,12 +90,18 @@ constexpr std::size_t sum_planes(const FilmLayers& layers, std::size_t end = lay
 constexpr std::size_t id_planes(const FilmLayers& layers, std::size_t end = layer_count) {
   std::size_t planes = 0;
   for (std::size_t i = 0; i < end; ++i)
-    if (layers.has(static_cast<Layer>(i))) planes += layer_kinds[i].sums == 0;
+    if (layers.has(static_cast<Layer>(i))) planes += layer_kinds[i].is_id();
+  return planes;
+}
+constexpr std::size_t matte_planes(const FilmLayers& layers, std::size_t end = layer_count) {
+  std::size_t planes = 0;
+  for (std::size_t i = 0; i < end; ++i)
+    if (layers.has(static_cast<Layer>(i))) planes += layer_kinds[i].is_matte;
   return planes;
 }
 
-// By its name, also as `NAME:KIND` of Mitsuba, whose NAME says nothing here; "normal" is the shading normal.
-// False for others.
+// By its name, also as `NAME:KIND` of Mitsuba, whose NAME says nothing here; "normal" is the shading normal,
+// "cryptomatte" both of its layers. False for others.
 bool add_named(FilmLayers& layers, std::string_view name);
 // Names with commas between them.
 std::string names_of(const FilmLayers& layers);

@@ -43,7 +43,9 @@ void fill(Film& film, std::uint32_t first, std::uint32_t n, unsigned seed) {
         const auto layer = static_cast<Layer>(i);
         const std::array values{value(random), value(random), value(random)};
         if (!film.layers().has(layer)) continue;
-        if (kind_of(layer).sums == 0)
+        if (kind_of(layer).is_matte)
+          film.put_matte(p, layer, 1 + static_cast<std::uint32_t>(random() % 12), 1);
+        else if (kind_of(layer).is_id())
           film.put_id(p, s, layer, static_cast<std::uint32_t>(random()) & 0xffff);
         else
           film.deposit_layer(p, s, layer, std::span(values).first(kind_of(layer).sums));
@@ -136,9 +138,10 @@ TEST(FilmLayers, ColoursDoNotKnowOfThem) {
   }
   EXPECT_EQ(without.sums().size() * sizeof(WideSum) + without.counts().size_bytes(),
             film_bytes(settings({})));
-  EXPECT_EQ(std::as_const(with).sums().size_bytes() + with.counts().size_bytes() + with.ids().size_bytes(),
+  EXPECT_EQ(std::as_const(with).sums().size_bytes() + with.counts().size_bytes() + with.ids().size_bytes() +
+                with.mattes().size_bytes(),
             film_bytes(settings(everything)));
-  EXPECT_EQ(film_bytes(settings(everything)) - film_bytes(settings({})), 12u * (15 * 16 + 3 * 8));
+  EXPECT_EQ(film_bytes(settings(everything)) - film_bytes(settings({})), 12u * (18 * 16 + 3 * 8 + 2 * 104));
 }
 
 TEST(FilmLayers, FilesKeepThem) {
@@ -158,18 +161,21 @@ TEST(FilmLayers, FilesKeepThem) {
 
 TEST(FilmLayers, AFlippedBitIsNoticed) {
   const test::TemporaryDirectory directory;
-  Film film = film_of(3);
-  fill(film, 0, 5, 9);
-  write_film(directory / "a.film", film, {});
-  std::fstream file(directory / "a.film", std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(-20, std::ios::end);
-  file.put('x');
-  file.close();
-  try {
-    read_film(directory / "a.film", nullptr);
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("ids"), std::string::npos) << e.what();
+  constexpr int all_mattes = 12 * 2 * sizeof(MattePixel) + 8;  // with their checksum
+  for (const auto& [what, from_end] : {std::pair("mattes", 20), {"ids", 20 + all_mattes}}) {
+    Film film = film_of(3);
+    fill(film, 0, 5, 9);
+    write_film(directory / "a.film", film, {});
+    std::fstream file(directory / "a.film", std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(-from_end, std::ios::end);
+    file.put('x');
+    file.close();
+    try {
+      read_film(directory / "a.film", nullptr);
+      FAIL();
+    } catch (const Error& e) {
+      EXPECT_NE(std::string(e.what()).find(what), std::string::npos) << e.what();
+    }
   }
 }
 
@@ -194,7 +200,7 @@ TEST(FilmLayers, DevelopIntoNamedChannels) {
       if (c.name == name) return c;
     throw std::out_of_range(name);
   };
-  EXPECT_EQ(picture.layers.size(), 18u);
+  EXPECT_EQ(picture.layers.size(), 29u);
   EXPECT_NEAR(channel("Albedo.R").values[2], 1, 1e-6);
   EXPECT_NEAR(channel("Albedo.G").values[2], 0.5, 1e-6);
   EXPECT_NEAR(channel("Albedo.B").values[2], 0.25, 1e-6);

@@ -64,7 +64,8 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
       pixel(pixel_of(manifest)),
       seed(the_seed, the_sampling.one_sequence),
       sampling(the_sampling),
-      uvs_show(!manifest.textures.empty() || manifest.film.layers.has(Layer::uv)) {
+      uvs_show(!manifest.textures.empty() || manifest.film.layers.has(Layer::uv)),
+      mattes(matte_ids(manifest, bundle)) {
   for (const TextureFileEntry& t : manifest.texture_files)
     check_texture(t, TextureFile(bundle / t.name), bundle / t.name);
 }

@@ -10,6 +10,7 @@
 #include "tracer/media/free_flight.h"
 #include "tracer/prepared/grouped_lights.h"
 #include "tracer/prepared/lane_scene.h"
+#include "tracer/prepared/matte_ids.h"
 #include "tracer/prepared/sampling_choices.h"
 #include "tracer/sampling/sampler.h"
 #include "tracer/surfaces/surface_materials.h"
@@ -47,6 +48,7 @@ struct RenderScene {
   SamplingChoices sampling;
   GroupedLights groups;
   bool uvs_show = true;  // some texture or a layer of the film may read (u,v)
+  MatteIds mattes;
 };
 
 // The surface that the hit's triangle belongs to; `domain` holds the hit.

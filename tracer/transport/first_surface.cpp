@@ -3,6 +3,7 @@
 
 #include "tracer/sampling/wavelengths.h"
 #include "tracer/surfaces/albedo.h"
+#include "tracer/surfaces/moved_point.h"
 #include "tracer/transport/generate.h"
 
 namespace vitrail {
@@ -51,6 +52,20 @@ std::array<double, 3> value_at(const Tracing& tracing, const CameraPath& path, c
   }
 }
 
+// Of the point that is seen, from where it is when the shutter opens to where it is when that closes: to the
+// right and up, in pixels. 0 where it is behind the camera then.
+std::array<double, 2> motion_at(const Tracing& tracing, const CameraPath& path, Point3d p) {
+  if (!tracing.requirements().motion) return {};
+  const Shutter& shutter = tracing.manifest().shutter;
+  const auto seen_at = [&](double time_s) {
+    const DomainView& domain = *tracing.resident[path.hit_domain];
+    return tracing.scene.camera.raster(moved_point(domain, path.hit, p, path.time_s, time_s), time_s);
+  };
+  const auto from = seen_at(shutter.open_s), to = seen_at(shutter.close_s);
+  if (!from || !to) return {};
+  return {to->x - from->x, from->y - to->y};
+}
+
 // As XYZ, under white light, weighted as the picture is.
 XYZ albedo_at(const Tracing& tracing, const CameraPath& path, const Interaction& at,
               const Material& material) {
@@ -95,6 +110,11 @@ void record_first_surface(Tracing& tracing, CameraPath& path, const Event& event
     tracing.film.deposit_layer(path.film.pixel, path.film.sample, layer,
                                std::span(values).first(kind_of(layer).sums), spread);
   }
+  if (layers.has(Layer::motion)) {
+    std::array<double, 2> values = motion_at(tracing, path, at.p);
+    for (double& v : values) v *= weight;
+    tracing.film.deposit_layer(path.film.pixel, path.film.sample, Layer::motion, values, spread);
+  }
   if (layers.has(Layer::albedo)) {
     const XYZ c = albedo_at(tracing, path, at, *material);
     tracing.film.deposit_layer(path.film.pixel, path.film.sample, Layer::albedo, std::array{c.x, c.y, c.z},
@@ -104,9 +124,16 @@ void record_first_surface(Tracing& tracing, CameraPath& path, const Event& event
     if (layers.has(layer))
       tracing.film.put_id(path.film.pixel, path.film.sample, layer, static_cast<std::uint32_t>(id));
   };
-  put_id(Layer::shape, static_cast<std::size_t>(&surface - tracing.manifest().surfaces.data()));
+  const auto number = static_cast<std::size_t>(&surface - tracing.manifest().surfaces.data());
+  put_id(Layer::shape, number);
   put_id(Layer::material, surface.material);
   put_id(Layer::primitive, at.triangle);
+  const MatteIds& ids = tracing.scene.mattes;
+  if (!ids.surfaces.empty())
+    tracing.film.put_matte(path.film.pixel, Layer::crypto_object, ids.surfaces[number], weight, spread);
+  if (!ids.materials.empty())
+    tracing.film.put_matte(path.film.pixel, Layer::crypto_material, ids.materials[surface.material], weight,
+                           spread);
 }
 
 }  // namespace vitrail

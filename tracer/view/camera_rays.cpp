@@ -19,6 +19,9 @@ struct LocalRay {
   double weight = 1;
 };
 
+Point2d on_raster(const ScreenWindow& s, const FilmSettings& film, Point2d p) {
+  return {(p.x - s.x0) / (s.x1 - s.x0) * film.width, (s.y1 - p.y) / (s.y1 - s.y0) * film.height};
+}
 Point2d on_screen(const ScreenWindow& s, const FilmSettings& film, Point2d raster) {
   return {s.x0 + raster.x / film.width * (s.x1 - s.x0), s.y1 - raster.y / film.height * (s.y1 - s.y0)};
 }
@@ -170,6 +173,22 @@ CameraRay CameraSampler::ray(Point2d raster, Point2d lens, double time_s) const 
   if (motion_.moves()) moved = motion_.at(time_s);
   const WorldRay ray = world_ray(camera_, film_, raster, lens, moved ? &*moved : nullptr);
   return {cast<float>(ray.origin), encode_direction(ray.direction), ray.weight};
+}
+
+std::optional<Point2d> CameraSampler::raster(Point3d p, double time_s) const {
+  const auto in_camera = [&](const Transform& to_world) {
+    return transform_point(inverse(motion_.moves() ? motion_.at(time_s) : to_world), p);
+  };
+  if (const auto* c = std::get_if<PerspectiveCamera>(&camera_)) {
+    const Point3d at = in_camera(c->camera_to_world);
+    if (!(at.z > 0)) return std::nullopt;
+    return on_raster(c->screen, film_, {at.x / at.z, at.y / at.z});
+  }
+  if (const auto* c = std::get_if<OrthographicCamera>(&camera_)) {
+    const Point3d at = in_camera(c->camera_to_world);
+    return on_raster(c->screen, film_, {at.x, at.y});
+  }
+  return std::nullopt;
 }
 
 std::optional<Sensor> CameraSampler::sensor(int x) const {

@@ -24,6 +24,9 @@ class CameraSampler {
   // The ray through raster position (x, y), in pixels of the whole film from the top left. `lens`, in [0,1)²,
   // chooses the point of the lens, if there is one. `time_s`: where the camera moves.
   CameraRay ray(Point2d raster, Point2d lens, double time_s) const;
+  // Where in the raster a point is seen at a time, without a lens. None: behind the camera, or of cameras
+  // that are neither a perspective nor an orthographic one.
+  std::optional<Point2d> raster(Point3d p, double time_s) const;
   // Of a column, where the camera is one of sensors: where it is and its unit normal.
   std::optional<Sensor> sensor(int x) const;
 

@@ -250,8 +250,13 @@ Element layers_around(Context& context, Element root) {
   FilmLayers layers = context.scene.film.layers;
   if (!layers.any()) return root;
   context.begin(RecordKind::integrator, context.scene.integrator_origin);
+  layers.remove(Layer::alpha);  // the film's (write_film)
   if (layers.has(Layer::material)) context.dropped("Mitsuba has no index of materials");
-  layers.bits &= ~(1u << static_cast<unsigned>(Layer::material));
+  layers.remove(Layer::material);
+  FilmLayers lost;
+  for (const Layer layer : {Layer::motion, Layer::crypto_object, Layer::crypto_material})
+    if (layers.has(layer)) lost.add(layer), layers.remove(layer);
+  if (lost.any()) context.dropped("layers that Mitsuba has not: " + names_of(lost));
   if (!layers.any()) return root;
   if (layers.in_camera_space)
     context.approximated("the layers of first surfaces: Mitsuba's positions and normals are the world's");

@@ -66,7 +66,7 @@ void write_film(Context& context, Element sensor) {
     add_integer(film, "crop_height", crop.y1 - crop.y0);
   }
   add_string(film, "file_format", "openexr");
-  add_string(film, "pixel_format", "rgb");
+  add_string(film, "pixel_format", settings.layers.has(Layer::alpha) ? "rgba" : "rgb");
   add_string(film, "component_format", "float32");
   add_boolean(film, "sample_border", false);
   if (settings.spectrum.count > 0)

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -318,7 +319,10 @@ TEST(MitsubaIntegrator, AovsAreLayersOfTheFilm) {
 
 TEST(MitsubaIntegrator, AovsAreWritten) {
   Scene scene = read_text(sensor("perspective", "") + "<integrator type='path'/>").scene;
-  scene.film.layers.bits = all_layers & ~(1u << static_cast<int>(Layer::material));
+  scene.film.layers.bits = all_layers;
+  for (const Layer layer :
+       {Layer::material, Layer::alpha, Layer::motion, Layer::crypto_object, Layer::crypto_material})
+    scene.film.layers.remove(layer);
   EXPECT_EQ(written_and_read(scene).scene.film.layers, scene.film.layers);
   EXPECT_EQ(written_and_read(scene).scene.settings, scene.settings);
   scene.film.layers.add(Layer::material);
@@ -327,6 +331,12 @@ TEST(MitsubaIntegrator, AovsAreWritten) {
   const Diagnostics written = write_mitsuba(scene, folder / "scene.xml");
   EXPECT_THAT(written, says("no index of materials"));
   EXPECT_THAT(written, says("are the world's"));
+  scene.film.layers = {};
+  scene.film.layers.add(Layer::alpha), scene.film.layers.add(Layer::crypto_object);
+  EXPECT_THAT(write_mitsuba(scene, folder / "scene.xml"), says("Mitsuba has not: crypto_object"));
+  std::ifstream file(folder / "scene.xml");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(text, ::testing::HasSubstr("value=\"rgba\""));
 }
 
 TEST(MitsubaIntegrator, PhotonMappersOfOldTracePhotons) {
@@ -361,7 +371,7 @@ TEST(MitsubaIntegrator, OthersSayWhatTheyMiss) {
 }
 
 TEST(MitsubaIntegrator, HidesEmitters) {
-  const ImportedScene hidden =
+  const Reading hidden =
       read_text("<integrator type='path'><boolean name='hide_emitters' value='true'/></integrator>");
   EXPECT_TRUE(hidden.scene.settings.hides_emitters);
   EXPECT_TRUE(hidden.diagnostics.empty());

@@ -200,8 +200,11 @@ TEST(Layers, OfNothing) {
       const auto layer = static_cast<Layer>(i);
       for (std::size_t plane = 0; plane < kind_of(layer).sums; ++plane)
         ASSERT_EQ(film.mean_of_layer(p, layer, plane), 0);
-      if (kind_of(layer).sums == 0) {
+      if (kind_of(layer).is_id()) {
         ASSERT_EQ(film.id(p, layer), 0u);
+      }
+      if (kind_of(layer).is_matte) {
+        ASSERT_EQ(film.matte(p, layer), MattePixel{});
       }
     }
   }

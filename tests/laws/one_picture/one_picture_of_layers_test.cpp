@@ -14,7 +14,8 @@ namespace vitrail::test {
 namespace {
 
 constexpr const char* all_aovs =
-    "--aov albedo,position,geo_normal,sh_normal,uv,depth,shape_index,material_index,prim_index";
+    "--aov albedo,position,geo_normal,sh_normal,uv,depth,shape_index,material_index,prim_index,motion,alpha,"
+    "cryptomatte";
 
 // Materials, textures, lights and media of every kind.
 class OnePictureOfLayers : public testing::Test {
@@ -81,8 +82,11 @@ TEST_F(OnePictureOfLayers, ResumedCroppedAndMerged) {
       const auto layer = static_cast<Layer>(i);
       for (std::size_t plane = 0; plane < kind_of(layer).sums; ++plane)
         ASSERT_EQ(part.mean_of_layer(p, layer, plane), whole.mean_of_layer(q, layer, plane));
-      if (kind_of(layer).sums == 0) {
+      if (kind_of(layer).is_id()) {
         ASSERT_EQ(part.id(p, layer), whole.id(q, layer));
+      }
+      if (kind_of(layer).is_matte) {
+        ASSERT_EQ(part.matte(p, layer), whole.matte(q, layer));
       }
     }
   }
