@@ -29,13 +29,6 @@ std::vector<std::string> read_shape_names(const std::filesystem::path& bundle, c
   return names;
 }
 
-std::vector<std::string> object_names(const Manifest& m, const std::filesystem::path& bundle) {
-  std::vector<std::string> names = read_shape_names(bundle, m);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i].empty()) names[i] = fmt::format("shape-{}", i + 1);
-  return names;
-}
-
 std::vector<std::string> material_names(const Manifest& m) {
   std::vector<std::string> names;
   for (const Material& material : m.materials)

@@ -353,6 +353,8 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   in.read_array(film.ids_, id_planes(arrays.layers) * arrays.pixels, "ids");
   if (matte_planes(arrays.layers) > 0)
     in.read_array(film.mattes_, matte_planes(arrays.layers) * arrays.pixels, "mattes");
+  if (!std::ranges::all_of(film.mattes_, makes_sense))
+    in.fail("the film file is corrupt: its mattes make no sense");
   if (arrays.open_round) in.read_array(read.more, arrays.pixels, "open round");
   if (progress) *progress = std::move(read);
   return film;

@@ -2,6 +2,7 @@
 #include "film/mattes.h"
 
 #include <algorithm>
+#include <functional>
 #include <mutex>
 
 namespace vitrail {
@@ -40,6 +41,15 @@ MattePixel& operator+=(MattePixel& a, const MattePixel& b) {
   a.covered += b.covered;
   for (std::size_t i = 0; i < most_mattes && b.ids[i] != 0; ++i) add_to_ids(a, b.ids[i], b.sums[i]);
   return a;
+}
+
+bool makes_sense(const MattePixel& pixel) {
+  constexpr std::int64_t limit = std::int64_t{1} << 60;  // of 2³² samples there are 2⁴⁸
+  const auto is_in_range = [](std::int64_t sum) { return -limit < sum && sum < limit; };
+  const auto end = std::ranges::find(pixel.ids, 0u);
+  return is_in_range(pixel.covered) && std::ranges::all_of(pixel.sums, is_in_range) &&
+         std::adjacent_find(pixel.ids.begin(), end, std::greater_equal()) == end &&
+         std::all_of(end, pixel.ids.end(), [](std::uint32_t id) { return id == 0; });
 }
 
 }  // namespace vitrail

@@ -27,4 +27,7 @@ void add(MattePixel& pixel, std::uint32_t id, std::int64_t sum);
 void add_shared(MattePixel& pixel, std::uint32_t id, std::int64_t sum);
 MattePixel& operator+=(MattePixel& a, const MattePixel& b);
 
+// Whether samples can have made it: of files, so that sums of two have room.
+bool makes_sense(const MattePixel& pixel);
+
 }  // namespace vitrail

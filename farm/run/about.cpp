@@ -64,7 +64,7 @@ std::string about(const Manifest& m, const RenderOptions& options) {
       about["sensors"].push_back({p.x, p.y, p.z, n.x, n.y, n.z});
     }
   if (m.film.layers.has(Layer::crypto_object))
-    about["mattes"]["crypto_object"] = object_names(m, options.bundle);
+    about["mattes"]["crypto_object"] = read_shape_names(options.bundle, m);
   if (m.film.layers.has(Layer::crypto_material)) about["mattes"]["crypto_material"] = material_names(m);
   if (const auto ndc = to_ndc(m.camera)) about["world_to_ndc"] = numbers_of(*ndc * world_to_camera);
   return about.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/placing/world.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
+#include <unordered_map>
 
 #include "bundle/interiors.h"
 #include "partitioner/appearance/appearance.h"
@@ -18,9 +21,30 @@ std::int32_t new_id(const std::vector<std::int32_t>& ids, const auto& old) {
   return old ? ids.at(old->value) : -1;
 }
 
+// Of those that the scene's file gives no name: by their number, those of prototypes after the others. So
+// they are the same whatever is kept of instances.
+class ShapeNames {
+ public:
+  explicit ShapeNames(const Scene& scene) {
+    if (!tells_shapes(scene.film.layers)) return;
+    add(scene.shapes);
+    for (const Prototype& prototype : scene.prototypes) add(prototype.shapes);
+  }
+  std::string of(const Shape& shape) const {
+    return shape.name.empty() ? fmt::format("shape-{}", numbers_.at(&shape)) : shape.name;
+  }
+
+ private:
+  void add(const std::vector<Shape>& shapes) {
+    for (const Shape& shape : shapes) numbers_.emplace(&shape, numbers_.size() + 1);
+  }
+
+  std::unordered_map<const Shape*, std::size_t> numbers_;
+};
+
 // One a run of placements that are alike, or where the film tells shapes apart one each. Returns how many.
 std::uint32_t make_surfaces(const Appearance& appearance, const std::vector<Placement>& placements,
-                            VertexDoubts& doubts, World& world) {
+                            VertexDoubts& doubts, const ShapeNames& names, World& world) {
   Manifest& m = world.manifest;
   const std::size_t first = m.surfaces.size();
   for (const Placement& p : placements) {
@@ -32,7 +56,7 @@ std::uint32_t make_surfaces(const Appearance& appearance, const std::vector<Plac
       if (same == surface) continue;
     }
     m.surfaces.push_back(surface);
-    if (tells_shapes(m.film.layers)) world.shape_names.push_back(p.shape->name);
+    if (tells_shapes(m.film.layers)) world.shape_names.push_back(names.of(*p.shape));
   }
   return static_cast<std::uint32_t>(m.surfaces.size() - first);
 }
@@ -125,7 +149,8 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
     world.shining.push_back({p, static_cast<std::uint32_t>(surface.area_light), surface.opacity});
   }
   VertexDoubts doubts(appearance);
-  make_surfaces(appearance, plan.scene.placements, doubts, world);
+  const ShapeNames names(scene);
+  make_surfaces(appearance, plan.scene.placements, doubts, names, world);
   for (const Placement& p : plan.scene.placements) world.own_triangles += triangles_of(*p.mesh);
   world.placements = std::move(plan.scene.placements);
   world.uses = std::move(plan.scene.uses);
@@ -134,7 +159,7 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   for (Assembly& object : plan.objects) {
     const auto first = static_cast<std::uint32_t>(m.surfaces.size());
     const std::uint32_t count = make_surfaces(
-        appearance, object.quadric ? std::vector{*object.quadric} : object.placements, doubts, world);
+        appearance, object.quadric ? std::vector{*object.quadric} : object.placements, doubts, names, world);
     world.objects.push_back({std::move(object), first, count});
   }
   move_records(scene, appearance, m);

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <random>
@@ -82,6 +83,23 @@ TEST(Mattes, FromManyThreads) {
       });
   }
   EXPECT_EQ(shared, alone);
+}
+
+TEST(Mattes, OfFilesMakeSense) {
+  MattePixel pixel;
+  EXPECT_TRUE(makes_sense(pixel));
+  for (const Seen& s : samples(20, 3)) add(pixel, s.id, s.sum);
+  EXPECT_TRUE(makes_sense(pixel));
+  const auto with = [&](auto&& change) {
+    MattePixel changed = pixel;
+    change(changed);
+    return makes_sense(changed);
+  };
+  EXPECT_FALSE(with([](MattePixel& p) { std::swap(p.ids[2], p.ids[5]); })) << "out of order";
+  EXPECT_FALSE(with([](MattePixel& p) { p.ids[3] = p.ids[4]; })) << "twice";
+  EXPECT_FALSE(with([](MattePixel& p) { p.ids[3] = 0; })) << "a gap";
+  EXPECT_FALSE(with([](MattePixel& p) { p.sums[1] = std::int64_t{1} << 61; })) << "too much";
+  EXPECT_FALSE(with([](MattePixel& p) { p.covered = std::numeric_limits<std::int64_t>::min(); }));
 }
 
 // Values of other programs' MurmurHash3_32; "bunny" is in Cryptomatte's specification.

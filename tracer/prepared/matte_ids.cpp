@@ -20,7 +20,7 @@ std::vector<std::uint32_t> ids_of(const std::vector<std::string>& names) {
 
 MatteIds matte_ids(const Manifest& m, const std::filesystem::path& bundle) {
   MatteIds ids;
-  if (m.film.layers.has(Layer::crypto_object)) ids.surfaces = ids_of(object_names(m, bundle));
+  if (m.film.layers.has(Layer::crypto_object)) ids.surfaces = ids_of(read_shape_names(bundle, m));
   if (m.film.layers.has(Layer::crypto_material)) ids.materials = ids_of(material_names(m));
   return ids;
 }

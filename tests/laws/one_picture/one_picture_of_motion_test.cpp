@@ -86,8 +86,9 @@ Scene moving_forest() {
   set_camera(scene, {18, -16, 12}, {0, 0, 0}, {0, 0, 1}, 0.8, 40, 40);
   const Transform camera = std::get<PerspectiveCamera>(scene.camera).camera_to_world;
   scene.camera_motion = Motion({{0, camera}, {1, rotate(0.05, {0, 0, 1}) * camera}});
-  scene.film.layers.bits =
-      1u << static_cast<unsigned>(Layer::position) | 1u << static_cast<unsigned>(Layer::depth);
+  scene.film.layers.bits = 0;
+  for (const Layer layer : {Layer::position, Layer::depth, Layer::motion, Layer::crypto_object})
+    scene.film.layers.add(layer);
   scene.film.layers.in_camera_space = true;
   return scene;
 }
@@ -164,6 +165,7 @@ TEST_F(OnePictureOfMotion, OutOfCore) {
 TEST_F(OnePictureOfMotion, CostsNothingWhereThereIsNone) {
   scene_.camera_motion = {};
   scene_.motions.clear();
+  scene_.film.layers.remove(Layer::motion);
   const auto still = [](std::vector<Instance>& instances) {
     for (Instance& instance : instances) instance.motion.reset();
   };
