@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "tracer/lights/sphere_map.h"
-#include "tracer/sampling/guide_table.h"
 
 namespace vitrail {
 
@@ -27,6 +27,18 @@ class DirectionTable {
     return pdf(sphere_point(projection_, direction));
   }  // `direction` unit
 
+  // What direction_table_lanes.h reads.
+  struct Data {
+    SphereProjection projection;
+    int width, height;
+    const double *row_z, *rows, *columns;  // null: of no table
+    const std::uint32_t *row_guide, *column_guides;
+  };
+  Data data() const {
+    return {projection_,  width_,          height_,           row_z_.data(),
+            rows_.data(), columns_.data(), row_guide_.data(), column_guides_.data()};
+  }
+
  private:
   SphereProjection projection_ = SphereProjection::equal_area;
   int width_ = 1, height_ = 1;
@@ -34,8 +46,8 @@ class DirectionTable {
       row_z_;  // of latitude_longitude: the z of the rows' upper edges, and of the last lower one
   std::vector<double> rows_;     // cumulative, 0 … 1, height + 1
   std::vector<double> columns_;  // of each row: cumulative, 0 … 1, width + 1
-  GuideTable row_guide_;
-  std::vector<GuideTable> column_guides_;  // of each row
+  // GuideTable::first of the rows, and of the columns of each row: as many cells as these are.
+  std::vector<std::uint32_t> row_guide_, column_guides_;
 };
 
 }  // namespace vitrail

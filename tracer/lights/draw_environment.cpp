@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "tracer/lights/draw_light.h"
+#include "tracer/lights/environment_lanes.h"
 #include "tracer/sampling/wavelengths.h"
 
 namespace vitrail {
@@ -20,17 +21,18 @@ bool draw_environment(const LightQuery& query, std::uint32_t environment, LightS
   return true;
 }
 
-Background background(const LightSampler& s, Vector3d direction, const SampledWavelengths& wavelengths) {
-  Background sum{filled(0)};
+SampledSpectrum constant_background(const LightSampler& s, const SampledWavelengths& wavelengths) {
+  SampledSpectrum sum;
   for (const std::uint32_t i : s.infinite)
-    sum.radiance =
-        sum.radiance + evaluate(std::get<InfiniteLight>(s.scene.lights[i].model).radiance, wavelengths);
-  for (std::uint32_t i = 0; i < s.environments.size(); ++i) {
-    const EnvironmentValue value = value_towards(s.environments[i], direction, wavelengths);
-    sum.radiance = sum.radiance + value.radiance;
-    sum.pdf += s.share[s.numbers.choice({LightKind::environment, i})] * value.pdf;
-  }
+    sum = sum + evaluate(std::get<InfiniteLight>(s.scene.lights[i].model).radiance, wavelengths);
   return sum;
+}
+
+Background background(const LightSampler& s, Vector3d direction, const SampledWavelengths& wavelengths) {
+  const lanes::Seen<double> seen =
+      lanes::background<double>(s, {direction.x, direction.y, direction.z}, true,
+                                [&](int) -> const SampledWavelengths& { return wavelengths; });
+  return {lanes::lane(seen.radiance, 0), seen.pdf};
 }
 
 }  // namespace vitrail

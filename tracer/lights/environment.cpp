@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "scene/geometry/portable_math.h"
+#include "tracer/lights/environment_lanes.h"
 #include "tracer/sampling/luminance_of.h"
 #include "tracer/sampling/wavelengths.h"
 
@@ -193,10 +194,7 @@ Environment make_environment(const EnvironmentLight& light, std::shared_ptr<cons
 }
 
 Vector3d sample_sun(const SkyModel& sky, double u, double v) {
-  const Vector3d n = sky.to_sun();
-  const Vector3d x = normalize(cross(std::abs(n.x) < 0.5 ? Vector3d{1, 0, 0} : Vector3d{0, 1, 0}, n));
-  const double below = u * (1 - sky.sun_cosine()), sine = safe_sqrt(below * (2 - below)), phi = 2 * pi * v;
-  return x * (sine * portable_cos(phi)) + cross(n, x) * (sine * portable_sin(phi)) + n * (1 - below);
+  return lanes::lane(lanes::sample_sun(sky, u, v), 0);
 }
 
 namespace {
@@ -235,24 +233,20 @@ Environment make_environment(const SkyLight& light) {
   return e;
 }
 
+SampledSpectrum radiance_of_image(const Environment& e, Point2d at, const SampledWavelengths& wavelengths) {
+  return look_up(*e.image, e.projection, at, wavelengths) * evaluate(e.scale, wavelengths) * e.factor;
+}
+
 EnvironmentValue value_towards(const Environment& e, Vector3d direction,
                                const SampledWavelengths& wavelengths) {
-  const Vector3d d = e.frame.to_light(direction);
-  const Point2d at = sphere_point(e.projection, d);
-  if (!e.sky)
-    return {look_up(*e.image, e.projection, at, wavelengths) * evaluate(e.scale, wavelengths) * e.factor,
-            e.table.pdf(at)};
-  EnvironmentValue value{e.sky->sky(d, wavelengths), (1 - e.sun_share) * e.table.pdf(at)};
-  if (e.sun_share > 0 && e.sky->meets_sun(d)) {
-    value.radiance = value.radiance + e.sky->sun(d, wavelengths);
-    value.pdf += e.sun_share / (2 * pi * (1 - e.sky->sun_cosine()));
-  }
-  return value;
+  const lanes::Seen<double> seen =
+      lanes::value_towards<double>(e, {direction.x, direction.y, direction.z}, true,
+                                   [&](int) -> const SampledWavelengths& { return wavelengths; });
+  return {lanes::lane(seen.radiance, 0), seen.pdf};
 }
 
 Vector3d sample_direction(const Environment& e, double u, double v) {
-  if (u < e.sun_share) return e.frame.to_world(sample_sun(*e.sky, u / e.sun_share, v));
-  return e.frame.to_world(e.table.sample((u - e.sun_share) / (1 - e.sun_share), v));
+  return lanes::lane(lanes::sample_direction(e, u, v), 0);
 }
 
 }  // namespace vitrail

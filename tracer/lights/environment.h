@@ -55,6 +55,10 @@ Vector3d sample_direction(const Environment& environment, double u, double v);
 SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Point2d at,
                         const SampledWavelengths& wavelengths);
 
+// Of an environment's image, all factors included.
+SampledSpectrum radiance_of_image(const Environment& environment, Point2d at,
+                                  const SampledWavelengths& wavelengths);
+
 // A density for sampling that image, with a floor: about its luminance, or `beside_bsdf` about what it has
 // above its mean, since samples of the BSDF find the rest as well (Karlík et al., "MIS Compensation", 2019).
 // `flux`: ∫ Y dω within about 1 %.

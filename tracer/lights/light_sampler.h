@@ -133,6 +133,8 @@ struct LightSampler {
   Point3d lamp_center;      // where there is one lamp, of one or two surfaces and one radiance,
   double lamp_radius2 = 0;  // a sphere around it; else 0
 
+  // The first choice (LightNumbers) that is an environment.
+  std::size_t first_environment() const { return LightNumbers::choice_of_tree + 1 + distant.size(); }
   // Whether sample_light may ever give something.
   bool can_sample() const { return !share.empty(); }
   bool has_discs = false;  // some distant light is a sun
@@ -229,6 +231,9 @@ struct Background {
 };
 // `direction` unit, outwards.
 Background background(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);
+
+// That of constant environments alone.
+SampledSpectrum constant_background(const LightSampler& sampler, const SampledWavelengths& wavelengths);
 
 // Radiance of the suns among the distant lights where a ray leaves the scene through their discs.
 SampledSpectrum discs(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);

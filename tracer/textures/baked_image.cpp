@@ -66,14 +66,18 @@ struct BakedImage::Implementation {
                 words);
   }
 
-  // Calls add(words, weight) for the texels around (s,t).
-  template <class Add>
-  void blend(double s, double t, Wrap wrap, int level, Add&& add) const {
+  // The texels around (s,t), and their weights.
+  struct Blend {
+    std::array<TexelWords, 4> texels;
+    std::array<float, 4> weights;
+  };
+  Blend blend(double s, double t, Wrap wrap, int level) const {
     const TexelPair h = pair_at(s, static_cast<int>(levels[level].width), wrap);
     const TexelPair v = pair_at(t, static_cast<int>(levels[level].height), wrap);
-    std::array<TexelWords, 4> words;
-    read(level, h.texel, v.texel, words);
-    for (std::size_t i = 0; i < 4; ++i) add(words[i], h.weight[i % 2] * v.weight[i / 2]);
+    Blend of;
+    read(level, h.texel, v.texel, of.texels);
+    for (std::size_t i = 0; i < 4; ++i) of.weights[i] = h.weight[i % 2] * v.weight[i / 2];
+    return of;
   }
 
   SampledSpectrum lit(const SampledSpectrum& value, const SampledWavelengths& wavelengths) const {
@@ -118,12 +122,9 @@ SampledSpectrum BakedImage::nearest(double s, double t, Wrap wrap, int level,
 SampledSpectrum BakedImage::bilinear(double s, double t, Wrap wrap, int level,
                                      const SampledWavelengths& wavelengths) const {
   const Implementation& image = *implementation_;
-  const NodeWeights weights(wavelengths, image.format);
-  SampledSpectrum sum;
-  image.blend(s, t, wrap, level, [&](const TexelWords& words, float weight) {
-    add_texel(image.format, words, weights, weight, sum);
-  });
-  return image.lit(sum, wavelengths);
+  const auto [texels, factors] = image.blend(s, t, wrap, level);
+  return image.lit(sum_of(image.format, texels, factors, NodeWeights(wavelengths, image.format)),
+                   wavelengths);
 }
 
 std::array<double, 3> BakedImage::nearest_vector(double s, double t, Wrap wrap, int level) const {
@@ -133,11 +134,12 @@ std::array<double, 3> BakedImage::nearest_vector(double s, double t, Wrap wrap, 
 }
 
 std::array<double, 3> BakedImage::bilinear_vector(double s, double t, Wrap wrap, int level) const {
+  const auto [texels, weights] = implementation_->blend(s, t, wrap, level);
   std::array<double, 3> sum{};
-  implementation_->blend(s, t, wrap, level, [&](const TexelWords& words, float weight) {
-    const std::array<double, 3> value = vector_of(implementation_->format, words);
-    for (std::size_t i = 0; i < 3; ++i) sum[i] += value[i] * static_cast<double>(weight);
-  });
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::array<double, 3> value = vector_of(implementation_->format, texels[k]);
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += value[i] * static_cast<double>(weights[k]);
+  }
   return sum;
 }
 

@@ -64,54 +64,73 @@ inline void add_matrix_r(const std::array<float, 3>& x, const NodeWeights& weigh
   }
 }
 
-// sum += factor · the texel of an image of spectra or numbers; D65 is left to the caller.
-inline void add_texel(TexelFormat format, const TexelWords& words, const NodeWeights& weights, float factor,
-                      SampledSpectrum& sum) {
+// Σ factor · texel, of an image of spectra or numbers; D65 is left to the caller.
+template <std::size_t N>
+SampledSpectrum sum_of(TexelFormat format, const std::array<TexelWords, N>& texels,
+                       const std::array<float, N>& factors, const NodeWeights& weights) {
+  SampledSpectrum sum;
+  // One choice for all of them.
+  const auto each = [&](const auto& add) {
+    for (std::size_t i = 0; i < N; ++i) add(texels[i], factors[i]);
+  };
+  const auto third = [](const TexelWords& words) { return std::bit_cast<float>(words[2]); };
   switch (format) {
     case TexelFormat::number:
-      sum = sum + filled(std::bit_cast<float>(words[0]) * factor);
-      return;
+      each([&](const TexelWords& words, float factor) {
+        sum = sum + filled(std::bit_cast<float>(words[0]) * factor);
+      });
+      break;
     case TexelFormat::reflectance:
-      add_sigmoid(unpack_nodes(words.data()), weights, factor, sum);
-      return;
+      each([&](const TexelWords& words, float factor) {
+        add_sigmoid(unpack_nodes(words.data()), weights, factor, sum);
+      });
+      break;
     case TexelFormat::unbounded:
     case TexelFormat::illuminant:
-      add_sigmoid(unpack_nodes(words.data()), weights, factor * std::bit_cast<float>(words[2]), sum);
-      return;
-    case TexelFormat::matrix_r_reflectance: {
-      const float part = std::bit_cast<float>(words[2]);
-      add_matrix_r(unpack_nodes(words.data()), weights, factor * (1 - part), factor * part, sum);
-      return;
-    }
+      each([&](const TexelWords& words, float factor) {
+        add_sigmoid(unpack_nodes(words.data()), weights, factor * third(words), sum);
+      });
+      break;
+    case TexelFormat::matrix_r_reflectance:
+      each([&](const TexelWords& words, float factor) {
+        const float part = third(words);
+        add_matrix_r(unpack_nodes(words.data()), weights, factor * (1 - part), factor * part, sum);
+      });
+      break;
     case TexelFormat::matrix_r_unbounded:
-    case TexelFormat::matrix_r_illuminant: {
-      const std::array<float, 3> x = unpack_nodes(words.data());
-      const float value = factor * std::bit_cast<float>(words[2]);
-      const bool grey = x[0] == 0 && x[1] == 0 && x[2] == 0;
-      add_matrix_r(x, weights, grey ? value : 0, value, sum);
-      return;
-    }
+    case TexelFormat::matrix_r_illuminant:
+      each([&](const TexelWords& words, float factor) {
+        const std::array<float, 3> x = unpack_nodes(words.data());
+        const float value = factor * third(words);
+        const bool grey = x[0] == 0 && x[1] == 0 && x[2] == 0;
+        add_matrix_r(x, weights, grey ? value : 0, value, sum);
+      });
+      break;
     default:
-      return;
+      break;
   }
+  return sum;
 }
 
 inline SampledSpectrum spectrum_of(TexelFormat format, const TexelWords& words, const NodeWeights& weights) {
-  SampledSpectrum value;
-  add_texel(format, words, weights, 1, value);
-  return value;
+  return sum_of<1>(format, {words}, {1}, weights);
 }
 
 // D65 between the two nearest nanometres.
 inline SampledSpectrum d65_at(const SampledWavelengths& wavelengths) {
-  SampledSpectrum result;
-  for (std::size_t i = 0; i < hero_count; ++i) {
+  std::array<int, hero_count> below;
+  std::array<float, hero_count> f;
+  for (std::size_t i = 0; i < hero_count; ++i) {  // side by side
     const float x = wavelengths.lambda_nm[i] - static_cast<float>(lambda_min_nm);
-    const float clamped = x > 0 ? (x < table_size - 1 ? x : table_size - 1) : 0;
-    const std::size_t below = clamped < table_size - 2 ? static_cast<std::size_t>(clamped) : table_size - 2;
-    const float f = clamped - static_cast<float>(below);
-    result.v[i] = (1 - f) * cie_d65()[below] + f * cie_d65()[below + 1];
+    const float above = x > 0 ? x : 0, clamped = above < table_size - 1 ? above : table_size - 1;
+    const int whole = static_cast<int>(clamped);
+    below[i] = whole < table_size - 2 ? whole : table_size - 2;
+    f[i] = clamped - static_cast<float>(below[i]);
   }
+  const float* const d65 = cie_d65().data();
+  SampledSpectrum result;
+  for (std::size_t i = 0; i < hero_count; ++i)
+    result.v[i] = (1 - f[i]) * d65[below[i]] + f[i] * d65[below[i] + 1];
   return result;
 }
 

@@ -75,9 +75,11 @@ class TileCache {
   template <std::uint32_t Words, std::size_t N>
   static void copy(const std::atomic<std::uint32_t>* from, const std::array<std::uint32_t, N>& texels,
                    TexelWords* out) {
-    for (std::size_t i = 0; i < N; ++i)
-      for (std::uint32_t w = 0; w < Words; ++w)
-        out[i][w] = from[texels[i] * Words + w].load(std::memory_order_acquire);
+    for (std::size_t i = 0; i < N; ++i) {
+      const std::atomic<std::uint32_t>* const texel = from + std::size_t{texels[i]} * Words;
+#pragma GCC unroll 3
+      for (std::uint32_t w = 0; w < Words; ++w) out[i][w] = texel[w].load(std::memory_order_acquire);
+    }
   }
   void read_and_store(const Tile& tile, std::span<const std::uint32_t> texels, TexelWords* out);
   void store(Entry& entry, std::span<const std::uint32_t> words);

@@ -2,6 +2,7 @@
 // Each function of tracer/lanes by its name: what lanes_test.cpp holds to the scalar one.
 #pragma once
 
+#include "tests/tracer/lanes/environment_functions.h"
 #include "tests/tracer/lanes/glossy_functions.h"
 #include "tests/tracer/lanes/lane_table.h"
 #include "tests/tracer/lanes/sphere_functions.h"
@@ -89,7 +90,8 @@ constexpr LaneFunctions functions_of(const char* set) {
             plain_interaction, interaction_with_normals, interaction_with_uv, interaction_with_both,
             offset_origin, depart, choose_of_few_lights, choose_of_many_lights, choose_by_power,
             choose_of_none, aim, shadow_radiance, draw_triangle, sample_sphere, sphere_crossings,
-            aim_at_sphere, quick_math, microfacets, conductor, plastic>;
+            aim_at_sphere, quick_math, microfacets, conductor, plastic, portable_math, sphere_map,
+            sample_environment, see_environment>;
   return {set, W, all, sizeof all / sizeof all[0]};
 }
 

@@ -9,7 +9,7 @@
 namespace vitrail::lane_tests {
 
 inline constexpr std::uint32_t fixture_clusters = 64, fixture_lamps = 64, fixture_domains = 4,
-                               fixture_trees = 4, fixture_spheres = 32;
+                               fixture_trees = 4, fixture_spheres = 32, fixture_environments = 4;
 
 struct Context {
   WavelengthTables wavelengths;
@@ -19,7 +19,9 @@ struct Context {
   const LightSampler::Slot* slots;              // of triangles that emit
   const LightSampler::Face* faces;              // of each slot
   const bool* two_sided;
-  const PlacedQuadric* spheres;           // fixture_spheres
+  const PlacedQuadric* spheres;     // fixture_spheres
+  const Environment* environments;  // an image of each projection, a sky with a sun, a sun alone
+  const SampledWavelengths* some_wavelengths;
   const LightTree* trees[fixture_trees];  // of few lights, of many, by power, of none
 };
 

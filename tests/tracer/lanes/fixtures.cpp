@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/tracer/lanes/arguments.h"
+#include "tests/tracer/lights/light_fixtures.h"
 
 namespace vitrail::lane_tests {
 
@@ -93,6 +94,13 @@ std::vector<LightBounds> light_bounds(std::size_t count) {
   return lights;
 }
 
+// Dark here and there.
+std::shared_ptr<const LightImage> spotted_image(Random& random) {
+  std::vector<double> values;
+  for (int i = 0; i < 48 * 20; ++i) values.push_back(i % 3 == 0 ? 0 : uniform(random, 0, 5));
+  return std::make_shared<test::GreyImage>(48, 20, values);
+}
+
 }  // namespace
 
 Fixtures::Fixtures() {
@@ -128,6 +136,22 @@ Fixtures::Fixtures() {
   trees[1] = LightTree(light_bounds(3000), LightChoice::tree);
   trees[2] = LightTree(light_bounds(300), LightChoice::power);
   for (std::uint32_t i = 0; i < fixture_trees; ++i) context.trees[i] = &trees[i];
+  for (const auto projection : {SphereProjection::equal_area, SphereProjection::latitude_longitude}) {
+    EnvironmentLight light;
+    light.projection = projection;
+    light.light_to_world = rotate(1, {1, 2, 3});
+    environments.push_back(make_environment(light, spotted_image(random)));
+  }
+  SkyLight light;
+  light.light_to_world = rotate(0.1, {1, 0, 0});
+  light.to_sun = unit(Vector3d{0.3, 0.2, 0.8});
+  light.sun_diameter_deg = 40;
+  environments.push_back(make_environment(light));
+  light.sky_scale = 0;
+  environments.push_back(make_environment(light));
+  some_wavelengths = sample_wavelengths(0.3f);
+  context.environments = environments.data();
+  context.some_wavelengths = &some_wavelengths;
   context.wavelengths = wavelength_tables();
   context.observer = cie_1931()[0].data();
   context.d65 = cie_d65().data();

@@ -21,6 +21,8 @@ struct Fixtures {
   std::vector<EmissiveQuadric> spheres;
   std::vector<PlacedQuadric> placed_spheres;
   LightTree trees[fixture_trees];
+  std::vector<Environment> environments;
+  SampledWavelengths some_wavelengths;
   bool two_sided[fixture_lamps] = {};
   Context context{};
 };

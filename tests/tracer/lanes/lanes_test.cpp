@@ -85,12 +85,14 @@ INSTANTIATE_TEST_SUITE_P(Geometry, Lanes, testing::ValuesIn(geometry_functions()
 INSTANTIATE_TEST_SUITE_P(Stages, Lanes, testing::ValuesIn(stage_functions()), name_of);
 INSTANTIATE_TEST_SUITE_P(Spheres, Lanes, testing::ValuesIn(sphere_functions()), name_of);
 INSTANTIATE_TEST_SUITE_P(Glossy, Lanes, testing::ValuesIn(glossy_functions()), name_of);
+INSTANTIATE_TEST_SUITE_P(Environments, Lanes, testing::ValuesIn(environment_functions()), name_of);
 INSTANTIATE_TEST_SUITE_P(Scattering, Lanes, testing::ValuesIn(scattering_functions()), name_of);
 
 TEST(LanesOfAll, AreComparedWithSomething) {
   std::size_t compared = 0;
-  for (const auto& list : {sampling_functions(), geometry_functions(), scattering_functions(),
-                           stage_functions(), sphere_functions(), glossy_functions()})
+  for (const auto& list :
+       {sampling_functions(), geometry_functions(), scattering_functions(), stage_functions(),
+        sphere_functions(), glossy_functions(), environment_functions()})
     compared += list.size();
   for (const LaneFunctions& set : all_that_run()) EXPECT_EQ(static_cast<std::size_t>(set.count), compared);
 }

@@ -25,5 +25,6 @@ std::vector<ScalarFunction> scattering_functions();
 std::vector<ScalarFunction> stage_functions();
 std::vector<ScalarFunction> sphere_functions();
 std::vector<ScalarFunction> glossy_functions();
+std::vector<ScalarFunction> environment_functions();
 
 }  // namespace vitrail::lane_tests

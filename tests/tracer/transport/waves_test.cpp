@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "bundle/loaded_domain.h"
+#include "images/image_files.h"
 #include "partitioner/partition.h"
+#include "scene/geometry/portable_math.h"
 #include "scene/spectra/named_spectra.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/support/render.h"
@@ -55,6 +57,39 @@ Material plastic(float width) {
   p.roughness.alpha_u = p.roughness.alpha_v = width;
   p.nonlinear = true;
   return material(p);
+}
+
+SkyLight sun_and_sky(float sky_scale) {
+  SkyLight light;
+  light.light_to_world = rotate(-pi / 2, {1, 0, 0});
+  light.to_sun = unit(Vector3d{0.3, 0.2, 0.8});
+  light.sun_diameter_deg = 20;
+  light.sky_scale = sky_scale;
+  return light;
+}
+
+// Of two colours, with one bright texel.
+EnvironmentLight image_around(EnvironmentLight::Projection projection) {
+  static const TemporaryDirectory directory;
+  EnvironmentLight light;
+  light.filename = (directory / "around.exr").string();
+  light.light_to_world = rotate(-pi / 2, {1, 0, 0});
+  light.projection = projection;
+  if (!std::filesystem::exists(light.filename)) {
+    Image image = black_image(8, 8, 3);
+    for (std::size_t i = 0; i < image.values.size(); ++i) image.values[i] = i % 5 == 0 ? 0.7f : 0.2f;
+    image.values[8 * 3 * 2 + 7] = 50;
+    write_exr_image(light.filename, image);
+  }
+  return light;
+}
+
+// Without its front and its ceiling.
+std::function<void(Scene&)> under(std::vector<LightModel> lights) {
+  return [lights](Scene& s) {
+    s.meshes[0].triangles.resize(6);
+    for (const LightModel& light : lights) s.lights.push_back(Light{light});
+  };
 }
 
 std::vector<Case> cases() {
@@ -131,6 +166,23 @@ std::vector<Case> cases() {
          s.meshes[0].triangles.resize(8);
          s.lights.push_back(Light{InfiniteLight{ConstantSpectrum{0.5f}}});
          s.lights.push_back(Light{DistantLight{{0.3, -0.5, 0.8}, ConstantSpectrum{1}}});
+       }},
+      {"an open box under a sun and a sky", under({sun_and_sky(1)})},
+      {"under a sun alone", under({sun_and_sky(0)})},
+      {"under an image", under({image_around(EnvironmentLight::Projection::latitude_longitude)})},
+      {"under two images, a sky and a constant light",
+       under({image_around(EnvironmentLight::Projection::latitude_longitude), InfiniteLight{bk7()},
+              image_around(EnvironmentLight::Projection::equal_area), sun_and_sky(1)})},
+      {"a sheet with holes before an image",
+       [](Scene& s) {
+         add_block(s, plastic(0.1f));
+         s.shapes.back().opacity = 0.4f;
+         under({image_around(EnvironmentLight::Projection::equal_area)})(s);
+       }},
+      {"a sun and a sky behind glass",
+       [](Scene& s) {
+         add_block(s, material(DielectricMaterial{ConstantSpectrum{1.5f}}));
+         under({sun_and_sky(1)})(s);
        }},
       {"a lens",
        [](Scene& s) {

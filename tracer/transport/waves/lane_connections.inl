@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of lane_stages.inl: connections to lights.
-#include "tracer/transport/waves/lane_group.inl"
+#include "tracer/transport/waves/lane_environments.inl"
 
 // A candidate for a light, of each lane.
 struct Candidate {
@@ -112,14 +112,22 @@ VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vecto
   root.is_known |= any(of_tree);
 
   const LightSampler::Slot* slot[W];
-  bool triangle[W], sphere[W], alone[W], some_triangle = false, some_sphere = false, some_alone = false;
+  std::uint32_t environment[W];
+  bool triangle[W], sphere[W], alone[W], some_triangle = false, some_sphere = false, some_alone = false,
+                                         some_environment = false;
   for (int j = 0; j < W; ++j) {
     const bool from_tree = is_set(of_tree, j) && chosen.any[j];
     const LaneLamp lamp = from_tree ? work.scene.lamps.data()[chosen.slot[j]] : LaneLamp::other;
     slot[j] = lamp != LaneLamp::other ? lights.slots.data() + chosen.slot[j] : &work.scene.no_slot;
     some_triangle |= triangle[j] = lamp == LaneLamp::triangle;
     some_sphere |= sphere[j] = lamp == LaneLamp::sphere;
-    some_alone |= alone[j] = is_set(on, j) && (from_tree ? lamp == LaneLamp::other : !is_set(of_tree, j));
+    environment[j] = is_set(on, j) && !is_set(of_tree, j)
+                         ? chosen_environment(lights, static_cast<double>(lane(u[3], j)))
+                         : no_environment;
+    some_environment |= environment[j] != no_environment;
+    some_alone |= alone[j] =
+        is_set(on, j) &&
+        (from_tree ? lamp == LaneLamp::other : !is_set(of_tree, j) && environment[j] == no_environment);
   }
 
   Candidate c{};
@@ -131,6 +139,19 @@ VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vecto
     if (is_set(c.arrives, j) && g.path[j]->lamp.area_light != slot[j]->area_light)
       lane_by_lane::find_radiance(work, *g.path[j], slot[j]->area_light);
   for (int i = 0; i < 4; ++i) c.radiance[i] = gather<F>(VITRAIL_EACH(g.path[j]->lamp.radiance.v[i]));
+  if (some_environment) {
+    EnvironmentSample s;
+    sample_environments(work, g, u, environment, s);
+    c.arrives = c.arrives | s.arrives;
+    c.light.to_light = select<D>(s.chosen, s.to_light, c.light.to_light);
+    c.light.distance =
+        select<D>(s.chosen, fill<D>(std::numeric_limits<double>::infinity()), c.light.distance);
+    c.pdf = select<D>(s.chosen, s.seen.pdf, c.pdf);
+    for (int i = 0; i < 4; ++i)
+      c.radiance[i] = select<F>(mask_for<F>(s.chosen), s.seen.radiance[i], c.radiance[i]);
+    for (int j = 0; j < W; ++j)
+      if (environment[j] != no_environment) c.ref[j] = {LightKind::environment, environment[j]};
+  }
   if (some_alone) sample_alone(work, g, p, u, alone, of_tree, chosen, c);
   return c;
 }

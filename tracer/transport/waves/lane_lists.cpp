@@ -28,6 +28,7 @@ LaneLists::LaneLists(std::size_t most) : surface_(most), next_(most), bsdfs_(mos
   for (auto& kind : lists_)
     for (auto& placing : kind)
       for (auto& list : placing) list.reserve(most);
+  leaving_.reserve(most);
 }
 
 bool LaneLists::apply_to(const Tracing& tracing) {
@@ -42,11 +43,22 @@ std::uint32_t LaneLists::candidates_of(const Tracing& tracing, const CameraPath&
   return light_candidates(tracing, path, p, diffuse);
 }
 
+bool LaneLists::take_leaving(Tracing& tracing, CameraPath& path, std::uint32_t place) {
+  const LightSampler& lights = tracing.scene.lights;
+  if (!lights.has_background() || (lights.has_discs && !path.connected)) return false;
+  if (is_hidden(tracing, path)) return false;
+  find_wavelengths(tracing, path, path.film);
+  leaving_.push_back(place);
+  ++taken_;
+  return true;
+}
+
 bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
-  const bool at_its_end = is_spent(tracing, path) || path.depth >= most_events;
   const bool by_its_pane = path.pane.within && (path.pane.parts || path.pane.owes);
-  if (!path.meets_surface() || at_its_end || path.passed || by_its_pane) return false;
-  if (medium_of(tracing, path)) return false;
+  if (by_its_pane || medium_of(tracing, path)) return false;
+  if (!path.meets_surface()) return take_leaving(tracing, path, place);
+  const bool at_its_end = is_spent(tracing, path) || path.depth >= most_events;
+  if (at_its_end || path.passed) return false;
   const Surface& surface = surface_at(tracing, path);
   const auto index = static_cast<std::uint32_t>(&surface - tracing.manifest().surfaces.data());
   const LaneSurface& of = tracing.scene.lanes.surfaces[index];
@@ -94,6 +106,8 @@ void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
                 .rounding_of_doubles = rounding_of_doubles(tracing.manifest().scale),
                 .shadows = shadows,
                 .next = next_.data()};
+  if (!leaving_.empty()) tracing.stages->leave_scene(work, {leaving_.data(), leaving_.size(), false, 0});
+  leaving_.clear();
   for (std::size_t kind = 0; kind < lane_kinds; ++kind)
     for (const bool is_placed : {false, true})
       for (const bool several : {false, true}) {

@@ -23,6 +23,7 @@ class LaneLists {
   void run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows, std::vector<std::uint32_t>& live);
 
  private:
+  bool take_leaving(Tracing& tracing, CameraPath& path, std::uint32_t place);
   std::uint32_t candidates_of(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
                               bool diffuse) const;
 
@@ -32,6 +33,7 @@ class LaneLists {
   std::vector<LaneBsdf> bsdfs_;                // by place
   std::vector<PlacedHit> placed_;              // by place
   std::vector<lanes::DomainTables> domains_;   // by number; of those where paths in lists have hits
+  std::vector<std::uint32_t> leaving_;         // places
   std::size_t taken_ = 0;
 };
 

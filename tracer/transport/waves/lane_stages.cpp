@@ -56,6 +56,10 @@ void find_radiance(const LaneWork& work, const CameraPath& path, std::uint32_t a
   path.lamp = {area_light, evaluate(std::get<Spectrum>(light.radiance), path.wavelengths) * light.scale};
 }
 
+void deposit_surroundings(const LaneWork& work, const CameraPath& path, const SampledSpectrum& radiance) {
+  deposit(work.tracing, path.film, radiance, {work.tracing.scene.groups.surroundings, path.ray.direction});
+}
+
 std::uint8_t inside(const LaneWork& work, const CameraPath& path, const SurfaceSide& side) {
   const Surface& surface = work.tracing.manifest().surfaces[work.surface[side.place]];
   return work.tracing.scene.interiors.beside(path.inside, surface, side.front_side,

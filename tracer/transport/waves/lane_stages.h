@@ -53,6 +53,9 @@ struct LaneStages {
   // Gives paths that begin their numbers for the camera, their wavelengths and what the sensor makes of them.
   void (*begin)(const Tracing& tracing, CameraPath* paths, const std::uint32_t* places, std::size_t count);
 
+  // Light that paths see which leave the scene: not within a pane, no medium there, no disc of a sun.
+  void (*leave_scene)(LaneWork& work, const LaneList& list);
+
   // By kind, but `none`.
   void (*stage[lane_kinds])(LaneWork& work, const LaneList& list);
 };
@@ -83,6 +86,8 @@ std::uint8_t group_of(const LaneWork& work, LightRef light);
 double filter_weight(const Tracing& tracing, float u, float v);
 // The radiance of a plain lamp, kept in path.lamp.
 void find_radiance(const LaneWork& work, const CameraPath& path, std::uint32_t area_light);
+// Radiance times throughput, of all that is around the scene.
+void deposit_surroundings(const LaneWork& work, const CameraPath& path, const SampledSpectrum& radiance);
 // Where light may pass something: goes to a light by whatever ray it takes. `front_side`: it leaves there.
 struct SurfaceSide {
   std::uint32_t place;

@@ -123,5 +123,6 @@ void begin(const Tracing& tracing, CameraPath* paths, const std::uint32_t* place
 }
 
 constexpr LaneStages stages{begin,
+                            leave_scene,
                             {nullptr, scatter<ReadLambert>, scatter<ReadMirror>, scatter<ReadMetal>,
                              scatter<ReadPlastic>, scatter<ReadRoughPlastic>, scatter_glass}};

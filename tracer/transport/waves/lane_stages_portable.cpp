@@ -7,6 +7,7 @@
 #include "tracer/lanes/light_tree.h"
 #include "tracer/lanes/rays.h"
 #include "tracer/lanes/spectra.h"
+#include "tracer/lights/environment_lanes.h"
 #include "tracer/lights/sphere_light_lanes.h"
 #include "tracer/transport/waves/lane_stages.h"
 

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/geometry/portable_math.h"
+#include "tests/tracer/lanes/fixtures.h"
+#include "tests/tracer/lanes/results.h"
+#include "tests/tracer/lanes/scalar_functions.h"
+
+namespace vitrail::lane_tests {
+
+namespace {
+
+Vector3d vector_of(const double* in) { return {in[0], in[1], in[2]}; }
+
+}  // namespace
+
+std::vector<ScalarFunction> environment_functions() {
+  return {
+      {"portable_math",
+       {number(-7, 7,
+               {-1, -0.0, 0, 1, 1e-300, 3, 1e-16, 1.5e-16, 3e-16, -1e-16, pi / 2, pi, 1.5 * pi, 2 * pi}),
+        number(-2, 2, {-1, -0.0, 0, 1})},
+       [](const Context&, const double* in, double* out) {
+         Results{out} << portable_sin(in[0]) << portable_cos(in[0]) << portable_acos(in[0])
+                      << portable_atan2(in[0], in[1]);
+       }},
+      {"sphere_map",
+       {direction(), unit_number(), unit_number()},
+       [](const Context&, const double* in, double* out) {
+         Results results{out};
+         for (const auto projection : {SphereProjection::equal_area, SphereProjection::latitude_longitude}) {
+           const Point2d point = sphere_point(projection, vector_of(in));
+           results << point.x << point.y;
+         }
+         results << sphere_direction(SphereProjection::equal_area, {in[3], in[4]});
+       }},
+      {"sample_environment",
+       {unit_number(), unit_number()},
+       [](const Context& context, const double* in, double* out) {
+         Results results{out};
+         for (std::uint32_t i = 0; i < fixture_environments; ++i)
+           results << sample_direction(context.environments[i], in[0], in[1]);
+       }},
+      {"see_environment",
+       {direction()},
+       [](const Context& context, const double* in, double* out) {
+         Results results{out};
+         for (std::uint32_t i = 0; i < fixture_environments; ++i) {
+           const EnvironmentValue value =
+               value_towards(context.environments[i], vector_of(in), *context.some_wavelengths);
+           results << value.radiance.v << value.pdf;
+         }
+       }},
+  };
+}
+
+}  // namespace vitrail::lane_tests

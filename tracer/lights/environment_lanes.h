@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Directions to environments and what is seen there, for any number of lanes. Texels and the sky's curves are
+// read lane by lane.
+#pragma once
+
+#include "tracer/lights/direction_table_lanes.h"
+#include "tracer/lights/environment.h"
+#include "tracer/lights/light_sampler.h"
+
+namespace vitrail::lanes {
+namespace {
+
+namespace detail {
+
+// Where on the sun's disc: the cosine of the angle from its middle is 1 − below.
+template <class D>
+struct SunPlace {
+  D below, sine;
+};
+template <class D>
+VITRAIL_LANES SunPlace<D> place_on_sun(const SkyModel& sky, D u) {
+  const D below = u * (1.0 - sky.sun_cosine());
+  return {below, safe_sqrt(below * (2.0 - below))};
+}
+// `cosine`, `sine`: of the turn about its middle.
+template <class D>
+VITRAIL_LANES Vector<D> direction_on_sun(const SkyModel& sky, SunPlace<D> place, D cosine, D sine) {
+  const Vector<D> n = fill<D>(sky.to_sun());
+  const bool away_from_x = sky.to_sun().x < 0.5 && sky.to_sun().x > -0.5;
+  const Vector<D> x =
+      lanes::normalize(cross(fill<D>(away_from_x ? Vector3d{1, 0, 0} : Vector3d{0, 1, 0}), n));
+  return x * (place.sine * cosine) + cross(n, x) * (place.sine * sine) + n * (1.0 - place.below);
+}
+
+template <class D>
+VITRAIL_LANES Vector<D> to_light(const DirectionFrame& frame, Vector<D> d) {
+  return {dot(d, fill<D>(frame.x)), dot(d, fill<D>(frame.y)), dot(d, fill<D>(frame.z))};
+}
+template <class D>
+VITRAIL_LANES Vector<D> to_world(const DirectionFrame& frame, Vector<D> d) {
+  return fill<D>(frame.x) * d.x + fill<D>(frame.y) * d.y + fill<D>(frame.z) * d.z;
+}
+
+}  // namespace detail
+
+// Of a sky's own frame: over the sun's disc, uniform per solid angle. u, v in [0,1)
+template <class D>
+VITRAIL_LANES Vector<D> sample_sun(const SkyModel& sky, D u, D v) {
+  const D turn = 2 * pi * v;
+  return detail::direction_on_sun(sky, detail::place_on_sun(sky, u), portable_cos(turn), portable_sin(turn));
+}
+
+// u, v in [0,1)
+template <class D>
+VITRAIL_LANES Vector<D> sample_direction(const Environment& e, D u, D v) {
+  if (!(e.sun_share > 0)) return detail::to_world(e.frame, sample(e.table, u, v));
+  const Mask<D> of_sun = u < e.sun_share;
+  // Both are about an axis, by one turn.
+  D turn = v, across = fill<D>(0), z = fill<D>(0);
+  if (!all(of_sun)) {
+    const D of_sky = select<D>(of_sun, fill<D>(0), (u - e.sun_share) / (1.0 - e.sun_share));
+    const TablePlace<D> place = place_in_table(e.table, of_sky, v);
+    turn = select<D>(of_sun, v, place.at.x);
+    z = place.z;
+    across = safe_sqrt(1.0 - z * z);
+  }
+  const D cosine = portable_cos(2 * pi * turn), sine = portable_sin(2 * pi * turn);
+  Vector<D> direction{across * cosine, across * sine, z};
+  if (any(of_sun)) {
+    const detail::SunPlace<D> place = detail::place_on_sun(*e.sky, D(u / e.sun_share));
+    direction = select<D>(of_sun, detail::direction_on_sun(*e.sky, place, cosine, sine), direction);
+  }
+  return detail::to_world(e.frame, direction);
+}
+
+// Radiance at the wavelengths of a path, and the density with which the direction is chosen, per solid angle.
+template <class D>
+struct Seen {
+  Four<FloatsLike<D>> radiance;
+  D pdf;
+};
+
+// vitrail::value_towards, of the lanes that are `on`; wavelengths(j) are those of lane j.
+template <class D, class WavelengthsOf>
+VITRAIL_LANES Seen<D> value_towards(const Environment& e, Vector<D> direction, Mask<D> on,
+                                    const WavelengthsOf& wavelengths) {
+  const Vector<D> d = detail::to_light(e.frame, direction);
+  const PicturePoint<D> at = sphere_point(e.projection, d);
+  Seen<D> seen{};
+  seen.pdf = pdf(e.table, at);
+  const auto set = [&](int j, const SampledSpectrum& radiance) __attribute__((always_inline)) {
+    for (int i = 0; i < hero_count; ++i) set_lane(seen.radiance[i], j, radiance.v[i]);
+  };
+  if (!e.sky) {
+    for (int j = 0; j < width<D>; ++j)
+      if (is_set(on, j)) set(j, radiance_of_image(e, {lane(at.x, j), lane(at.y, j)}, wavelengths(j)));
+    return seen;
+  }
+  const SkyModel& sky = *e.sky;
+  for (int j = 0; j < width<D>; ++j)
+    if (is_set(on, j)) set(j, sky.sky(lane(d, j), wavelengths(j)));
+  seen.pdf = (1.0 - e.sun_share) * seen.pdf;
+  if (!(e.sun_share > 0) || !sky.has_sun()) return seen;
+  const Mask<D> sun = on & (d.z >= 0) & (dot(d, fill<D>(sky.to_sun())) >= sky.sun_cosine());
+  if (!any(sun)) return seen;
+  for (int j = 0; j < width<D>; ++j) {
+    if (!is_set(sun, j)) continue;
+    const SampledSpectrum radiance = sky.sun(lane(d, j), wavelengths(j));
+    for (int i = 0; i < hero_count; ++i)
+      set_lane(seen.radiance[i], j, lane(seen.radiance[i], j) + radiance.v[i]);
+  }
+  seen.pdf = select<D>(sun, seen.pdf + e.sun_share / (2 * pi * (1.0 - sky.sun_cosine())), seen.pdf);
+  return seen;
+}
+
+// vitrail::background, likewise.
+template <class D, class WavelengthsOf>
+VITRAIL_LANES Seen<D> background(const LightSampler& lights, Vector<D> direction, Mask<D> on,
+                                 const WavelengthsOf& wavelengths) {
+  Seen<D> sum{};
+  const auto add = [&](const Four<FloatsLike<D>>& radiance) __attribute__((always_inline)) {
+    for (int i = 0; i < hero_count; ++i) sum.radiance[i] = sum.radiance[i] + radiance[i];
+  };
+  if (!lights.infinite.empty()) {
+    Four<FloatsLike<D>> constant{};
+    for (int j = 0; j < width<D>; ++j) {
+      if (!is_set(on, j)) continue;
+      const SampledSpectrum radiance = constant_background(lights, wavelengths(j));
+      for (int i = 0; i < hero_count; ++i) set_lane(constant[i], j, radiance.v[i]);
+    }
+    add(constant);
+  }
+  const Environment* const environments = lights.environments.data();
+  for (std::size_t i = 0; i < lights.environments.size(); ++i) {
+    const Seen<D> seen = value_towards(environments[i], direction, on, wavelengths);
+    add(seen.radiance);
+    sum.pdf = sum.pdf + lights.share.data()[lights.first_environment() + i] * seen.pdf;
+  }
+  return sum;
+}
+
+}  // namespace
+}  // namespace vitrail::lanes

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Functions of scene/geometry/portable_math.h for any number of lanes. SLEEF's `cinz` variants use no fused
+// multiply-add: those of all widths have the same bits, but for ties of sine and cosine.
+#pragma once
+
+#include <sleef.h>
+
+#include "scene/geometry/portable_math.h"
+#include "tracer/simd/lanes.h"
+
+namespace vitrail::lanes {
+namespace {
+
+namespace detail {
+
+#if defined(__AVX512F__)
+#define VITRAIL_SLEEF_8(name) static constexpr auto eight = Sleef_cinz_##name##d8_u35avx512fnofma;
+#else
+#define VITRAIL_SLEEF_8(name)
+#endif
+#if defined(__AVX2__)
+#define VITRAIL_SLEEF_4(name) static constexpr auto four = Sleef_cinz_##name##d4_u35avx;
+#else
+#define VITRAIL_SLEEF_4(name)
+#endif
+#if defined(__SSE2__)
+#define VITRAIL_SLEEF_2(name) static constexpr auto two = Sleef_cinz_##name##d2_u35sse2;
+#else
+#define VITRAIL_SLEEF_2(name)
+#endif
+#define VITRAIL_SLEEF(type, name)                                     \
+  struct type {                                                       \
+    static constexpr auto one = Sleef_cinz_##name##d1_u35purec;       \
+    VITRAIL_SLEEF_2(name) VITRAIL_SLEEF_4(name) VITRAIL_SLEEF_8(name) \
+  };
+VITRAIL_SLEEF(Sine, sin)
+VITRAIL_SLEEF(Cosine, cos)
+VITRAIL_SLEEF(ArcCosine, acos)
+VITRAIL_SLEEF(ArcTangent, atan2)
+#undef VITRAIL_SLEEF
+#undef VITRAIL_SLEEF_2
+#undef VITRAIL_SLEEF_4
+#undef VITRAIL_SLEEF_8
+
+// By the variant of that width, or by halves.
+template <class Function, class D, class... More>
+VITRAIL_LANES D by_sleef(D x, More... more) {
+  if constexpr (width<D> == 1) {
+    return Function::one(x, more...);
+#if defined(__AVX512F__)
+  } else if constexpr (width<D> == 8) {
+    return reinterpret_cast<D>(
+        Function::eight(reinterpret_cast<__m512d>(x), reinterpret_cast<__m512d>(more)...));
+#endif
+#if defined(__AVX2__)
+  } else if constexpr (width<D> == 4) {
+    return reinterpret_cast<D>(
+        Function::four(reinterpret_cast<__m256d>(x), reinterpret_cast<__m256d>(more)...));
+#endif
+#if defined(__SSE2__)
+  } else if constexpr (width<D> == 2) {
+    return reinterpret_cast<D>(
+        Function::two(reinterpret_cast<__m128d>(x), reinterpret_cast<__m128d>(more)...));
+#endif
+  } else if constexpr (width<D> == 2) {
+    return D{Function::one(x[0], more[0]...), Function::one(x[1], more[1]...)};
+  } else {
+    auto half = std::bit_cast<Halves<D>>(x);
+    half.low = by_sleef<Function>(half.low, std::bit_cast<Halves<D>>(more).low...);
+    half.high = by_sleef<Function>(half.high, std::bit_cast<Halves<D>>(more).high...);
+    return std::bit_cast<D>(half);
+  }
+}
+
+// Of a function that is reduced to half turns about `middle` half turns. Where the nearest of them is a tie,
+// the variant for one lane rounds otherwise than the wider ones: there it is asked itself.
+template <class Function, class D>
+VITRAIL_LANES D by_half_turns(D x, double middle) {
+  D value = by_sleef<Function>(x);
+  if constexpr (width < D >> 1) {
+    const D turns = x * (1 / pi) - middle;
+    const D part = abs(turns - to_doubles(convert<std::int32_t>(turns)));
+    const Mask<D> is_tie = abs(part - 0.5) < 1e-9;
+    if (any(is_tie))
+      for (int j = 0; j < width<D>; ++j)
+        if (is_set(is_tie, j)) set_lane(value, j, Function::one(lane(x, j)));
+  }
+  return value;
+}
+
+}  // namespace detail
+
+// clang-format off
+template <class D> VITRAIL_LANES D portable_sin(D x) { return detail::by_half_turns<detail::Sine>(x, 0); }  // |x| < 10⁹
+template <class D> VITRAIL_LANES D portable_cos(D x) { return detail::by_half_turns<detail::Cosine>(x, 0.5); }
+template <class D> VITRAIL_LANES D portable_acos(D x) { return detail::by_sleef<detail::ArcCosine>(lanes::clamp<D>(x, -1.0, 1.0)); }
+template <class D> VITRAIL_LANES D portable_atan2(D y, D x) { return detail::by_sleef<detail::ArcTangent>(y, x); }
+// clang-format on
+
+}  // namespace
+}  // namespace vitrail::lanes
