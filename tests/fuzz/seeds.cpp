@@ -98,6 +98,46 @@ void add_meshes(Seeds& seeds) {
             "\4" + bytes_of(0x2000) + std::string("n\0", 2) + counts + std::string(72, '\0') + triangle);
 }
 
+// Something of each part of the language, and of each kind of object.
+void add_povray(Seeds& seeds) {
+  seeds.add("povray", R"pov(#version 3.7; global_settings { assumed_gamma 1 max_trace_level 5 }
+#declare A = array[2][2] {{1,2},{3,4}}; #local S = seed(1);
+#macro M(P, Q) #ifdef (Q) #declare Q = P + rand(S); #else P*<1,2,3> #end #end
+#for (I, 1, 3) #switch (I) #case (1) sphere { I*x, 0.5 } #break #range (2,3) box { 0, I } #break #else #error "e" #end #end
+#declare N = 0; #while (N < 3) #declare N = N + 1; #if (N = 2 & !0 | 1 > 2) #break #elseif (N) #warning "w" #end #end
+#fopen F "t.inc" write #write (F, "sphere{", str(1.5,0,2), ",", vstr(3, x, ",", 0, 1), "}") #fclose F
+#ifndef (Z) M(2, N) #declare Z = M(2, Q_); #undef Z #end
+#declare T = spline { natural_spline 0,<0,0,0> 1,<1,2,3> 2,<5,5,5> }
+#declare V = vaxis_rotate(vnormalize(T(0.5)), y, 30) + vcross(x, y)*vlength(z) + (A[1][0] ? 1 : 2);
+#declare W = concat("a", chr(66), substr("abc", 1, 2), strupr("x")); #debug W)pov");
+  seeds.add(
+      "povray",
+      R"pov(camera { orthographic location <0,1,-4> look_at 0 right x*image_width/image_height angle 40 }
+light_source { <1,2,3>, rgb 2 spotlight radius 10 falloff 20 point_at z area_light x, y, 3, 3 fade_distance 2 fade_power 2 }
+#declare P = function { pigment { gradient x color_map { [0 rgb 0] [1 rgbft <1,0,0,.1,.2>] } warp { black_hole x, 1 } } }
+#declare G = function(a,b) { select(a, b, sin(a)*0, max(a,b,1)) + P(a,b,0).red }
+#declare O = difference { box { -1, 1 } sphere { 0, 1.2 } plane { y, 0 inverse } clipped_by { sphere { 0, 3 } } }
+#declare H = trace(O, -3*z, z, K); #if (inside(O, H)) object { O translate min_extent(O) } #end
+union { cylinder { 0, y, .5 open } cone { 0, 1, y, .2 } disc { 0, z, 1, .5 } torus { 1, .2 } rotate 30*y
+  texture { pigment { brick rgb 1, rgb x brick_size 2 mortar .1 turbulence .3 } normal { bumps .5 scale .1 }
+  finish { phong 1 reflection { .1, .5 fresnel } ambient .2 } } interior { ior 1.5 fade_distance 1 fade_power 2 } })pov");
+  seeds.add(
+      "povray",
+      R"pov(mesh2 { vertex_vectors { 3, 0, x, y } uv_vectors { 3, 0, u, v } face_indices { 1, <0,1,2> } uv_indices { 1, <0,1,2> } }
+mesh { triangle { 0, x, y } smooth_triangle { 0, z, x, z, y, z } inside_vector y } polygon { 4, 0, x, x+y, y }
+prism { 0, 1, 4, 0, x, y, 0 } lathe { cubic_spline 4, x, x+y, y, 2*y } sor { 4, x, x+y, 2*y+x, 3*y })pov");
+  seeds.add(
+      "povray",
+      R"pov(blob { threshold .6 sphere { 0, 1, 1 } cylinder { 0, x, 1, 1 } } isosurface { function { x*x + y*y + z - .5 } contained_by { box { -1, 1 } } })pov");
+  seeds.add(
+      "povray",
+      R"pov(bicubic_patch { type 1 flatness 0 u_steps 2 v_steps 2 0,x,2*x,3*x, y,x+y,2*x+y,3*x+y, 2*y,x+2*y,2*x+2*y,3*x+2*y, 3*y,x+3*y,2*x+3*y,3*x+3*y }
+superellipsoid { <.5,.5> } quadric { <1,1,1>, 0, 0, -1 } ovus { 1, .5 })pov");
+  seeds.add(
+      "povray",
+      R"pov(height_field { function 4, 4 { pattern { bozo } } } sky_sphere { pigment { gradient y color_map { [0 rgb 1] [1 rgb z] } } } background { rgb 1 })pov");
+}
+
 // With something of all that is read, and a .glb around it.
 void add_gltf(Seeds& seeds) {
   const std::string text = R"gltf({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2,3]}],
@@ -232,6 +272,7 @@ int main(int argc, char** argv) {
   vitrail::test::add_scenes(seeds);
   vitrail::test::add_meshes(seeds);
   vitrail::test::add_gltf(seeds);
+  vitrail::test::add_povray(seeds);
   vitrail::test::add_tables(seeds);
   vitrail::test::add_images(seeds);
   vitrail::test::add_bundle_seeds(
