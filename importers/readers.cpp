@@ -11,7 +11,7 @@
 #include "importers/mitsuba/read/mitsuba.h"
 #include "importers/obj/read/obj.h"
 #include "importers/pbrt/read/pbrt.h"
-#include "importers/ply/read/ply.h"
+#include "importers/ply/read/ply_scene.h"
 #include "importers/povray/read/povray.h"
 #include "importers/stl/read/stl.h"
 #include "scene/system/diagnostics.h"
@@ -27,22 +27,6 @@ ImportedScene read_obj_scene(ReadRequest request) {
   return imported;
 }
 
-ImportedScene read_ply_scene(ReadRequest request) {
-  const std::filesystem::path& file = request.file;
-  ImportedScene imported;
-  Scene& scene = imported.scene;
-  TriangleMesh mesh = read_ply(file, &imported.diagnostics, PlyAttributes::colors);
-  scene.materials.push_back({DiffuseMaterial{}});
-  if (!mesh.attributes.empty()) {
-    scene.textures.push_back({MeshAttributeTexture{mesh.attributes.front().name}});
-    scene.materials.front().model = DiffuseMaterial{Id<Texture>{0}};
-  }
-  scene.meshes.push_back(request.memory.keep(
-      std::move(mesh), [file] { return read_ply(file, nullptr, PlyAttributes::colors); }));
-  scene.shapes.push_back({});
-  return imported;
-}
-
 ImportedScene read_stl_scene(ReadRequest request) {
   const std::filesystem::path& file = request.file;
   ImportedScene imported;
@@ -52,7 +36,11 @@ ImportedScene read_stl_scene(ReadRequest request) {
   return imported;
 }
 
-bool is_ply(std::string_view bytes) { return bytes.starts_with("ply\n") || bytes.starts_with("ply\r"); }
+bool is_ply(std::string_view bytes) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";  // of UTF-8
+  if (bytes.starts_with(mark)) bytes.remove_prefix(mark.size());
+  return bytes.starts_with("ply\n") || bytes.starts_with("ply\r");
+}
 bool is_mitsuba(std::string_view bytes) {
   return bytes.starts_with("<?xml") || bytes.starts_with("<scene") || bytes.starts_with("<!--");
 }
@@ -119,7 +107,7 @@ const std::vector<Reader>& readers() {
        .suffixes = {".ply"},
        .gzipped = true,
        .sniff = is_ply,
-       .read = read_ply_scene,
+       .read = [](ReadRequest r) { return read_ply_scene(r.file, std::move(r.memory)); },
        .adds_view = false,
        .has_definitions = false,
        .has_many_cameras = false},

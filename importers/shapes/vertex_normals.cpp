@@ -15,24 +15,33 @@ Vector3d winding_normal(const TriangleMesh& mesh, const std::array<std::uint32_t
 
 }  // namespace
 
+std::array<Vector3d, 3> angle_weighted_normals(const std::array<Point3d, 3>& corners) {
+  const Vector3d area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  if (!(length(area) > 0)) return {};
+  const Vector3d normal = normalize(area);
+  std::array<Vector3d, 3> weighted;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3d a = corners[(i + 1) % 3] - corners[i], b = corners[(i + 2) % 3] - corners[i];
+    weighted[i] = normal * std::atan2(length(cross(a, b)), dot(a, b));
+  }
+  return weighted;
+}
+
+Normal3f unit_normal(const Vector3d& sum) {
+  constexpr double cancelled = 1e-12;  // of angles of the order of 1
+  return length(sum) > cancelled ? cast<float>(to_normal(normalize(sum))) : Normal3f{1, 0, 0};
+}
+
 std::vector<Normal3f> smooth_normals(const TriangleMesh& mesh) {
   std::vector<Vector3d> sums(mesh.positions.size());
+  const auto position = [&](std::uint32_t vertex) { return cast<double>(mesh.positions[vertex]); };
   for (const auto& t : mesh.triangles) {
-    const Vector3d normal = normalize(winding_normal(mesh, t));
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Point3d p = cast<double>(mesh.positions[t[i]]);
-      const Vector3d a = cast<double>(mesh.positions[t[(i + 1) % 3]]) - p,
-                     b = cast<double>(mesh.positions[t[(i + 2) % 3]]) - p;
-      const double angle = std::atan2(length(cross(a, b)), dot(a, b));
-      sums[t[i]] = sums[t[i]] + normal * angle;
-    }
+    const auto normals = angle_weighted_normals({position(t[0]), position(t[1]), position(t[2])});
+    for (std::size_t i = 0; i < 3; ++i) sums[t[i]] = sums[t[i]] + normals[i];
   }
   std::vector<Normal3f> normals;
   normals.reserve(sums.size());
-  for (const Vector3d& sum : sums) {
-    constexpr double cancelled = 1e-12;  // of angles of the order of 1
-    normals.push_back(length(sum) > cancelled ? cast<float>(to_normal(normalize(sum))) : Normal3f{1, 0, 0});
-  }
+  for (const Vector3d& sum : sums) normals.push_back(unit_normal(sum));
   return normals;
 }
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes in files of their own.
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "importers/mitsuba/read/old_versions.h"
 #include "importers/mitsuba/read/serialized.h"
 #include "importers/mitsuba/read/shape_geometry.h"
 #include "importers/obj/read/obj.h"
 #include "importers/ply/read/ply.h"
+#include "importers/shapes/creases.h"
 #include "importers/shapes/vertex_normals.h"
 
 namespace vitrail::mitsuba {
@@ -15,15 +19,38 @@ namespace {
 // How a file is read. Every combination is a mesh of its own.
 struct Reading {
   bool face_normals, flip_uvs;
-  int variant() const { return 2 * face_normals + flip_uvs; }
+  std::optional<double> crease_angle_deg;  // of 0.6
+  int variant() const {
+    const int angle = crease_angle_deg ? 1 + static_cast<int>(std::lround(*crease_angle_deg * 1e4)) : 0;
+    return 4 * angle + 2 * face_normals + flip_uvs;
+  }
 };
 
-// Mitsuba shades smoothly wherever it is not told otherwise: whether normals have to be made.
+Reading reading_of(Builder& builder, const Object& shape, bool flips) {
+  Reading reading{shape.boolean("face_normals", false, builder.report),
+                  shape.boolean("flip_tex_coords", flips, builder.report),
+                  {}};
+  if (!shape.has("max_smooth_angle")) return reading;
+  const double degrees = shape.number("max_smooth_angle", 0, builder.report);
+  if (!(degrees >= 0 && degrees <= 180))
+    builder.report.fail("\"maxSmoothAngle\" has to be an angle from 0 to 180 degrees",
+                        shape.find("max_smooth_angle")->origin);
+  if (!reading.face_normals) reading.crease_angle_deg = degrees;
+  return reading;
+}
+
+// Mitsuba shades smoothly wherever it is not told otherwise. Whether normals were made.
 bool apply(const Reading& reading, TriangleMesh& mesh) {
   if (reading.flip_uvs)
     for (Point2f& uv : mesh.uvs) uv.y = 1 - uv.y;
   if (reading.face_normals) mesh.normals.clear();
-  return !reading.face_normals && mesh.normals.empty();
+  if (reading.crease_angle_deg) {
+    mesh = with_creases(mesh, *reading.crease_angle_deg * std::numbers::pi / 180);
+    return true;
+  }
+  if (reading.face_normals || !mesh.normals.empty()) return false;
+  mesh.normals = smooth_normals(mesh);
+  return true;
 }
 
 // Mitsuba makes them of what the transform leaves of the triangles, and so on the side of their winding
@@ -73,57 +100,103 @@ struct MeshFile {
   int index = 0;
   Reading reading;
   PlyAttributes attributes = PlyAttributes::read;
+  std::optional<std::string> material = {};  // of obj: only the faces of this usemtl
 };
 
-TriangleMesh read_geometry(const MeshFile& file, Diagnostics& diagnostics) {
-  const auto& [kind, path, index, reading, attributes] = file;
-  if (kind == "serialized") return read_serialized(path, index);
-  if (kind == "ply") return read_ply(path, &diagnostics, attributes);
-  ObjGeometry geometry = read_obj_geometry(path);
-  diagnostics = std::move(geometry.diagnostics);
-  return merge(std::move(geometry.meshes));
+// The faces of one material, out of what was read by materials.
+TriangleMesh part_of(ObjGeometry& whole, const std::string& material) {
+  std::vector<TriangleMesh> parts;
+  for (std::size_t i = 0; i < whole.meshes.size(); ++i)
+    if (whole.materials[i] == material) parts.push_back(std::move(whole.meshes[i]));
+  return merge(std::move(parts));
 }
 
-TriangleMesh read_mesh(const MeshFile& file, Diagnostics& diagnostics, bool& smoothed) {
-  TriangleMesh mesh = read_geometry(file, diagnostics);
+// `known`: the file by materials, where it has been read.
+TriangleMesh read_geometry(const MeshFile& file, Diagnostics& diagnostics, ObjGeometry* known) {
+  const auto& [kind, path, index, reading, attributes, material] = file;
+  if (kind == "serialized") return read_serialized(path, index);
+  if (kind == "ply") return read_ply(path, &diagnostics, attributes);
+  ObjGeometry geometry = known ? ObjGeometry{} : read_obj_geometry(path, material.has_value());
+  ObjGeometry& read = known ? *known : geometry;
+  diagnostics = std::move(read.diagnostics);
+  return material ? part_of(read, *material) : merge(std::move(read.meshes));
+}
+
+TriangleMesh read_mesh(const MeshFile& file, Diagnostics& diagnostics, bool& smoothed,
+                       ObjGeometry* known = nullptr) {
+  TriangleMesh mesh = read_geometry(file, diagnostics, known);
   mesh.missing_uv = MissingUv::barycentric;
   smoothed = apply(file.reading, mesh);
-  if (smoothed) mesh.normals = smooth_normals(mesh);
   return mesh;
 }
 
-}  // namespace
-
-std::optional<ShapeGeometry> shape_of_file(Builder& builder, const Object& shape) {
-  const std::string kind = kind_of(shape);
-  const bool obj = kind == "obj", ply = kind == "ply";
-  if (!obj && !ply && kind != "serialized") return std::nullopt;
-  const std::filesystem::path path = shape_file(builder, shape);
-  const Reading reading{shape.boolean("face_normals", false, builder.report),
-                        shape.boolean("flip_tex_coords", obj, builder.report)};
-  const int index = obj || ply ? 0 : shape.integer("shape_index", 0, builder.report);
+// `part`: which of the file's meshes it is, for the key.
+ShapeGeometry geometry_of(Builder& builder, const Object& shape, const MeshFile& file, int part,
+                          ObjGeometry* known = nullptr) {
   bool smoothed = false;
-  const MeshKey key{path.string(), index, reading.variant()};
-  // 0.6 decodes them as sRGB, 3 takes the numbers as they are.
-  const bool decoded =
-      shape.boolean("colors_in_srgb", false, builder.report) && shape.boolean("srgb", true, builder.report);
-  const MeshFile file{kind, path, index, reading, decoded ? PlyAttributes::colors : PlyAttributes::read};
+  const MeshKey key{file.path.string(), part, file.reading.variant()};
   const auto read = [&] {
     Diagnostics diagnostics;
-    TriangleMesh made = read_mesh(file, diagnostics, smoothed);
+    TriangleMesh made = read_mesh(file, diagnostics, smoothed, known);
     builder.report.add(std::move(diagnostics));
     return made;
   };
   const auto read_again = [file] {
-    Diagnostics known;
+    Diagnostics said;
     bool smooth = false;
-    return read_mesh(file, known, smooth);
+    return read_mesh(file, said, smooth);
   };
   const Id<TriangleMesh> mesh = shared_mesh(builder, shape, key, read, read_again);
   if (smoothed) builder.smoothed_meshes.insert(mesh.value);
   const bool was_smoothed = builder.smoothed_meshes.contains(mesh.value);
   if (was_smoothed) report_smoothing(builder, shape);
-  return ShapeGeometry{mesh, {}, !reading.face_normals && !was_smoothed};
+  return {.mesh = mesh, .front_by_normals = !file.reading.face_normals && !was_smoothed};
+}
+
+// The bsdf that is given for the faces of a usemtl. The names of bsdfs are those of today by now.
+const Property* bsdf_named(const std::vector<const Property*>& bsdfs, const std::string& name) {
+  const auto found = std::ranges::find_if(bsdfs, [&](const Property* bsdf) {
+    return bsdf->name == name || (!bsdf->name.empty() && bsdf->name == name_of_today(name));
+  });
+  return found == bsdfs.end() ? nullptr : *found;
+}
+
+// Of an obj that is given a bsdf for each name in it, as in 0.6: those names, in the order of the file. Empty
+// where none of the bsdfs has such a name.
+std::vector<std::string> named_parts(const std::vector<const Property*>& bsdfs, const ObjGeometry& file) {
+  std::vector<std::string> names;
+  bool any = false;
+  for (const std::string& name : file.materials) {
+    if (std::ranges::count(names, name) == 0) names.push_back(name);
+    any |= bsdf_named(bsdfs, name) != nullptr;
+  }
+  return any ? names : std::vector<std::string>{};
+}
+
+}  // namespace
+
+std::vector<ShapeGeometry> shapes_of_file(Builder& builder, const Object& shape) {
+  const std::string kind = kind_of(shape);
+  const bool obj = kind == "obj", ply = kind == "ply";
+  if (!obj && !ply && kind != "serialized") return {};
+  MeshFile file{kind, shape_file(builder, shape), 0, reading_of(builder, shape, obj)};
+  if (kind == "serialized") file.index = shape.integer("shape_index", 0, builder.report);
+  // 0.6 decodes them as sRGB, 3 takes the numbers as they are.
+  if (shape.boolean("colors_in_srgb", false, builder.report) && shape.boolean("srgb", true, builder.report))
+    file.attributes = PlyAttributes::colors;
+  const auto bsdfs = shape.children("bsdf");
+  ObjGeometry by_material;
+  if (obj && bsdfs.size() > 1) by_material = read_obj_geometry(file.path, true);
+  const std::vector<std::string> parts = named_parts(bsdfs, by_material);
+  if (parts.empty()) return {geometry_of(builder, shape, file, file.index)};
+  std::vector<ShapeGeometry> geometries;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    file.material = parts[i];
+    geometries.push_back(geometry_of(builder, shape, file, static_cast<int>(i) + 1, &by_material));
+    geometries.back().part = parts[i];
+    geometries.back().bsdf = bsdf_named(bsdfs, parts[i]);
+  }
+  return geometries;
 }
 
 }  // namespace vitrail::mitsuba

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "importers/mitsuba/read/builder.h"
 
@@ -12,11 +14,14 @@ namespace vitrail::mitsuba {
 
 struct ShapeGeometry {
   Id<TriangleMesh> mesh;
-  Transform mesh_to_object;  // the object's space is what `to_world` starts from
+  Transform mesh_to_object = {};  // the object's space is what `to_world` starts from
   // Mitsuba's front is where the shading normals point, which keep their side under mirrors; otherwise it is
   // where the triangles run counter-clockwise in the world.
   bool front_by_normals = false;
   bool in_world = false;  // `to_world` is in the mesh
+  // Of an obj that is given several bsdfs by name (0.6): the usemtl of its faces, and the one of that name.
+  std::optional<std::string> part = {};
+  const Property* bsdf = nullptr;
 };
 
 // The object's type; scenes in use also say "Sphere" and "Rectangle".
@@ -24,8 +29,8 @@ std::string kind_of(const Object& shape);
 
 // rectangle, disk, cube, sphere, cylinder; nothing for other kinds.
 std::optional<ShapeGeometry> analytic_shape(Builder& builder, const Object& shape);
-// obj, ply, serialized.
-std::optional<ShapeGeometry> shape_of_file(Builder& builder, const Object& shape);
+// obj, ply, serialized: one, but for an obj whose faces have bsdfs by name. Empty for other kinds.
+std::vector<ShapeGeometry> shapes_of_file(Builder& builder, const Object& shape);
 // linearcurve, bsplinecurve, and hair of 0.6.
 std::optional<ShapeGeometry> curve_shape(Builder& builder, const Object& shape);
 // sdfgrid.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "importers/bytes/text_cursor.h"
 #include "importers/mitsuba/read/shape_geometry.h"
 #include "importers/mitsuba/read/subsurface.h"
 #include "importers/reading/suggestion.h"
@@ -18,9 +19,9 @@ const std::vector<std::string> kinds{"obj",   "ply",         "serialized",   "re
                                      "merge", "linearcurve", "bsplinecurve", "sdfgrid",       "heightfield",
                                      "hair",  "deformable",  "ellipsoids",   "ellipsoidsmesh"};
 
-const std::vector<std::string> parameters{"to_world",    "bsdf",         "emitter",         "interior",
-                                          "exterior",    "flip_normals", "face_normals",    "filename",
-                                          "shape_index", "radius",       "flip_tex_coords", "center"};
+const std::vector<std::string> parameters{
+    "to_world", "bsdf",        "emitter", "interior",        "exterior", "flip_normals",    "face_normals",
+    "filename", "shape_index", "radius",  "flip_tex_coords", "center",   "max_smooth_angle"};
 
 // What the programs that write Mitsuba's files call records without a name.
 
@@ -38,8 +39,15 @@ Id<Material> default_material(Builder& builder, const Object& shape) {
   return *known;
 }
 
-Id<Material> material_of(Builder& builder, const Object& shape) {
+Id<Material> material_of(Builder& builder, const Object& shape, const ShapeGeometry& geometry) {
   const auto bsdfs = shape.children("bsdf");
+  if (geometry.bsdf) return add_material(builder, *std::get<ObjectPtr>(geometry.bsdf->value));
+  if (geometry.part) {
+    builder.report.approximated(fmt::format("obj: no bsdf has the name of its material \"{}\": diffuse, .5",
+                                            printable(*geometry.part)),
+                                shape.origin);
+    return default_material(builder, shape);
+  }
   if (bsdfs.size() > 1)
     builder.report.dropped("more than one bsdf of a shape: the first counts", bsdfs[1]->origin);
   if (bsdfs.empty()) return default_material(builder, shape);
@@ -120,7 +128,7 @@ void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& g
   if (!in_group) report_sensors(builder, object, shape.object_to_world);
   if (geometry.mesh_to_object != Transform{})
     shape.object_to_world = shape.object_to_world * geometry.mesh_to_object;
-  shape.material = material_of(builder, object);
+  shape.material = material_of(builder, object, geometry);
   if (const auto inside = subsurface_material(builder, object, shape.material)) shape.material = *inside;
   add_media(builder, object, shape);
   add_emission(builder, object, in_group, shape);
@@ -214,6 +222,21 @@ void add_moving(Builder& builder, const Object& object, const ShapeGeometry& geo
   scene.instances.push_back(std::move(instance));
 }
 
+// Empty for kinds that are not known.
+std::vector<ShapeGeometry> geometries_of(Builder& builder, const Object& object) {
+  for (const auto make : {analytic_shape, curve_shape, distance_shape, height_shape})
+    if (auto geometry = make(builder, object)) return {std::move(*geometry)};
+  return shapes_of_file(builder, object);
+}
+
+void report_unnamed(Builder& builder, const Object& object, const std::vector<ShapeGeometry>& geometries) {
+  for (const Property* bsdf : object.children("bsdf"))
+    if (std::ranges::none_of(geometries, [&](const ShapeGeometry& g) { return g.bsdf == bsdf; }))
+      builder.report.dropped(
+          fmt::format("obj: the file has no material \"{}\", whose bsdf is not used", bsdf->name),
+          bsdf->origin);
+}
+
 void add_shapes(Builder& builder, const Object& object, bool in_group, std::vector<Shape>& shapes) {
   builder.report.begin_item({object.origin, RecordKind::shape});
   const std::string kind = kind_of(object);
@@ -235,21 +258,19 @@ void add_shapes(Builder& builder, const Object& object, bool in_group, std::vect
                                   object.origin);
   }
   object.ignore({"silhouette_sampling_weight"});
-  auto geometry = analytic_shape(builder, object);
-  if (!geometry) geometry = shape_of_file(builder, object);
-  if (!geometry) geometry = curve_shape(builder, object);
-  if (!geometry) geometry = distance_shape(builder, object);
-  if (!geometry) geometry = height_shape(builder, object);
-  if (!geometry) return drop(builder, object);
+  const std::vector<ShapeGeometry> geometries = geometries_of(builder, object);
+  if (geometries.empty()) return drop(builder, object);
   const std::vector<Keyframe> keys = object.keyframes("to_world");
   if (in_group && !keys.empty())
     builder.report.approximated("motion of a shape in a group: it stands where it is when the shutter opens",
                                 object.origin);
   const auto motion = in_group ? std::nullopt : motion_of(builder, keys, object.origin);
-  if (motion && !stands_still(*motion, builder.scene.shutter))
-    add_moving(builder, object, *geometry, *motion);
-  else
-    add_geometry(builder, object, *geometry, to_world(builder, object), in_group, shapes);
+  for (const ShapeGeometry& geometry : geometries)
+    if (motion && !stands_still(*motion, builder.scene.shutter))
+      add_moving(builder, object, geometry, *motion);
+    else
+      add_geometry(builder, object, geometry, to_world(builder, object), in_group, shapes);
+  if (geometries.front().part) report_unnamed(builder, object, geometries);
   builder.report.begin_item({object.origin, RecordKind::shape});
   report_unused(object, builder.report, parameters);
 }

@@ -22,7 +22,7 @@ std::string_view in_usual_case(std::string_view keyword) {
       "Tr",     "Ni",     "Ns",        "Pr",     "Pm",     "Ps",     "Pc",    "Pcr",
       "aniso",  "anisor", "sharpness", "map_Kd", "map_Ks", "map_Ke", "map_d", "map_Pr",
       "map_Pm", "map_Ps", "map_bump",  "bump",   "disp",   "norm",   "map_Ka"};
-  const auto same_letter = [](char a, char b) { return obj::lower_case(a) == obj::lower_case(b); };
+  const auto same_letter = [](char a, char b) { return lower_case(a) == lower_case(b); };
   const auto found = std::ranges::find_if(
       usual, [&](std::string_view word) { return std::ranges::equal(word, keyword, same_letter); });
   return found == usual.end() ? keyword : *found;

@@ -5,6 +5,7 @@
 
 #include "importers/bytes/text_cursor.h"
 #include "importers/obj/read/mtl.h"
+#include "importers/reading/named_file.h"
 
 namespace vitrail::obj {
 
@@ -13,13 +14,5 @@ namespace vitrail::obj {
 using Drop = std::function<void(std::string)>;
 std::optional<MtlMap> read_map(TextCursor& cursor, const std::string& keyword,
                                const std::filesystem::path& folder, const Drop& drop);
-
-// Of ASCII letters alone.
-char lower_case(char letter);
-
-// A file of `folder` by the name that another one says: as it stands, else with the separators of Windows,
-// else its last part alone; each also in other letter cases, as on systems that know none. Absolute; "" where
-// there is none.
-std::string find_named_file(std::string name, const std::filesystem::path& folder);
 
 }  // namespace vitrail::obj

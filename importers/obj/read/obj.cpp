@@ -42,14 +42,18 @@ ImportedScene read_obj(const std::filesystem::path& file) {
   return obj::to_scene(std::move(geometry), options.offset, file);
 }
 
-ObjGeometry read_obj_geometry(const std::filesystem::path& file) {
+ObjGeometry read_obj_geometry(const std::filesystem::path& file, bool by_material) {
   InputBytes bytes(file);
   obj::ParseOptions options;
-  options.one_material = true;
+  options.one_material = !by_material;
+  options.bare = true;
   obj::Geometry geometry = parse(bytes, file.string(), options);
   bytes.release_before(bytes.end());
   Diagnostics diagnostics = std::move(geometry.diagnostics);
-  return {obj::to_meshes(std::move(geometry)), std::move(diagnostics)};
+  std::vector<std::string> materials;
+  for (const obj::Group& group : geometry.groups)
+    materials.push_back(geometry.materials[group.material].name);
+  return {obj::to_meshes(std::move(geometry)), std::move(materials), std::move(diagnostics)};
 }
 
 }  // namespace vitrail

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "scene/records/scene.h"
 
@@ -11,18 +13,22 @@ namespace vitrail {
 // Polygons, their normals and texture coordinates; one mesh and one shape for each material (two or more
 // where some of its faces have normals or texture coordinates and others have not). Objects and groups carry
 // nothing that shows. Vertices are in the order of the file where all corners have one index for everything,
-// else in that of their use. Materials (mtl.h); faces without one are diffuse, 0.5. The camera and the lights
-// besides Ke are left at their defaults. A file that lies far from the origin is moved to it, its place kept
-// in object_to_world: vertices are floats. Points, lines, curves and surfaces are dropped with diagnostics;
-// wrong indices and numbers throw Error. A face with vertex index 0 can only come from a program that counts
-// from 0: the whole file is then read so.
+// else in that of their use. Materials (mtl.h); faces without one are diffuse, of the colours of their
+// vertices (v x y z r g b, in sRGB's encoding), else 0.5. Faces without normals in a smoothing group get
+// normals (obj_smoothing.h). The camera and the lights besides Ke are left at their defaults. A file that
+// lies far from the origin is moved to it, its place kept in object_to_world: vertices are floats. Points,
+// lines, curves and surfaces are dropped with diagnostics; wrong indices and numbers throw Error. A face with
+// vertex index 0 can only come from a program that counts from 0: the whole file is then read so.
 ImportedScene read_obj(const std::filesystem::path& file);
 
 // The geometry alone, whatever its materials and wherever it lies.
 struct ObjGeometry {
   std::vector<TriangleMesh> meshes;  // by whether their faces have normals and texture coordinates
+  // Of usemtl, one for each mesh: "" where there is none, and of all where they are not asked for.
+  std::vector<std::string> materials;
   Diagnostics diagnostics;
 };
-ObjGeometry read_obj_geometry(const std::filesystem::path& file);
+// Without smoothing groups and colours of vertices, too.
+ObjGeometry read_obj_geometry(const std::filesystem::path& file, bool by_material = false);
 
 }  // namespace vitrail

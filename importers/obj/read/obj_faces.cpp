@@ -3,8 +3,12 @@
 
 namespace vitrail::obj {
 
-void FaceSink::add(std::span<const Corner> corners, std::size_t material, bool has_uvs, bool has_normals) {
-  Group& group = group_of(material, has_uvs, has_normals);
+void FaceSink::add(std::span<Corner> corners, std::size_t material, bool has_uvs, bool has_normals,
+                   std::uint32_t smoothing_group) {
+  const bool is_smooth = smoothing_group != 0 && !has_normals;
+  if (is_smooth)
+    for (Corner& corner : corners) corner.normal = smoothing_group;
+  Group& group = group_of(material, has_uvs, has_normals, is_smooth);
   if (corners.size() == 3) return add_triangle(group, corners[0], corners[1], corners[2]);
   points_.clear();
   cut_.clear();
@@ -13,8 +17,8 @@ void FaceSink::add(std::span<const Corner> corners, std::size_t material, bool h
   for (const auto& [a, b, c] : cut_) add_triangle(group, corners[a], corners[b], corners[c]);
 }
 
-Group& FaceSink::group_of(std::size_t material, bool has_uvs, bool has_normals) {
-  const std::size_t kind = (has_uvs ? 1u : 0u) + (has_normals ? 2u : 0u);
+Group& FaceSink::group_of(std::size_t material, bool has_uvs, bool has_normals, bool is_smooth) {
+  const std::size_t kind = (has_uvs ? 1u : 0u) + (has_normals ? 2u : is_smooth ? 4u : 0u);
   if (groups_of_material_.size() <= material) groups_of_material_.resize(material + 1);
   std::optional<std::size_t>& group = groups_of_material_[material][kind];
   if (!group) {
@@ -23,6 +27,8 @@ Group& FaceSink::group_of(std::size_t material, bool has_uvs, bool has_normals) 
     geometry_.groups.back().material = material;
     geometry_.groups.back().has_uvs = has_uvs;
     geometry_.groups.back().has_normals = has_normals;
+    geometry_.groups.back().is_smooth = is_smooth;
+    geometry_.groups.back().is_aligned = !is_smooth;
   }
   return geometry_.groups[*group];
 }

@@ -8,9 +8,12 @@ namespace vitrail::obj {
 namespace {
 
 bool is_aligned(const Group& group, const Corner& corner) {
-  return (!group.has_uvs || corner.uv == corner.position) &&
+  return !group.is_smooth && (!group.has_uvs || corner.uv == corner.position) &&
          (!group.has_normals || corner.normal == corner.position);
 }
+
+// Of corners and of the table of vertices.
+bool keeps_normals(const Group& group) { return group.has_normals || group.is_smooth; }
 
 // Files name near positions in turn, mostly at a constant distance from the other indices: the places are
 // near too.
@@ -20,14 +23,14 @@ std::size_t place(const Group& group, const Corner& corner) {
   };
   std::size_t sum = corner.position;
   if (group.has_uvs) sum += spread(corner.uv);
-  if (group.has_normals) sum += 3 * spread(corner.normal);
+  if (keeps_normals(group)) sum += 3 * spread(corner.normal);
   return sum & (group.vertices.first.size() - 1);
 }
 
 Corner corner_of(const Group& group, std::size_t vertex) {
   const VertexTable& table = group.vertices;
   return {table.positions[vertex], group.has_uvs ? table.uvs[vertex] : none,
-          group.has_normals ? table.normals[vertex] : none};
+          keeps_normals(group) ? table.normals[vertex] : none};
 }
 
 void grow(Group& group) {
@@ -46,7 +49,7 @@ void grow(Group& group) {
 std::uint32_t vertex(Group& group, Corner corner) {
   VertexTable& table = group.vertices;
   if (!group.has_uvs) corner.uv = none;
-  if (!group.has_normals) corner.normal = none;
+  if (!keeps_normals(group)) corner.normal = none;
   if (table.positions.size() >= 2 * table.first.size()) grow(group);
   std::uint32_t* link = &table.first[place(group, corner)];
   for (; *link != none; link = &table.next[*link]) {
@@ -57,7 +60,7 @@ std::uint32_t vertex(Group& group, Corner corner) {
   *link = index;
   table.positions.push_back(corner.position);
   if (group.has_uvs) table.uvs.push_back(corner.uv);
-  if (group.has_normals) table.normals.push_back(corner.normal);
+  if (keeps_normals(group)) table.normals.push_back(corner.normal);
   table.next.push_back(none);
   return index;
 }

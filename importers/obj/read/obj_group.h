@@ -29,6 +29,9 @@ struct VertexTable {
 struct Group {
   std::size_t material = 0;
   bool has_uvs = false, has_normals = false;
+  // Normals are made, of all triangles that share a vertex and a smoothing group: Corner::normal is the
+  // number of that group.
+  bool is_smooth = false;
   // While every corner has one and the same index for all that it has, no table of vertices is needed:
   // triangles hold that index. Otherwise they hold vertices.
   bool is_aligned = true;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "importers/obj/read/obj_smoothing.h"
+
 namespace vitrail::obj {
 
 namespace {
@@ -48,6 +50,22 @@ std::vector<T> gather(const GrowingArray<T>& values, const GrowingArray<std::uin
   return result;
 }
 
+MeshAttribute color_attribute(std::vector<float> values) {
+  return {std::string(vertex_color), false, 3, std::move(values)};
+}
+
+// Once all groups have vertices.
+void add_colors(Geometry& geometry, std::vector<TriangleMesh>& meshes) {
+  if (geometry.colors.empty()) return;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    std::vector<float> values;
+    for (const std::uint32_t p : geometry.groups[i].vertices.positions)
+      values.insert(values.end(), &geometry.colors[3 * p], &geometry.colors[3 * p] + 3);
+    meshes[i].attributes.push_back(color_attribute(std::move(values)));
+  }
+  geometry.colors = {};
+}
+
 // The only group uses the vertices as they are in the file.
 TriangleMesh whole_mesh(Geometry& geometry, Group& group) {
   TriangleMesh mesh;
@@ -69,11 +87,14 @@ bool is_whole(const Geometry& geometry) {
 }  // namespace
 
 std::vector<TriangleMesh> to_meshes(Geometry&& geometry) {
+  if (!geometry.colors.empty()) geometry.colors.resize(3 * geometry.positions.size(), 1.0f);
   std::vector<TriangleMesh> meshes(geometry.groups.size());
   if (is_whole(geometry)) {
     meshes[0] = whole_mesh(geometry, geometry.groups[0]);
+    if (!geometry.colors.empty()) meshes[0].attributes.push_back(color_attribute(std::move(geometry.colors)));
     return meshes;
   }
+  add_smooth_normals(geometry, meshes);
   for (Group& group : geometry.groups) {
     group.vertices.next = {};
     group.vertices.first = {};
@@ -98,6 +119,7 @@ std::vector<TriangleMesh> to_meshes(Geometry&& geometry) {
   gather_all(geometry.uvs, &TriangleMesh::uvs, &VertexTable::uvs, [](const Group& g) { return g.has_uvs; });
   gather_all(geometry.normals, &TriangleMesh::normals, &VertexTable::normals,
              [](const Group& g) { return g.has_normals; });
+  add_colors(geometry, meshes);
   gather_all(geometry.positions, &TriangleMesh::positions, &VertexTable::positions,
              [](const Group&) { return true; });
   for (std::size_t i = 0; i < meshes.size(); ++i) {

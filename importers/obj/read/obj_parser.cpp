@@ -75,7 +75,9 @@ class Merger {
       if (face.has_uvs) corner.uv = resolve(1);
       if (face.has_normals) corner.normal = resolve(2);
     }
-    if (valid) statements_.faces().add(corners_, statements_.material(), face.has_uvs, face.has_normals);
+    if (valid)
+      statements_.faces().add(corners_, statements_.material(), face.has_uvs, face.has_normals,
+                              statements_.smoothing_group());
     return valid;
   }
 

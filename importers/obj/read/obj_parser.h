@@ -22,13 +22,15 @@ struct Mention {
 struct ParseOptions {
   int base = 1;               // of vertex indices: 1 or 0
   Vector3d offset;            // is subtracted from positions while they are doubles
-  bool one_material = false;  // usemtl and mtllib mean nothing
+  bool one_material = false;  // usemtl means nothing
+  bool bare = false;          // nor do smoothing groups and colours of vertices
 };
 
 struct Geometry {
   GrowingArray<Point3f> positions;
   GrowingArray<Point2f> uvs;
   GrowingArray<Normal3f> normals;
+  std::vector<float> colors;       // red, green, blue of the first positions, linear; white behind them
   Bounds3d bounds;                 // of the positions in the file
   std::vector<Group> groups;       // in the order of their first face
   std::vector<Mention> materials;  // of usemtl; the first stands for faces without one

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -85,21 +86,34 @@ Id<T> append(std::vector<T>& to, Value value) {
   return {static_cast<std::uint32_t>(to.size() - 1)};
 }
 
-MtlSurface add_surface(const Mention& use, const Library& library, MtlTextures& textures,
-                       ImportedScene& result) {
+// Where no library says how to shade, the `colors` of vertices do.
+MtlSurface add_surface(const Mention& use, const Library& library, bool has_colors,
+                       std::optional<Id<Texture>> colors, MtlTextures& textures, ImportedScene& result) {
   const auto found = library.find(use.name);
-  if (found != library.end())
+  if (found != library.end()) {
+    if (has_colors)
+      result.diagnostics.push_back(
+          {Fidelity::dropped,
+           fmt::format("colours of vertices: material '{}' of a library counts", printable(use.name)),
+           use.location, use.location});
     return add_mtl_material(found->second, textures, result.scene, result.diagnostics);
+  }
   if (use.location.line > 0) {
     result.diagnostics.push_back(
         {Fidelity::approximated,
-         fmt::format("material '{}' is not defined: diffuse, reflectance 0.5", printable(use.name)),
+         fmt::format("material '{}' is not defined: diffuse, {}", printable(use.name),
+                     colors ? "of the colours of its vertices" : "reflectance 0.5"),
          use.location, use.location});
   }
-  Material material{DiffuseMaterial{}};
+  Material material{colors ? DiffuseMaterial{*colors} : DiffuseMaterial{}};
   material.name = printable(use.name, longest_mtl_name);
   material.origin = origin_of(use);
   return {append(result.scene.materials, std::move(material)), {}};
+}
+
+bool is_of(std::optional<Id<Texture>> colors, const Material& material) {
+  const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model);
+  return colors && diffuse && diffuse->reflectance == SpectrumParameter{*colors};
 }
 
 }  // namespace
@@ -109,11 +123,19 @@ ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesyst
   result.scene.files = {file.string()};
   result.diagnostics = std::move(geometry.diagnostics);
   const Library library = read_libraries(geometry, file.parent_path(), result.diagnostics);
+  std::optional<Id<Texture>> colors;
+  const bool has_colors = !geometry.colors.empty();
+  if (has_colors && std::ranges::any_of(geometry.groups, [&](const Group& group) {
+        return !library.contains(geometry.materials[group.material].name);
+      }))
+    colors = append(result.scene.textures, Texture{MeshAttributeTexture{std::string(vertex_color)}});
   MtlTextures textures;
   std::vector<std::optional<MtlSurface>> surfaces(geometry.materials.size());
   for (const Group& group : geometry.groups) {
     std::optional<MtlSurface>& surface = surfaces[group.material];
-    if (!surface) surface = add_surface(geometry.materials[group.material], library, textures, result);
+    if (!surface)
+      surface =
+          add_surface(geometry.materials[group.material], library, has_colors, colors, textures, result);
     Shape shape;
     shape.mesh = {static_cast<std::uint32_t>(result.scene.shapes.size())};
     shape.material = surface->material;
@@ -123,6 +145,9 @@ ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesyst
     result.scene.shapes.push_back(shape);
   }
   result.scene.meshes = to_meshes(std::move(geometry));
+  for (const Shape& shape : result.scene.shapes)
+    if (!is_of(colors, result.scene.materials[shape.material.value]))
+      result.scene.meshes[shape.mesh.value].attributes.clear();
   for (TriangleMesh& mesh : result.scene.meshes) mesh.missing_uv = MissingUv::zero;
   make_open_glass_thin(result);
   return result;

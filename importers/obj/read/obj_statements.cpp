@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
+
+#include "scene/spectra/color.h"
 
 namespace vitrail::obj {
 
@@ -30,15 +33,12 @@ void StatementReader::finish() {
   for (const ForwardFace& face : forward_) {
     if (counts_from_zero_) return;
     material_ = face.material;
+    smoothing_group_ = face.smoothing_group;
     cursor_ = start_ = face.at;
     read_face(face.counts);
   }
   if (unknown_ && geometry_.positions.empty()) {
     unknown_->fail("not an OBJ file: no vertices, and this is no statement of OBJ");
-  }
-  if (smoothing_ && geometry_.normals.empty()) {
-    geometry_.diagnostics.push_back(
-        {Fidelity::dropped, "smoothing groups: no normals are made for faces without them", *smoothing_});
   }
 }
 
@@ -72,9 +72,7 @@ void StatementReader::read_rare(std::string_view keyword) {
   } else if (keyword == "mtllib") {
     geometry_.libraries.push_back({std::string(cursor_.rest_of_line()), start_.location()});
   } else if (keyword == "s") {
-    const std::string_view group = cursor_.word();
-    if (group != "off" && group != "0" && !smoothing_) smoothing_ = start_.location();
-    skip_statement();
+    use_smoothing_group();
   } else {
     if (keyword != "o" && keyword != "g") drop(keyword);
     skip_statement();
@@ -112,6 +110,17 @@ void StatementReader::use_material() {
   material_ = entry->second;
 }
 
+// A number, "off" or, of some programs, "on".
+void StatementReader::use_smoothing_group() {
+  const std::string_view name = cursor_.word();
+  skip_statement();
+  if (options_.bare) return;
+  std::uint32_t number = 0;
+  const auto parsed = std::from_chars(name.data(), name.data() + name.size(), number);
+  const bool is_number = parsed.ec == std::errc{} && parsed.ptr == name.data() + name.size();
+  smoothing_group_ = is_number ? number : name == "off" || name.empty() ? 0 : 1;
+}
+
 // ---- Vertices ---------------------------------------------------------------------------------
 
 double StatementReader::finite_number(const char* what) {
@@ -138,11 +147,25 @@ void StatementReader::read_position() {
   extend(geometry_.bounds, p);
   geometry_.positions.push_back(cast<float>(p - options_.offset));
   if (at_end()) return;
-  int more = 0;
-  for (; !at_end(); ++more) finite_number("a vertex's weight or colour");
+  std::array<double, 4> values{};
+  std::size_t more = 0;
+  for (; !at_end(); ++more) {
+    const double value = finite_number("a vertex's weight or colour");
+    if (more < values.size()) values[more] = value;
+  }
   const bool has_weight = more == 1 || more == 4;
   if (has_weight) note("weight", Fidelity::dropped, "weights (w) of vertices: they count for curves only");
-  if (more >= 3) note("colour", Fidelity::dropped, "colours of vertices");
+  if (more >= 3) add_color(std::span(values).subspan(has_weight ? 1 : 0, 3));
+}
+
+// Programs write what their screens show: shares of one in sRGB's encoding.
+void StatementReader::add_color(std::span<const double> rgb) {
+  if (options_.bare) return note("colour", Fidelity::dropped, "colours of vertices");
+  geometry_.colors.resize(3 * (geometry_.positions.size() - 1), 1.0f);
+  if (std::ranges::any_of(rgb, [](double value) { return value < 0 || value > 1; }))
+    note("bright", Fidelity::approximated, "colours of vertices outside of 0 to 1: the nearest of these");
+  for (const double value : rgb)
+    geometry_.colors.push_back(static_cast<float>(srgb_decode(std::clamp(value, 0.0, 1.0))));
 }
 
 Point2f StatementReader::read_uv() {
@@ -160,7 +183,7 @@ StatementReader::Counts StatementReader::counts() const {
 
 // Negative indices count back from `before`.
 void StatementReader::read_face(const Counts& before) {
-  const ForwardFace face{start_, before, material_};
+  const ForwardFace face{start_, before, material_, smoothing_group_};
   if (is_last_chance_) cursor_.word();
   corners_.clear();
   bool forward = false;
@@ -236,7 +259,7 @@ void StatementReader::add_face() {
     note("mixed corners", Fidelity::dropped,
          "normals or texture coordinates of faces where not all corners have them");
   }
-  faces_.add(corners_, material_, uvs == all, normals == all);
+  faces_.add(corners_, material_, uvs == all, normals == all, smoothing_group_);
 }
 
 }  // namespace vitrail::obj

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -27,6 +28,7 @@ class StatementReader {
   // A face with vertex index 0 came where indices count from 1: nothing more is read.
   bool counts_from_zero() const { return counts_from_zero_; }
   std::size_t material() const { return material_; }
+  std::uint32_t smoothing_group() const { return smoothing_group_; }  // 0: none
   FaceSink& faces() { return faces_; }
 
  private:
@@ -40,6 +42,7 @@ class StatementReader {
     TextCursor at;
     Counts counts;
     std::size_t material;
+    std::uint32_t smoothing_group;
   };
 
   void read_statement();
@@ -49,11 +52,13 @@ class StatementReader {
   bool at_end() { return cursor_.at_line_end() || cursor_.sees('#'); }
   void skip_statement();
   void use_material();
+  void use_smoothing_group();
 
   double finite_number(const char* what);
   // Of a normal or of texture coordinates: what is not finite is 0, and the rest of the file is kept.
   float component();
   void read_position();
+  void add_color(std::span<const double> rgb);
   Point2f read_uv();
 
   Counts counts() const;
@@ -71,13 +76,13 @@ class StatementReader {
   TextCursor cursor_, start_;  // start_: of the present statement
 
   std::size_t material_ = 0;
+  std::uint32_t smoothing_group_ = 0;
   std::unordered_map<std::string, std::size_t> material_of_name_;
   std::vector<ForwardFace> forward_;
   bool is_last_chance_ = false;  // all has been read: what is not there now never will be
   bool counts_from_zero_ = false;
 
   std::set<std::string> noted_;
-  std::optional<SourceLocation> smoothing_;
   std::optional<TextCursor> unknown_;
   std::vector<Corner> corners_;
 };

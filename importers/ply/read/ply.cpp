@@ -10,6 +10,7 @@
 
 #include "importers/ply/read/ply_attributes.h"
 #include "importers/ply/read/ply_body.h"
+#include "importers/ply/read/ply_corner_uvs.h"
 #include "scene/spectra/color.h"
 
 namespace vitrail {
@@ -98,7 +99,7 @@ bool is_used(const BodyPlan& plan, const Attributes& attributes, std::size_t ele
 }
 
 void report_skipped(const Header& header, const BodyPlan& plan, const Attributes& attributes,
-                    Diagnostics& diagnostics) {
+                    std::optional<std::size_t> corner_uvs, Diagnostics& diagnostics) {
   for (std::size_t e = 0; e < header.elements.size(); ++e) {
     const Element& element = header.elements[e];
     if (!is_used(plan, e)) {
@@ -106,7 +107,7 @@ void report_skipped(const Header& header, const BodyPlan& plan, const Attributes
       continue;
     }
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
-      if (is_used(plan, attributes, e, i)) continue;
+      if (is_used(plan, attributes, e, i) || (corner_uvs && *corner_uvs == i && e == plan.faces->element)) continue;
       const Property& property = element.properties[i];
       diagnostics.push_back({Fidelity::dropped,
                              fmt::format("property {} of element {}", property.name, element.name),
@@ -124,7 +125,7 @@ Attributes plan_of(const Header& header, const BodyPlan& plan, PlyAttributes wan
   Attributes attributes = plan_attributes(header, plan);
   if (wanted == PlyAttributes::faces)
     std::erase_if(attributes, [](const AttributePlan& a) { return a.name != face_indices; });
-  if (wanted == PlyAttributes::colors) {
+  if (wanted == PlyAttributes::colors || wanted == PlyAttributes::look) {
     std::erase_if(attributes, [](const AttributePlan& a) { return !is_color(a); });
     if (attributes.size() > 1) attributes.resize(1);  // those of vertices come first
   }
@@ -150,15 +151,25 @@ Body read_file(const std::filesystem::path& file, Diagnostics* diagnostics, PlyA
                std::optional<PbrtQuads> quads) {
   const InputBytes bytes(file);
   const std::string name = file.string();
-  TextCursor cursor(name, bytes.begin(), bytes.end());
+  TextCursor cursor(name, after_byte_order_mark(bytes.begin(), bytes.end()), bytes.end());
   const Header header = read_header(cursor);
   const BodyPlan plan = make_plan(header, cursor);
   const Attributes attributes = plan_of(header, plan, wanted);
   Body body = read_body(bytes, cursor, header, plan, quads);
   read_attributes(bytes, cursor, header, plan, attributes, body);
-  if (wanted == PlyAttributes::colors) decode_colors(header, attributes, body.mesh);
+  if (wanted == PlyAttributes::colors || wanted == PlyAttributes::look)
+    decode_colors(header, attributes, body.mesh);
+  std::optional<std::size_t> corner_uvs;
+  if (wanted == PlyAttributes::look) corner_uvs = corner_uvs_of(header, plan);
+  if (corner_uvs) read_corner_uvs(bytes, cursor, header, plan, *corner_uvs, body);
   if (diagnostics) {
-    report_skipped(header, plan, attributes, *diagnostics);
+    report_skipped(header, plan, attributes, corner_uvs, *diagnostics);
+    if (body.lost_numbers > 0) {
+      diagnostics->push_back({Fidelity::dropped,
+                              fmt::format("{} numbers of normals, (u,v) or attributes that are not finite: 0",
+                                          body.lost_numbers),
+                              header.elements[plan.vertex_element].location});
+    }
     if (body.dropped_faces > 0) {
       diagnostics->push_back({Fidelity::dropped,
                               fmt::format("{} faces with fewer than three corners", body.dropped_faces),
@@ -178,6 +189,13 @@ Body read_file(const std::filesystem::path& file, Diagnostics* diagnostics, PlyA
 
 TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostics, PlyAttributes wanted) {
   return read_file(file, diagnostics, wanted, {}).mesh;
+}
+
+std::vector<std::string> texture_files_of_ply(const std::filesystem::path& file) {
+  const InputBytes bytes(file);
+  const std::string name = file.string();
+  TextCursor cursor(name, after_byte_order_mark(bytes.begin(), bytes.end()), bytes.end());
+  return read_header(cursor).texture_files;
 }
 
 PbrtPly read_pbrt_ply(const std::filesystem::path& file, PbrtQuads quads, Diagnostics* diagnostics) {

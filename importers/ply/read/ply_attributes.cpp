@@ -83,7 +83,7 @@ void read_element(Source& source, const Element& element, const std::vector<cons
   for (const AttributePlan* plan : plans)
     attributes.push_back({plan->name, plan->per_face, static_cast<int>(plan->properties.size()), {}});
   std::vector<float> row(element.properties.size());
-  std::uint64_t rows = 0, copies = 1;
+  std::uint64_t copies = 1;
   bool is_patch = false;
   const auto end_row = [&](std::size_t property) {
     if (property + 1 < row.size()) return;
@@ -92,7 +92,6 @@ void read_element(Source& source, const Element& element, const std::vector<cons
     for (std::uint64_t copy = 0; copy < copies; ++copy)
       for (std::size_t k = 0; k < plans.size(); ++k)
         for (const std::size_t i : plans[k]->properties) attributes[k].values.push_back(row[i]);
-    ++rows;
   };
   const auto is_read = [&](std::size_t property) {
     return std::ranges::any_of(
@@ -104,9 +103,7 @@ void read_element(Source& source, const Element& element, const std::vector<cons
       source, element,
       [&](std::size_t i, double value) {
         row[i] = static_cast<float>(value);
-        if (wanted[i] && !std::isfinite(row[i]))
-          source.fail(element, fmt::format("{} of row {} is not a finite single-precision number",
-                                           element.properties[i].name, rows));
+        if (wanted[i] && !std::isfinite(row[i])) row[i] = 0, ++body.lost_numbers;
         end_row(i);
       },
       [&](std::size_t i, const std::vector<double>& items) {

@@ -64,7 +64,11 @@ class BodyReader {
   void read_vertices() {
     const Element& vertex = header_.elements[plan_.vertex_element];
     prepare_vertices(source_, vertex, plan_.vertex, body_.mesh);
-    if (!read_with_triangles(vertex)) ply::read_vertices(source_, vertex, plan_.vertex, body_.mesh);
+    if (!read_with_triangles(vertex)) read_vertices(vertex);
+  }
+
+  void read_vertices(const Element& vertex) {
+    body_.lost_numbers = ply::read_vertices(source_, vertex, plan_.vertex, body_.mesh);
   }
 
   // Vertices on one thread and the triangles behind them on another. False where the file is too small for
@@ -81,7 +85,7 @@ class BodyReader {
       triangles.skip(vertex.count * vertex.row_size());
       if (!triangles.has_room(face)) return false;
       reserve_triangles(triangles, face, plan_.faces->corner_list, body_);
-      tbb::parallel_invoke([&] { ply::read_vertices(source_, vertex, plan_.vertex, body_.mesh); },
+      tbb::parallel_invoke([&] { read_vertices(vertex); },
                            [&] {
                              faces_read_ = read_triangles(triangles, *faces, face.count,
                                                           static_cast<std::uint32_t>(vertex.count),

@@ -13,7 +13,7 @@ namespace vitrail::ply {
 // Which property of the vertex element has each of x y z, nx ny nz, u v. The first three are always set, the
 // others as complete groups or not at all.
 struct VertexLayout {
-  static constexpr std::size_t slots = 8;
+  static constexpr std::size_t slots = 8, first_normal = 3;
   std::array<std::optional<std::size_t>, slots> property;
   bool has_normals() const { return property[3].has_value(); }
   bool has_uvs() const { return property[6].has_value(); }
@@ -37,6 +37,7 @@ struct Body {
   std::vector<float> patch_faces;   // their face_indices, or empty
   std::uint64_t dropped_faces = 0;  // with fewer than three corners
   std::uint64_t polygons = 0;       // with more than four
+  std::uint64_t lost_numbers = 0;   // of normals, (u,v) and attributes: not finite in the file, 0 in the mesh
 };
 
 // `cursor` stands at the first byte of the body.

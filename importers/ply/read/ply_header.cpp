@@ -95,6 +95,12 @@ void read_property(TextCursor& cursor, Header& header) {
   properties.push_back(std::move(property));
 }
 
+void read_comment(TextCursor& cursor, Header& header) {
+  TextCursor ahead = cursor;
+  if (ahead.word() == "TextureFile") header.texture_files.emplace_back(ahead.rest_of_line());
+  cursor.rest_of_line();
+}
+
 // The body of a binary file may begin with any byte: a line feed after a lone carriage return belongs to it
 // if the lines of this header end with carriage returns alone.
 void end_header(TextCursor& cursor, Format format, bool returns_alone) {
@@ -140,7 +146,7 @@ Header read_header(TextCursor& cursor) {
       return header;
     }
     if (word == "comment" || word == "obj_info") {
-      cursor.rest_of_line();
+      read_comment(cursor, header);
       continue;
     }
     if (word == "format") {

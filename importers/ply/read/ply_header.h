@@ -42,6 +42,8 @@ struct Element {
 struct Header {
   Format format = Format::ascii;
   std::vector<Element> elements;
+  // Images that comments name, as MeshLab writes them: "comment TextureFile wood.png".
+  std::vector<std::string> texture_files;
 };
 
 // Reads up to the first byte of the body, where it leaves the cursor. Throws Error.

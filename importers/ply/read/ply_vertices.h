@@ -66,6 +66,16 @@ bool all_finite(const std::array<float, size>& values, std::size_t count) {
   return finite;
 }
 
+// Puts 0 in the place of what is not finite; says how often.
+template <std::size_t size>
+std::uint64_t make_finite(std::array<float, size>& values, std::size_t count) {
+  if (all_finite(values, count)) return 0;
+  std::uint64_t lost = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (!std::isfinite(values[i])) values[i] = 0, ++lost;
+  return lost;
+}
+
 inline std::string not_finite(const Property& property, std::uint64_t row) {
   return fmt::format("{} of vertex {} is not a finite single-precision number", property.name, row);
 }
@@ -81,20 +91,22 @@ class VertexColumns {
     }
   }
 
-  void read(Source& source, TriangleMesh& mesh) {
+  // How many numbers were not finite and are 0.
+  std::uint64_t read(Source& source, TriangleMesh& mesh) {
+    std::uint64_t lost = 0;
     for (std::uint64_t row = 0; row < element_.count; row += chunk_rows) {
       const std::size_t count = std::min<std::uint64_t>(chunk_rows, element_.count - row);
       load_group<3>(source.at(), 0, count, chunk_.positions);
       load_group<3>(source.at(), 3, count, chunk_.normals);
       load_group<2>(source.at(), 6, count, chunk_.uvs);
-      const bool finite = all_finite(chunk_.positions, 3 * count) &&
-                          (!layout_.has_normals() || all_finite(chunk_.normals, 3 * count)) &&
-                          (!layout_.has_uvs() || all_finite(chunk_.uvs, 2 * count));
-      if (!finite) refuse(source, row, count);
+      if (!all_finite(chunk_.positions, 3 * count)) refuse(source, row, count);
+      if (layout_.has_normals()) lost += make_finite(chunk_.normals, 3 * count);
+      if (layout_.has_uvs()) lost += make_finite(chunk_.uvs, 2 * count);
       append(mesh, layout_, chunk_, count);
       source.skip(count * row_size_);
       source.release_read();
     }
+    return lost;
   }
 
  private:
@@ -120,10 +132,9 @@ class VertexColumns {
     }
   }
 
-  // Some value of the chunk is not finite.
+  // Some position of the chunk is not finite.
   void refuse(const Source& source, std::uint64_t row, std::size_t count) {
-    for (std::size_t slot = 0; slot < VertexLayout::slots; ++slot) {
-      if (!layout_.property[slot]) continue;
+    for (std::size_t slot = 0; slot < VertexLayout::first_normal; ++slot) {
       const auto column = chunk_.column(slot);
       const std::size_t i = *layout_.property[slot];
       for (std::size_t k = 0; k < count; ++k) {
@@ -142,8 +153,9 @@ class VertexColumns {
 };
 
 template <class Source>
-void read_vertex_rows(Source& source, const Element& element, const VertexLayout& layout,
-                      TriangleMesh& mesh) {
+std::uint64_t read_vertex_rows(Source& source, const Element& element, const VertexLayout& layout,
+                               TriangleMesh& mesh) {
+  std::uint64_t lost = 0;
   std::vector<std::optional<std::size_t>> slot_of(element.properties.size());
   for (std::size_t slot = 0; slot < VertexLayout::slots; ++slot) {
     if (layout.property[slot]) slot_of[*layout.property[slot]] = slot;
@@ -157,14 +169,18 @@ void read_vertex_rows(Source& source, const Element& element, const VertexLayout
       source, element,
       [&](std::size_t i, double value) {
         if (const auto slot = slot_of[i]) {
-          *row.column(*slot).first = static_cast<float>(value);
-          if (!std::isfinite(static_cast<float>(value))) {
-            source.fail(element, not_finite(element.properties[i], mesh.positions.size()));
+          float& to = *row.column(*slot).first = static_cast<float>(value);
+          if (!std::isfinite(to)) {
+            if (*slot < VertexLayout::first_normal)
+              source.fail(element, not_finite(element.properties[i], mesh.positions.size()));
+            to = 0;
+            ++lost;
           }
         }
         end_row(i);
       },
       [&](std::size_t i, const std::vector<double>&) { end_row(i); });
+  return lost;
 }
 
 template <class T>
@@ -185,12 +201,14 @@ void prepare_vertices(const Source& source, const Element& element, const Vertex
   if (layout.has_uvs()) reserve(mesh.uvs, element.count);
 }
 
+// Positions have to be finite. How many numbers of normals and (u,v) were not, and are 0.
 template <class Source>
-void read_vertices(Source& source, const Element& element, const VertexLayout& layout, TriangleMesh& mesh) {
+std::uint64_t read_vertices(Source& source, const Element& element, const VertexLayout& layout,
+                            TriangleMesh& mesh) {
   if constexpr (Source::binary) {
     if (!element.has_list()) return VertexColumns<Source>(element, layout).read(source, mesh);
   }
-  read_vertex_rows(source, element, layout, mesh);
+  return read_vertex_rows(source, element, layout, mesh);
 }
 
 }  // namespace vitrail::ply

@@ -35,6 +35,53 @@ TEST_F(MitsubaLoad, OldAcronyms) {
   for (const Diagnostic& d : imported.diagnostics) EXPECT_EQ(d.message.find("ior"), std::string::npos);
 }
 
+// 0.6 gives the faces of each usemtl the bsdf of that name.
+TEST_F(MitsubaLoad, OldBsdfsByName) {
+  folder_.write("two.obj",
+                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nusemtl leftWall\nf 1 2 3\nusemtl other\nf 2 4 3\n"
+                "usemtl Red\nf 1 2 4\n");
+  const auto bsdf = [](const std::string& name, double r) {
+    return fmt::format(
+        "<bsdf name=\"{}\" type=\"diffuse\"><spectrum name=\"reflectance\" value=\"{}\"/></bsdf>", name, r);
+  };
+  const ImportedScene imported = read_mitsuba(folder_.write(
+      "scene.xml",
+      "<scene version=\"0.6.0\"><shape type=\"obj\"><string name=\"filename\" value=\"two.obj\"/>" +
+          bsdf("Red", .25) + bsdf("leftWall", .75) + bsdf("unknown", .1) + "</shape>" + tail));
+  std::vector<SpectrumParameter> reflectances;
+  for (const Shape& shape : imported.scene.shapes) {
+    EXPECT_EQ(imported.scene.meshes.at(shape.mesh.value).triangles.size(), 1u);
+    reflectances.push_back(
+        std::get<DiffuseMaterial>(imported.scene.materials.at(shape.material.value).model).reflectance);
+  }
+  EXPECT_THAT(reflectances,
+              ::testing::ElementsAre(ConstantSpectrum{.75f}, ConstantSpectrum{.5f}, ConstantSpectrum{.25f}));
+  std::string said;
+  for (const Diagnostic& d : imported.diagnostics) said += d.message + "\n";
+  EXPECT_THAT(said, ::testing::HasSubstr("\"other\""));
+  EXPECT_THAT(said, ::testing::HasSubstr("\"unknown\""));
+}
+
+// Of two walls at a right angle: smooth at 100°, creased at 30°.
+TEST_F(MitsubaLoad, OldSmoothAngle) {
+  folder_.write("roof.obj", "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 0 0 -1\nf 1 3 2\nf 1 2 4\n");
+  const auto mesh = [&](const std::string& angle) {
+    return read_mitsuba(
+               folder_.write("scene.xml",
+                             "<scene version=\"0.6.0\"><shape type=\"obj\"><string name=\"filename\" "
+                             "value=\"roof.obj\"/><float name=\"maxSmoothAngle\" value=\"" +
+                                 angle + "\"/></shape>" + tail))
+        .scene.meshes.at(0);
+  };
+  const TriangleMesh smooth = mesh("100"), creased = mesh("30");
+  EXPECT_EQ(smooth.positions.size(), 4u);
+  EXPECT_NEAR(smooth.normals.at(smooth.triangles[0][0]).z, std::sqrt(.5), 1e-6);
+  EXPECT_EQ(creased.positions.size(), 6u);
+  EXPECT_NEAR(creased.normals.at(creased.triangles[0][0]).z, 1, 1e-6);
+  EXPECT_NEAR(creased.normals.at(creased.triangles[1][0]).x, -1, 1e-6);
+  EXPECT_THROW(mesh("-1"), Error);
+}
+
 // 0.6 was built for three channels.
 TEST_F(MitsubaLoad, OldSpectraAreLinearRgb) {
   const std::string old =

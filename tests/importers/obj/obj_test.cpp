@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
+#include "scene/spectra/color.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/temporary_folder.h"
 
@@ -184,23 +186,57 @@ TEST_F(Obj, WhatIsDroppedIsSaidOnce) {
       "1//5 2//5 3//5\n");
   EXPECT_THAT(imported.scene.meshes.at(0).triangles, SizeIs(2));
   const Diagnostics& diagnostics = imported.diagnostics;
-  for (const std::string text :
-       {"weights", "colours", "'p'", "'l'", "fewer than three", "'foo'", "smoothing", "normals"}) {
+  for (const std::string text : {"weights", "'p'", "'l'", "fewer than three", "'foo'", "normals"}) {
     EXPECT_THAT(diagnostics, says(text));
   }
-  EXPECT_THAT(diagnostics, SizeIs(8));
+  EXPECT_THAT(diagnostics, SizeIs(6));
   for (const Diagnostic& d : diagnostics) EXPECT_GT(d.location.line, 0) << d.message;
 }
 
-TEST_F(Obj, ColoursOfVerticesAreNoWeights) {
-  const ImportedScene imported = read("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
-  EXPECT_THAT(imported.diagnostics, says("colours of vertices"));
-  EXPECT_THAT(imported.diagnostics, Not(says("weights")));
+// .5 of the screen is .2140 of the light. Vertices without a colour are white.
+TEST_F(Obj, ColoursOfVertices) {
+  const ImportedScene imported = read("v 5 5 5\nv 0 0 0 1 0 .5\nv 1 0 0 .5 1 0\nv 0 1 0\nf 2 3 4\n");
+  EXPECT_THAT(imported.diagnostics, IsEmpty());
+  EXPECT_EQ(std::get<DiffuseMaterial>(imported.scene.materials.at(0).model).reflectance,
+            SpectrumParameter{Id<Texture>{0}});
+  EXPECT_EQ(std::get<MeshAttributeTexture>(imported.scene.textures.at(0).model).name, "vertex_color");
+  const MeshAttribute& colors = imported.scene.meshes.at(0).attributes.at(0);
+  const auto half = static_cast<float>(srgb_decode(.5));
+  EXPECT_THAT(colors.values, ElementsAre(1, 0, half, half, 1, 0, 1, 1, 1));
+  // The whole file as one mesh.
+  const ImportedScene whole = read("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+  EXPECT_THAT(whole.scene.meshes.at(0).attributes.at(0).values, ElementsAre(1, 0, 0, 0, 1, 0, 0, 0, 1));
 }
 
-TEST_F(Obj, SmoothingIsNotMissedWhereThereAreNormals) {
-  EXPECT_THAT(read(square + "vn 0 0 1\ns 1\nf 1//1 2//1 3//1\n").diagnostics, IsEmpty());
-  EXPECT_THAT(read(square + "s off\nf 1 2 3\n").diagnostics, IsEmpty());
+TEST_F(Obj, MaterialsOfLibrariesCountMoreThanColoursOfVertices) {
+  folder_.write("a.mtl", "newmtl m\nKd 1 0 0\n");
+  const ImportedScene imported =
+      read("mtllib a.mtl\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nusemtl m\nf 1 2 3\n");
+  EXPECT_THAT(imported.diagnostics, says("colours of vertices"));
+  EXPECT_THAT(imported.scene.meshes.at(0).attributes, IsEmpty());
+  EXPECT_THAT(imported.scene.textures, IsEmpty());
+}
+
+// Two faces at a right angle share an edge. Normals of one group are half way; of two, those of the faces.
+TEST_F(Obj, SmoothingGroups) {
+  const std::string roof = "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 0 0 -1\n", a = "f 1 3 2\n", b = "f 1 2 4\n";
+  const auto normal = [&](const std::string& faces, std::size_t triangle) {
+    const Scene scene = read(roof + faces).scene;
+    for (const TriangleMesh& mesh : scene.meshes)
+      for (const auto& t : mesh.triangles)
+        if (triangle-- == 0) return mesh.normals.empty() ? Normal3f{} : mesh.normals.at(t[0]);
+    return Normal3f{};
+  };
+  const float h = std::sqrt(.5f);
+  for (const std::string& faces : {"s 1\n" + a + b, "s 7\n" + a + "usemtl m\n" + b, "s on\n" + a + b})
+    for (const std::size_t triangle : {0u, 1u}) {
+      EXPECT_NEAR(normal(faces, triangle).x, -h, 1e-6) << faces;
+      EXPECT_NEAR(normal(faces, triangle).z, h, 1e-6) << faces;
+    }
+  EXPECT_NEAR(normal("s 1\n" + a + "s 2\n" + b, 0).z, 1, 1e-6);
+  EXPECT_NEAR(normal("s 1\n" + a + "s 2\n" + b, 1).x, -1, 1e-6);
+  EXPECT_EQ(normal("s 1\ns off\n" + a + b, 0), Normal3f{}) << "flat";
+  EXPECT_NEAR(normal("vn 0 1 0\ns 1\nf 1//1 3//1 2//1\n", 0).y, 1, 1e-6) << "those of the file count";
 }
 
 TEST_F(Obj, Deterministic) {

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 
+#include "importers/ply/read/ply_scene.h"
 #include "tests/importers/temporary_folder.h"
 
 namespace vitrail {
@@ -360,6 +361,73 @@ TEST_F(Ply, NonFiniteVertices) {
         header("ascii", "element vertex 1\n" + xyz + "element face 0\n" + corner_list) + "0 0 " + bad + "\n");
     EXPECT_EQ(error.location.line, 10);
     EXPECT_EQ(error.location.column, 5);
+  }
+}
+
+// ---- Courtesies: docs/reference/courtesies.md ---------------------------------------------------
+
+TEST_F(Ply, AttributesThatAreNotFiniteAreLostAlone) {
+  const std::string columns = "element vertex 3\n" + xyz +
+                              "property float nx\nproperty float ny\nproperty float nz\nproperty float u\n"
+                              "property float v\nproperty float foo_x\nproperty float foo_y\nproperty float "
+                              "foo_z\nelement face 1\n" +
+                              corner_list;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::string binary = header("binary_little_endian", columns);
+  for (const float f : {0.f, 0.f, 0.f, nan, 0.f, 1.f, .5f, nan, 1.f, 2.f, 3.f,  //
+                        1.f, 0.f, 0.f, 0.f, 0.f, 1.f, .5f, .5f, 1.f, nan, 3.f,  //
+                        0.f, 1.f, 0.f, 0.f, 0.f, 1.f, .5f, .5f, 1.f, 2.f, 3.f})
+    binary += bytes_of(f);
+  binary += bytes_of(std::uint8_t{3}) + bytes_of(0) + bytes_of(1) + bytes_of(2);
+  const std::string ascii = header("ascii", columns) +
+                            "0 0 0 nan 0 1 .5 nan 1 2 3\n1 0 0 0 0 1 .5 .5 1 nan 3\n"
+                            "0 1 0 0 0 1 .5 .5 1 2 3\n3 0 1 2\n";
+  for (const std::string& content : {binary, ascii}) {
+    Diagnostics diagnostics;
+    const TriangleMesh mesh = read_ply(folder_.write("mesh.ply", content), &diagnostics, PlyAttributes::read);
+    EXPECT_EQ(mesh.normals.at(0), (Normal3f{0, 0, 1}));
+    EXPECT_EQ(mesh.uvs.at(0), (Point2f{.5f, 0}));
+    EXPECT_THAT(mesh.attributes.at(0).values, ElementsAre(1, 2, 3, 1, 0, 3, 1, 2, 3));
+    ASSERT_EQ(diagnostics.size(), 1u);
+    EXPECT_THAT(diagnostics[0].message, HasSubstr("3 numbers"));
+  }
+}
+
+TEST_F(Ply, MarkOfUtf8) {
+  EXPECT_EQ(read("\xef\xbb\xbf" + ascii_square), read(ascii_square));
+  EXPECT_EQ(read("\xef\xbb\xbf" + binary_triangle(false)), read(binary_triangle(false)));
+}
+
+// As MeshLab writes them: (u,v) of corners. The square's diagonal belongs to both triangles with different
+// ones.
+TEST_F(Ply, TextureOfCorners) {
+  const std::string square =
+      "element vertex 4\n" + xyz + "element face 2\n" + corner_list + "property list uchar float texcoord\n";
+  const std::string rows = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 6 0 0 .5 0 .5 1\n3 0 2 3 6 0 0 1 1 0 1\n";
+  folder_.write("Wood.png", "x");
+  const std::string named = "comment TextureFile wood.png\n" + square;
+  const ImportedScene imported =
+      read_ply_scene(folder_.write("mesh.ply", header("ascii", named) + rows), MeshMemory());
+  const auto& image = std::get<ImageTexture>(imported.scene.textures.at(0).model);
+  EXPECT_THAT(image.filename, testing::EndsWith("/Wood.png"));
+  EXPECT_EQ(std::get<DiffuseMaterial>(imported.scene.materials.at(0).model).reflectance,
+            SpectrumParameter{Id<Texture>{0}});
+  const TriangleMesh& mesh = imported.scene.meshes.at(0);
+  ASSERT_EQ(mesh.positions.size(), 5u) << "vertex 2 has two";
+  const auto corner = [&](std::size_t triangle, std::size_t k) {
+    return mesh.uvs.at(mesh.triangles.at(triangle).at(k));
+  };
+  EXPECT_EQ(corner(0, 2), (Point2f{.5f, 1}));
+  EXPECT_EQ(corner(1, 1), (Point2f{1, 1}));
+  EXPECT_EQ(mesh.positions.at(mesh.triangles[1][1]), (Point3f{1, 1, 0}));
+  EXPECT_TRUE(imported.diagnostics.empty());
+  // Without the image, or without (u,v), the report says so.
+  for (const std::string& lost : {header("ascii", "comment TextureFile b.png\n" + square) + rows,
+                                  "ply\ncomment TextureFile wood.png\n" + ascii_square.substr(4)}) {
+    const ImportedScene grey = read_ply_scene(folder_.write("mesh.ply", lost), MeshMemory());
+    EXPECT_TRUE(grey.scene.textures.empty());
+    ASSERT_FALSE(grey.diagnostics.empty());
+    EXPECT_THAT(grey.diagnostics.back().message, HasSubstr("TextureFile"));
   }
 }
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texture coordinates of the corners of faces, as MeshLab writes them: a list "texcoord", two numbers a
+// corner.
+#pragma once
+
+#include <optional>
+
+#include "importers/ply/read/ply_body.h"
+
+namespace vitrail::ply {
+
+// The property of the faces' element; nothing where the file has none, or has (u,v) of vertices or strips.
+std::optional<std::size_t> corner_uvs_of(const Header& header, const BodyPlan& plan);
+
+// Gives the mesh that was read of the same body (u,v). A vertex whose corners differ in theirs becomes
+// several, with its attributes. Faces whose list has another length have (0,0).
+void read_corner_uvs(const InputBytes& bytes, const TextCursor& cursor, const Header& header,
+                     const BodyPlan& plan, std::size_t property, Body& body);
+
+}  // namespace vitrail::ply

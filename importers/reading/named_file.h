@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files by the names that other files say, as people carry them between systems.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace vitrail {
+
+// Of ASCII letters alone.
+char lower_case(char letter);
+
+// A file of `folder` by the name that another one says: as it stands, else with the separators of Windows,
+// else its last part alone; each also in other letter cases, as on systems that know none. Absolute; "" where
+// there is none. An example: "C:\models\Red.png" is red.png in `folder`.
+std::string find_named_file(std::string name, const std::filesystem::path& folder);
+
+}  // namespace vitrail
