@@ -12,14 +12,13 @@ void declare_distribution(CLI::App& app, Distribution& distribution, std::filesy
                                                             {"replicate", Distribution::replicate}};
   app.add_option_function<std::string>(
          "--distribution", [&](const std::string& name) { distribution = names.at(name); },
-         "decompose: a rank traces in the domains that it answers for, and other rays go to others; "
-         "replicate: in all, and each pages the whole scene; default auto: in all where they fit into its "
-         "memory, else in its own and those that it asks others for most")
+         "decompose: a rank traces in its own domains and sends other rays to other ranks. replicate: each "
+         "rank traces in all domains and pages the whole scene. auto (default): in all domains if they fit "
+         "into memory, else in its own and those with most of its rays")
       ->check(CLI::IsMember({"auto", "decompose", "replicate"}));
-  app.add_option(
-      "--homes", homes,
-      "what `render --profile` wrote of a smaller picture: ranks then answer for equal work, not for "
-      "equal bytes, and several for a domain where much goes");
+  app.add_option("--homes", homes,
+                 "the `render --profile` file of a smaller picture: ranks get equal work in place of equal "
+                 "bytes, and a busy domain has several ranks");
 }
 
 }  // namespace vitrail

@@ -17,27 +17,24 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
   app.add_option("--camera", a.camera, "which sensor of a Mitsuba scene, or camera of a glTF, from 0")
       ->check(CLI::Range(0, 999'999))
       ->capture_default_str();
-  app.add_option(
-         "--missing", a.missing,
-         "files that the scene names and are not there: refuse the scene, or replace images by grey and "
-         "leave out meshes")
+  app.add_option("--missing", a.missing,
+                 "if files of the scene are missing: refuse the scene, or replace images by grey and leave "
+                 "out meshes")
       ->check(CLI::IsMember({"refuse", "replace"}))
       ->capture_default_str();
   app.add_option("--sky", a.sky,
-                 "the clear sky and sun in place of all light from infinitely far: "
+                 "replace all light from infinitely far by the clear sky and sun: "
                  "LATITUDE,LONGITUDE,TIME[,turbidity=3,albedo=0.2,up=y,north=-z,sun=1,sky=1], TIME as "
-                 "2026-06-21T12:00+02:00; up is the camera's where it is not given");
+                 "2026-06-21T12:00+02:00; default of up: the camera's");
   app.add_option("--include-limit", a.include_limit,
-                 "most text of files that a scene includes more than once, in all (default: 1G)");
-  app.add_option("--root", a.root,
-                 "read of the files that a scene names only those in this folder, links resolved");
+                 "most text, in all, of files that a scene includes more than once (default: 1G)");
+  app.add_option("--root", a.root, "the scene may name only files in this folder, links resolved");
 }
 
 void declare_rgb_option(CLI::App& app, std::string& method) {
   app.add_option(
          "--rgb", method,
-         "how colours given as RGB become spectra: smooth ones (Jakob and Hanika's) or Matrix-R (Cohen and "
-         "Kappauf's)")
+         "how RGB colours become spectra: smooth (Jakob and Hanika) or by Matrix-R (Cohen and Kappauf)")
       ->check(CLI::IsMember({usual_rgb, "matrix-r"}))
       ->capture_default_str();
 }

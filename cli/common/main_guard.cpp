@@ -135,8 +135,8 @@ int end_with(int status) {
 
 int run_guarded(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
   std::string input;
-  app.set_version_flag("-V,--version", "vitrail " VITRAIL_VERSION, "say which version this is");
-  app.set_help_flag("-h,--help", "say all this");
+  app.set_version_flag("-V,--version", "vitrail " VITRAIL_VERSION, "print the version");
+  app.set_help_flag("-h,--help", "print this help");
   let_the_last_count(app);
   return run(input, [&] {
     try {

@@ -6,16 +6,15 @@
 namespace vitrail {
 
 void declare_mesh_options(CLI::App& app, MeshOptions& o) {
-  app.add_option(
-         "--tessellate", o.tessellate,
-         "make meshes of spheres, cylinders, disks, cones and paraboloids, with so many segments for a "
-         "full turn")
+  app.add_option("--tessellate", o.tessellate,
+                 "make meshes of spheres, cylinders, disks, cones and paraboloids, with this many segments "
+                 "for a full turn")
       ->check(CLI::Range(3, 4096));
   app.add_flag("--repair", o.repair,
                "merge equal vertices; remove unused ones and triangles that are degenerate or duplicates");
   app.add_flag("--orient", o.orient,
-               "turn the triangles of each surface to one side, of closed ones outwards");
-  app.add_option("--subdivide", o.subdivide, "refine meshes by so many levels of Loop's subdivision")
+               "turn the triangles of each surface to one side, those of closed surfaces outwards");
+  app.add_option("--subdivide", o.subdivide, "refine meshes by this many levels of Loop's subdivision")
       ->check(CLI::Range(0, 8));
   app.add_option("--decimate", o.decimate, "keep about this fraction of each mesh's triangles, for previews")
       ->check([](const std::string& text) {

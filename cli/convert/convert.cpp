@@ -38,37 +38,35 @@ struct Arguments {
 };
 
 void declare(CLI::App& app, Arguments& a) {
-  app.add_option(
-         "files", a.files,
-         "a scene (.pbrt, .xml, .glb, .gltf, .obj, .ply, .stl, .pov) and what it becomes (.pbrt: v4, .xml: "
-         "Mitsuba 3, "
-         ".pov, .glb, .gltf, .obj, .ply); with --to: scenes, and folders that are searched for them")
+  app.add_option("files", a.files,
+                 "a scene (.pbrt, .xml, .glb, .gltf, .obj, .ply, .stl, .pov) and the file to write (.pbrt: "
+                 "v4, .xml: Mitsuba 3, .pov, .glb, .gltf, .obj, .ply); with --to: scenes, and folders that "
+                 "are searched for them")
       ->required();
-  app.add_option("-o,--output", a.output, "what the scene becomes; with --to: the folder for all");
+  app.add_option("-o,--output", a.output, "the file to write; with --to: the folder for all files");
   app.add_option("--to", a.format,
-                 "pbrt, xml, pov, glb, gltf, obj or ply: convert many, each with NAME.report.json beside it; "
-                 "those that "
-                 "are done already are left out")
+                 "convert many scenes to this format, each with NAME.report.json beside it. Scenes that are "
+                 "done already are skipped")
       ->check(CLI::IsMember({"pbrt", "xml", "pov", "glb", "gltf", "obj", "ply"}));
-  app.add_option("-j,--jobs", a.at_once, "with --to: so many at once; default: all cores")
+  app.add_option("-j,--jobs", a.at_once, "with --to: scenes to convert at once; default: all cores")
       ->check(CLI::Range(1, 4096));
-  app.add_flag("--again", a.again, "with --to: also those that are done already");
+  app.add_flag("--again", a.again, "with --to: convert scenes again that are done already");
   app.add_flag("--check{ours}", a.check,
-               "render the scene before and after, small, and exit with status 1 if they look different; "
-               "--check=peer: in the program that it is written for as well (Mitsuba, POV-Ray or pbrt)")
+               "render the scene before and after, small, and exit with status 1 if they look different. "
+               "--check=peer also asks the program of the format (Mitsuba, POV-Ray or pbrt)")
       ->check(CLI::IsMember({"ours", "peer"}));
-  app.add_option(
-      "--peer", a.peer,
-      "of --check=peer: the Python that has Mitsuba, or povray, or pbrt; default: the one on the path");
+  app.add_option("--peer", a.peer,
+                 "of --check=peer: a Python with Mitsuba, or povray, or pbrt; default: the one on the path");
   app.add_option("--report", a.report,
-                 "write what became of each item: as a page to read (.html), else as JSON");
+                 "write a report with a line for each item: exact, approximated or dropped; as a page "
+                 "(.html), else as JSON");
   app.add_flag(
       "--pack", a.pack,
       "copy the images, tables and volumes that the scene refers to beside the output, into OUT-files/");
   declare_import_options(app, a.imports);
   declare_mesh_options(app, a.meshes);
   app.add_flag("--strict", a.strict, "exit with status 3 if anything is not exact");
-  app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
+  app.add_flag("--quiet", a.quiet, "print problems only");
 }
 
 void require_outputs(const Arguments& a) {
@@ -165,7 +163,7 @@ int run_one(Arguments a) {
     throw UsageError(fmt::format("'{}' is one argument too many; many scenes take --to FORMAT and -o FOLDER",
                                  a.files[most].string()));
   if (!a.peer.empty() && a.check != "peer") throw UsageError("--peer belongs to --check=peer");
-  if (a.output.empty() && a.files.size() == 1) throw UsageError("takes a scene and what it becomes");
+  if (a.output.empty() && a.files.size() == 1) throw UsageError("takes a scene and the file to write");
   if (a.output.empty()) a.output = a.files.back();
   a.input = a.files.front();
   return run(a);
@@ -176,7 +174,7 @@ int run_one(Arguments a) {
 
 int main(int argc, char** argv) {
   using namespace vitrail;
-  CLI::App app("converts a scene from one format to another, and says what is not exact", "vitrail convert");
+  CLI::App app("converts a scene from one format to another, and reports each loss", "vitrail convert");
   Arguments arguments;
   declare(app, arguments);
   return run_guarded(app, argc, argv,

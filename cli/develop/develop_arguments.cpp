@@ -20,52 +20,52 @@ void declare(CLI::App& app, DevelopArguments& a) {
                  "image to write: .exr or .hdr (linear), .png, .jpg, .tif or .webp (sRGB); .csv of sensors; "
                  ".film: the films as one")
       ->required();
-  app.add_option("--bits", a.bits, "a channel: 8 or 16; default: 8, and 16 for .tif; .exr and .hdr have 32")
+  app.add_option("--bits", a.bits, "bits a channel; default: 8, for .tif 16; .exr and .hdr have 32")
       ->check(CLI::IsMember({8, 16}));
   app.add_option("--crop", a.crop, "x0,x1,y0,y1 in pixels from the whole picture's top left");
-  app.add_option("--resize", a.size,
-                 "to WIDTHxHEIGHT in pixels, to a WIDTH and the height in proportion, or to PERCENT%");
+  app.add_option(
+      "--resize", a.size,
+      "resize to WIDTHxHEIGHT in pixels, to a WIDTH with the height in proportion, or to PERCENT%");
   app.add_option("--layer", a.layer,
                  "show this layer of the first surfaces, as render --aov names it, in place of the colours");
   app.add_option("--layers", a.layers,
                  "what an .exr has beside the colours, with commas between: all that the film has, or names "
                  "of render --aov, variance, spectrum, groups; default: all but variance and spectrum");
   app.add_option("--groups,--group", a.groups,
-                 "NAME=WEIGHT,…: weigh the light of these groups of a film of render --light-groups, by a "
-                 "number or red:green:blue each; * is all groups, and a group that is not named has 1");
+                 "NAME=WEIGHT,…: weigh the light of these groups of a film of render --light-groups. A "
+                 "weight is a number or red:green:blue; * means all groups, and other groups have 1");
   app.add_option("--exposure", a.exposure,
                  "brighten by this many stops; auto: the log-average of the luminances becomes 0.18")
       ->capture_default_str();
-  app.add_option(
-         "--white-balance", a.white_balance_K,
-         "show colours as if they had been under D65 and not under daylight of this temperature in K, "
-         "as the `whitebalance` of pbrt's films does")
+  app.add_option("--white-balance", a.white_balance_K,
+                 "show colours under daylight of this temperature in K as they would be under D65; the same "
+                 "as `whitebalance` of pbrt's films")
       ->check(CLI::PositiveNumber);
   app.add_option("--tone", a.tone,
-                 "none: what is brighter than white is white; aces: the output transform of ACES 1.x; agx: "
-                 "Sobotka's AgX, where bright colours pale; filmic: Hable's curve; after --exposure, and not "
-                 "for .exr and .hdr")
+                 "none: all colours above white become white; aces: the output transform of ACES 1.x; agx: "
+                 "Sobotka's AgX, where bright colours pale; filmic: Hable's curve. It follows --exposure; "
+                 ".exr and .hdr have none")
       ->check(CLI::IsMember({"none", "aces", "agx", "filmic"}))
       ->capture_default_str();
   app.add_option("--false-color", a.false_color,
-                 "luminance as colours with a scale, up to this in cd/m², or auto; not for .exr");
-  app.add_flag("--log", a.logarithmic, "with --false-color: three decades, by their logarithm");
+                 "show luminance as colours with a scale, up to this value in cd/m², or auto; not for .exr");
+  app.add_flag("--log", a.logarithmic, "with --false-color: three decades on a logarithmic scale");
   app.add_flag("--variance", a.with_variance,
                "add the channel Variance.Y: variance of each pixel's mean luminance");
   app.add_flag("--spectral", a.spectral,
                "add the spectrum of each pixel, for films of render --spectral; .exr only");
   app.add_flag("--denoise", a.denoised,
-               "estimate the noise away by Intel Open Image Denoise, guided by albedo and normals where the "
-               "film has them (render --aov albedo,normal); the film stays what it is");
+               "remove noise with Intel Open Image Denoise, guided by albedo and normals if the film has "
+               "them (render --aov albedo,normal). The film does not change");
   app.add_flag_callback(
       "--find-denoiser",
       [] {
         show("{}\n", Denoiser().name());
         throw CLI::Success();
       },
-      "say which denoiser there is, and nothing else");
+      "print which denoiser is found, and end");
   app.add_flag("--strict", a.strict, "refuse films that are not finished");
-  app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
+  app.add_flag("--quiet", a.quiet, "print problems only");
 }
 
 bool DevelopArguments::reads_picture() const {
@@ -94,8 +94,7 @@ void require_agreement(const DevelopArguments& a) {
     throw UsageError(
         "--false-color shows luminances: not with --tone, --exposure or --white-balance, and not as .exr");
   if (a.denoised && (!a.false_color.empty() || a.with_variance || a.writes(".csv")))
-    throw UsageError(
-        "--denoise estimates what was not measured: not with --false-color or --variance, and not as .csv");
+    throw UsageError("--denoise changes measurements: not with --false-color or --variance, and not as .csv");
   if (!a.layer.empty() &&
       (is_exposed || a.denoised || a.with_variance || a.spectral || !a.false_color.empty()))
     throw UsageError("--layer shows numbers as they are: only --crop, --resize and --bits go with it");
@@ -115,7 +114,7 @@ void require_agreement(const DevelopArguments& a) {
     throw UsageError("a picture is no film: .csv, .film and --false-color are made of what films measure");
   if (a.writes(".film") && (is_exposed || a.denoised || a.with_variance || a.spectral || a.bits > 0 ||
                             !a.false_color.empty() || !a.layer.empty() || !a.crop.empty() || !a.size.empty()))
-    throw UsageError("a .film holds what was rendered: no option changes it");
+    throw UsageError("a .film holds the samples of its render: no option changes it");
   if (a.logarithmic && a.false_color.empty()) throw UsageError("--log belongs to --false-color");
 }
 

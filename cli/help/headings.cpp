@@ -11,7 +11,7 @@ constexpr Heading scene{
 constexpr Heading scene_of_render{
     "How the scene is read",
     "define=NAME=VALUE sky=SKY rgb missing root=FOLDER include-limit=SIZE no-cache strict"};
-constexpr Heading meshes{"What becomes of its meshes",
+constexpr Heading meshes{"Changes to its meshes",
                          "tessellate=SEGMENTS repair orient subdivide=LEVELS decimate=FRACTION"};
 
 const std::vector<Heading> of_render{
@@ -69,7 +69,7 @@ const std::vector<Heading> of_develop{
 
 const std::vector<Heading> of_inspect{
     {"What to inspect", "file=FILE strict"},
-    {"How it is said", "json quiet"},
+    {"Output", "json quiet"},
     {"In how much memory", "memory=SIZE"},
     scene,
 };
@@ -105,7 +105,7 @@ const std::vector<Heading> of_spectrum{
 };
 
 const std::vector<Heading> of_verify{{"What to read", "bundle=BUNDLE threads strict"},
-                                     {"How it is said", "json quiet"}};
+                                     {"Output", "json quiet"}};
 
 }  // namespace
 

@@ -61,9 +61,9 @@ int main(int argc, char** argv) {
       ->required();
   declare_import_options(app, imports);
   app.add_flag("--json", json, "print JSON, as docs/reference/inspect.md lists it");
-  app.add_option("--memory", memory, "never have more resident, such as 2G; default: no limit");
-  app.add_flag("--strict", strict, "exit with 3 where something of a scene is not read or rendered exactly");
-  app.add_flag("--quiet", quiet, "say nothing but what is wrong; the exit status does");
+  app.add_option("--memory", memory, "most resident memory, e.g. 2G; default: no limit");
+  app.add_flag("--strict", strict, "exit with 3 if a part of the scene is not read or rendered exactly");
+  app.add_flag("--quiet", quiet, "print problems only; the exit status tells the result");
   return run_guarded(app, argc, argv, [&] {
     const auto body = [&] {
       const Report report = inspect(file, import_options(imports));

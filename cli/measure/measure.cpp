@@ -77,11 +77,10 @@ int main(int argc, char** argv) {
   MeasureOptions options;
   bool quiet = false;
   app.add_option("input", options.scene, "a scene, or a bundle")->required();
-  app.add_option("-o,--output", options.folder,
-                 "folder to write: index.html, measure.json, and the renders that it rests on")
+  app.add_option("-o,--output", options.folder, "folder to write: index.html, measure.json, and all renders")
       ->required();
   app.add_option("--axes", options.axes,
-                 fmt::format("which settings to change, with commas between them, of {}; default: all",
+                 fmt::format("which settings to change, separated by commas: {}; default: all",
                              fmt::join(axis_names(), ", ")))
       ->delimiter(',');
   app.add_option("--error", options.error, "recommend the cheapest setting of at most this relMSE")
@@ -89,25 +88,25 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", options.seconds,
                  "recommend the most accurate setting that renders the whole picture within this time here")
       ->check(more_than_0);
-  app.add_option(
-         "--bias", options.most_bias,
-         "recommend nothing that changes the picture's mean light by more than this share, or may: it "
-         "is compared with paths of any length")
+  app.add_option("--bias", options.most_bias,
+                 "recommend nothing that may change the picture's mean light by more than this share, "
+                 "against paths of any length")
       ->check(more_than_0)
       ->capture_default_str();
   app.add_option("--budget", options.budget_s,
-                 "seconds that all may take, roughly; less than enough takes longer; rendering what is "
-                 "recommended with its own samples may take as long again")
+                 "seconds for all renders, roughly; too small a budget is exceeded. Rendering the "
+                 "recommendation with its own samples may take as long again")
       ->check(more_than_0)
       ->capture_default_str();
-  app.add_option("--ranks", options.farm.ranks,
-                 "of a cluster, whose seconds for the whole picture are planned of each setting; 0: none")
+  app.add_option(
+         "--ranks", options.farm.ranks,
+         "plan each setting's seconds for the whole picture on a cluster of this many ranks; 0: no plan")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
-  app.add_option("--threads", options.farm.threads, "of each of those ranks")
+  app.add_option("--threads", options.farm.threads, "threads of each of these ranks")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  app.add_option("--width", options.width, "of the measured pictures, in pixels")
+  app.add_option("--width", options.width, "width of the measured pictures, in pixels")
       ->check(CLI::Range(16, 1 << 14))
       ->capture_default_str();
   app.add_option("--seeds", options.seeds, "pictures of each setting")
@@ -118,10 +117,10 @@ int main(int argc, char** argv) {
   app.add_option("--spp", options.spp, "samples of a measured picture; default: as --budget allows")
       ->check(more_than_0);
   app.add_option("--reference-spp", options.reference_spp,
-                 "samples of each half of the reference; default: 16 times those of a picture")
+                 "samples of each half of the reference; default: 16 times the samples of a picture")
       ->check(more_than_0);
   app.add_flag("--every-combination", options.every_combination,
-               "measure all combinations of the axes, not only those that promise something: long");
-  app.add_flag("--quiet", quiet, "say nothing but what is wrong");
+               "measure all combinations of the axes, not only the promising ones; takes long");
+  app.add_flag("--quiet", quiet, "print problems only");
   return end_with(run_guarded(app, argc, argv, [&] { return run(options, quiet); }));
 }

@@ -18,35 +18,35 @@ void declare(CLI::App& app, PartitionArguments& a) {
           ->check(CLI::Range(1, 999'999));
   app.add_option("--domains-at-once", a.options.domains_at_once)->group("");
   app.add_flag("--require-everything", a.options.everything,
-               "as if the scene required all that there is: to measure what the analysis saves");
+               "store and compute all data, required or not, to measure the gain of the analysis");
   app.add_flag("--median-cuts", a.options.median,
-               "halve the triangles at every cut: to measure what cuts by cost save");
-  app.add_flag("--flatten", a.options.flatten, "copy what instances place instead of keeping them");
+               "halve the triangles at every cut, to measure the gain of cuts by cost");
+  app.add_flag("--flatten", a.options.flatten,
+               "copy the triangles of instances instead of keeping instances");
   app.add_option("--domain-bytes", a.domain_bytes, "size of a sub-domain, e.g. 256M; default: 64M")
       ->excludes(domains);
-  app.add_option(
-      "--memory", a.memory,
-      "most memory to use, e.g. 512M; default: three quarters of the machine's. A larger scene goes to "
-      "disk beside the bundle on its way");
+  app.add_option("--memory", a.memory,
+                 "most memory to use, e.g. 512M; default: three quarters of the machine's. A larger scene "
+                 "goes through files beside the bundle");
   app.add_flag("--no-sync{false}", a.options.durable, "do not wait until the bundle is on the disk");
   app.add_flag("--no-cache{false}", a.cached, no_cache_help);
   app.add_flag("--keep-domains", a.keeps_domains)->group("");
   app.add_option("--threads", a.options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
   app.add_option("--stats", a.stats, "write statistics as JSON");
   app.add_option("--profile", a.profile,
-                 "where the rays of an earlier render of this scene went (`render --profile`): cut for them");
+                 "cut for the rays of an earlier render of this scene (a file of `render --profile`)");
   app.add_option("--aov", a.aov, layers_help);
   declare_import_options(app, a.imports);
   declare_rgb_option(app, a.rgb);
   declare_mesh_options(app, a.meshes);
   app.add_flag("--force", a.force, "replace a bundle of another scene");
-  app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
+  app.add_flag("--strict", a.strict, "refuse a scene that is not imported exactly");
   app.add_option("--progress", a.progress, "bar, none, or auto: a bar on a terminal, else lines")
       ->check(CLI::IsMember({"auto", "bar", "none"}))
       ->capture_default_str();
   app.add_flag("--no-summary{false}", a.summary)->group("");
   app.add_flag("--view-only", a.view_only)->group("");  // for render --camera: how the scene is seen, as JSON
-  app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
+  app.add_flag("--quiet", a.quiet, "print problems only");
 }
 
 BundleOrigin origin_of(const PartitionArguments& a) {

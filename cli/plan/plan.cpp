@@ -155,29 +155,32 @@ int plan(const Arguments& a) {
 
 int main(int argc, char** argv) {
   using namespace vitrail;
-  CLI::App app("what a cluster would do with a bundle, by the farm's own scheduler under a simulated clock",
-               "vitrail plan");
+  CLI::App app(
+      "simulates the render of a bundle on a cluster, by the farm's own scheduler under a simulated clock",
+      "vitrail plan");
   Arguments a;
   app.add_option("bundle", a.bundle, "bundle (NAME.vit)")->required();
-  app.add_option("--profile", a.profile, "what `vitrail render --profile` wrote of it")->required();
+  app.add_option("--profile", a.profile, "the file of `vitrail render --profile` for this bundle")
+      ->required();
   app.add_option("--ranks", a.ranks, "numbers of ranks; default: 1, 2, 4 … 1024")
       ->delimiter(',')
       ->check(CLI::Range(1, 100000));
-  app.add_option("--threads", a.threads, "of a rank; default 16")->check(CLI::Range(1, 4096));
+  app.add_option("--threads", a.threads, "threads of a rank; default: 16")->check(CLI::Range(1, 4096));
   declare_distribution(app, a.distribution, a.homes);
-  app.add_option("--memory", a.memory, "of a rank, as for render; default: no limit");
-  app.add_option("--times", a.pictures, "as many times the samples of the profile")->check(more_than_0);
-  app.add_option("--latency", a.latency_us, "of a message, µs; default 5")->check(not_below_0);
-  app.add_option("--network", a.network, "bytes a second that a rank sends; default 12G");
-  app.add_option("--disk-latency", a.disk_latency_ms, "of a file, ms; default 1")->check(not_below_0);
-  app.add_option("--disk", a.disk, "bytes a second that a disk reads; default 1G");
-  app.add_option(
-      "--scratch", a.scratch,
-      "bytes a second that the disk takes, and gives, of rays that memory has no room for; default 1G");
+  app.add_option("--memory", a.memory, "memory of a rank, as for render; default: no limit");
+  app.add_option("--times", a.pictures, "simulate this many times the samples of the profile")
+      ->check(more_than_0);
+  app.add_option("--latency", a.latency_us, "latency of a message, µs; default: 5")->check(not_below_0);
+  app.add_option("--network", a.network, "bytes a second that a rank sends; default: 12G");
+  app.add_option("--disk-latency", a.disk_latency_ms, "latency of a file, ms; default: 1")
+      ->check(not_below_0);
+  app.add_option("--disk", a.disk, "bytes a second that a disk reads; default: 1G");
+  app.add_option("--scratch", a.scratch,
+                 "bytes a second that the disk writes and reads for rays beyond the memory; default: 1G");
   app.add_option("--ranks-a-disk", a.ranks_of_a_disk,
-                 "that read from one, one file after the other; default 1")
+                 "ranks that share a disk and read one file after the other; default: 1")
       ->check(CLI::Range(1, 100000));
-  app.add_option("--svg", a.svg, "seconds and efficiency as a plot");
+  app.add_option("--svg", a.svg, "write a plot of seconds and efficiency");
   app.add_option("--domain-memory", a.domain_memory)->group("");
   app.add_flag("--json", a.json, "print JSON");
   return run_guarded(app, argc, argv, [&] { return plan(a); });

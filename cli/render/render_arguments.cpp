@@ -27,96 +27,90 @@ namespace {
 void declare_files(CLI::App& app, RenderArguments& a) {
   app.add_option("input", a.input, "a bundle (NAME.vit) or a scene, which is partitioned first")->required();
   app.add_option("-o,--output,--outfile", a.output,
-                 "picture (.exr, .png, .jpg, .tif) or film (.film); default: as the scene's film says, else "
-                 "the input's name with .exr, here");
-  app.add_option(
-      "--film", a.film,
-      "keep the film of the picture under this name (.film): more samples can be added to it later");
+                 "picture (.exr, .png, .jpg, .tif) or film (.film) to write; default: the scene's name for "
+                 "it, else the input's name with .exr, in this folder");
+  app.add_option("--film", a.film, "keep the film under this name (.film), to add samples later");
 }
 
 // How many samples.
 void declare_samples(CLI::App& app, RenderArguments& a) {
   RenderOptions& o = a.options;
-  app.add_option("--spp", o.picture.samples_per_pixel, "samples a pixel; default: as the scene says")
+  app.add_option("--spp", o.picture.samples_per_pixel, "samples a pixel; default: the scene's")
       ->check(more_than_0);
   app.add_flag("--adaptive,!--no-adaptive", o.picture.adaptive,
-               "more samples where the picture is noisy, fewer elsewhere; --spp is the mean then");
+               "more samples where the picture is noisy, fewer elsewhere; --spp is then the mean");
   app.add_option(
       "--target-error", a.target_error,
-      "render until the relative mean squared error of luminance is below this, e.g. 0.01, or what "
-      "is seen of it, e.g. 1jnd: one just noticeable difference; --spp is the most then");
+      "render until the error is below this: the relative mean squared error of luminance, e.g. 0.01, or the "
+      "visible error, e.g. 1jnd: one just noticeable difference. --spp is then the most");
   app.add_option("--quality", a.quality,
-                 "draft, good or final: until noise is seen, hardly seen or not seen; sets --target-error, "
-                 "--spp and --adaptive where they are not given")
+                 "noise is visible (draft), hardly visible (good) or invisible (final); sets --target-error, "
+                 "--spp and --adaptive unless they are given")
       ->check(CLI::IsMember(qualities()));
 }
 
 void declare_denoiser(CLI::App& app, RenderArguments& a) {
   app.add_flag("--denoise", a.denoised,
-               "estimate the noise of the picture away, by develop --denoise; without --aov the film also "
-               "keeps the albedo and normals that guide it, and else stays what it is");
+               "remove noise from the picture, by develop --denoise. The film keeps its noise, and without "
+               "--aov also gets the albedo and normals that guide the denoiser");
 }
 
 // What of the scene is seen, and by which paths.
 void declare_picture(CLI::App& app, RenderArguments& a) {
   RenderOptions& o = a.options;
-  app.add_option(
-         "--max-depth", a.max_depth,
-         "scattering events of a path; 0: emitters only, 1: direct light, -1: no limit; default: as the "
-         "scene says")
+  app.add_option("--max-depth", a.max_depth,
+                 "most scattering events of a path; 0: emitters only, 1: direct light, -1: no limit; "
+                 "default: the scene's")
       ->check(CLI::Range(-1, 1'000'000));
   app.add_option("--width", o.picture.width,
-                 "pixels; default: as the scene says, or in proportion to --height")
+                 "width of the picture in pixels; default: the scene's, or in proportion to --height")
       ->check(CLI::Range(1, 1 << 20));
   app.add_option("--height", o.picture.height,
-                 "pixels; default: as the scene says, or in proportion to --width")
+                 "height of the picture in pixels; default: the scene's, or in proportion to --width")
       ->check(CLI::Range(1, 1 << 20));
-  app.add_option("--scale", o.picture.scale, "times the width and height that the scene says")
+  app.add_option("--scale", o.picture.scale, "multiply the scene's width and height by this")
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str();
-  app.add_option("--seed", o.picture.seed, "films of different seeds are independent")
+  app.add_option("--seed", o.picture.seed,
+                 "number that starts all randomness: films of different seeds have independent noise")
       ->check(not_below_0)
       ->capture_default_str();
   app.add_option("--integrator", a.integrator,
-                 "path; direct: light from lamps alone, also through glass and by mirrors; or photon: photon "
-                 "mapping, "
-                 "for caustics; default: as the scene says")
+                 "path: all light; direct: light from lamps only, also through glass and by mirrors; photon: "
+                 "photon mapping, for caustics; default: the scene's")
       ->check(CLI::IsMember({"path", "direct", "photon"}));
   declare_sample_options(app, a.samples);
   app.add_option("--look-at", a.look_at,
-                 "x,y,z of the eye, x,y,z of what it looks at and, unless it stays as it was, x,y,z of the "
-                 "direction that is up: a camera that stands still there, without partitioning again");
+                 "move the camera without partitioning again: x,y,z of the eye, x,y,z of the point that it "
+                 "looks at and, if it changes, x,y,z of the direction up. The camera then stands still");
   app.add_option("--fov", o.picture.view.fov_deg,
-                 "degrees that a perspective camera sees along the shorter side of the picture")
+                 "field of view of a perspective camera along the shorter side of the picture")
       ->check(CLI::Range(0.001, 179.999));
   app.add_option("--set", a.settings,
-                 "change the scene without partitioning it again; may repeat. Of lights, by the names that "
-                 "inspect lists: NAME.scale=2, of a sky NAME.sun=X:Y:Z (towards it) and NAME.turbidity=3; of "
-                 "materials NAME.color=R:G:B, NAME.roughness=0.2; of glass that switches NAME.state=0.6, "
+                 "change the scene without partitioning it again; may repeat. Lights, by the names of "
+                 "inspect: NAME.scale=2; a sky: NAME.sun=X:Y:Z (towards it) and NAME.turbidity=3. Materials: "
+                 "NAME.color=R:G:B, NAME.roughness=0.2. Glass that switches: NAME.state=0.6, "
                  "NAME.temperature (°C), NAME.uv (W/m²), NAME.seconds")
       ->allow_extra_args(false);
   app.add_option("--threshold", o.picture.threshold,
-                 "of --integrator direct: end a path that brings less than this share of what it sees, e.g. "
-                 "0.01; no pixel becomes darker by more than this share of the brightest that is seen")
+                 "of --integrator direct: end a path that brings less than this share of the light that it "
+                 "sees, e.g. 0.01. No pixel becomes darker by more than this share of the brightest light")
       ->check(CLI::Range(0.0, 0.999))
       ->capture_default_str();
 }
 
 void declare_photons(CLI::App& app, RenderOptions& o) {
-  app.add_option(
-         "--photons", o.picture.photons.photons,
-         "of --integrator photon, an iteration, which is a sample of every pixel; default: as the scene "
-         "says, else as many as the picture has pixels, at least 65536")
+  app.add_option("--photons", o.picture.photons.photons,
+                 "photons of an iteration; an iteration is one sample of every pixel; default: the scene's, "
+                 "else as many as pixels, at least 65536")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31));
-  app.add_option(
-         "--photon-radius", o.picture.photons.first_radius,
-         "around a point in which the first iteration gathers photons, in scene units; default: as the "
-         "scene says, else by its extent and their number")
+  app.add_option("--photon-radius", o.picture.photons.first_radius,
+                 "radius in which the first iteration gathers photons, in scene units; default: the scene's, "
+                 "else from its extent and the number of photons")
       ->check(more_than_0);
-  app.add_option(
-         "--photon-alpha", o.picture.photons.alpha,
-         "between 0 and 1: how fast the radius shrinks, from fast and noisy to slow and blurred; default: "
-         "as the scene says, else 0.667")
+  app.add_option("--photon-alpha", o.picture.photons.alpha,
+                 "how fast the radius shrinks, between 0 (fast, noisy) and 1 (slow, blurred); default: the "
+                 "scene's, else 0.667")
       ->check(CLI::Range(0.01, 0.99));
 }
 
@@ -131,36 +125,34 @@ void declare_resources(CLI::App& app, RenderArguments& a) {
 // What the film keeps.
 void declare_film(CLI::App& app, RenderArguments& a) {
   RenderOptions& o = a.options;
-  app.add_option("--crop,--pixelbounds", a.crop, "x0,x1,y0,y1 in pixels from the top left; default: all");
-  app.add_option(
-         "--spectral", a.bins,
-         "keep the spectrum of each pixel in this many bins over 360 to 830 nm; default: as the scene says")
+  app.add_option("--crop,--pixelbounds", a.crop,
+                 "render this rectangle only: x0,x1,y0,y1 in pixels from the top left; default: all");
+  app.add_option("--spectral", a.bins,
+                 "keep the spectrum of each pixel in this many bins over 360 to 830 nm; default: the scene's")
       ->check(CLI::Range(1, max_spectral_bins));
-  app.add_option(
-         "--clamp", o.picture.clamp,
-         "cut what one connection of a path adds to a sample down to this, in the picture's units: fewer "
-         "bright specks, but a darker picture, and the film says by how much; 0: no limit")
+  app.add_option("--clamp", o.picture.clamp,
+                 "limit the light that one connection of a path adds to a sample, in the picture's units; 0: "
+                 "no limit. Fewer bright specks, but a darker picture; the film records by how much")
       ->check(not_below_0)
       ->capture_default_str();
   app.add_option("--aov", a.aov, layers_help);
   app.add_option("--aov-space", a.aov_space,
-                 "world or camera: of positions and normals of --aov; default: as the scene says, else world")
+                 "space of positions and normals of --aov; default: the scene's, else world")
       ->check(CLI::IsMember({"world", "camera"}));
   app.add_flag("--alpha", a.alpha,
-               "the picture has a channel of how much of a pixel something covers: surfaces and what media "
-               "scatter, but no surroundings; .exr and .png keep it");
+               "write an alpha channel (.exr and .png): the share of a pixel that surfaces and scattering "
+               "media cover; surroundings do not count");
   // Not by its address: CLI11 would count it, and say false where it is not given.
   app.add_flag_function(
       "--hide-emitters,!--show-emitters", [&o](std::int64_t given) { o.picture.hides_emitters = given > 0; },
-      "lamps and surroundings light the scene, but the camera does not see them directly; default: as the "
+      "the camera does not see lamps and surroundings directly; they still light the scene; default: as the "
       "scene says");
   app.add_flag("--light-groups", o.picture.light_groups.each,
-               "keep the light of each lamp apart in the film, by the names that inspect lists; develop "
-               "--groups weighs them; takes 48 bytes a pixel each");
-  app.add_option(
-         "--light-group", a.light_groups,
-         "NAME=LIGHT,LIGHT…: keep the light of these apart, together under this name; * stands for any "
-         "characters; lights in no group are \"others\"; may repeat")
+               "keep the light of each lamp apart in the film, by the names of inspect, for develop "
+               "--groups; 48 bytes a pixel for each lamp");
+  app.add_option("--light-group", a.light_groups,
+                 "NAME=LIGHT,LIGHT…: keep the light of these lamps apart, together under NAME; * stands for "
+                 "any characters; lights in no group are \"others\"; may repeat")
       ->allow_extra_args(false);
 }
 
@@ -168,70 +160,65 @@ void declare_film(CLI::App& app, RenderArguments& a) {
 void declare_job(CLI::App& app, RenderArguments& a) {
   RenderOptions& o = a.options;
   app.add_option("--patience", o.resources.patience_s,
-                 "seconds; a rank, or a file that one waits for, that does not answer for so long is named "
-                 "and ends the job; default 600, 0: never")
+                 "seconds after which a rank or a file without an answer ends the job, with its name; "
+                 "default: 600, 0: never")
       ->check(not_below_0);
   app.add_option("--checkpoint-every", o.resources.checkpoint_every_s,
-                 "seconds between checkpoints; 0: none but those that signals ask for")
+                 "seconds between checkpoints; 0: only on signals")
       ->check(not_below_0)
       ->capture_default_str();
-  app.add_flag(
-      "--resume", o.outputs.resume,
-      "say so where there is nothing to go on from; going on with a render that was begun, or adding "
-      "samples to a finished one, needs no option");
-  app.add_flag(
-      "--force", o.outputs.force,
-      "begin anew, and replace the film, checkpoint or picture of others that has the output's name");
-  app.add_option("--time", o.resources.time_limit_s,
-                 "end after this many seconds, partitioning and the picture's file included, with what there "
-                 "is, and without --spp not before; the same command then goes on. Tracing has half of them "
-                 "at least, and some samples are always finished")
+  app.add_flag("--resume", o.outputs.resume,
+               "report it if there is no render to continue. With or without this option, a render that was "
+               "begun continues, and a finished film gets more samples");
+  app.add_flag("--force", o.outputs.force,
+               "begin anew, and replace any film, checkpoint or picture that has the output's name");
+  app.add_option(
+         "--time", o.resources.time_limit_s,
+         "end after this many seconds, with partitioning and writing the picture. Without --spp it uses all "
+         "of them. Tracing gets at least half, and finishes some samples. The same command then continues")
       ->check(more_than_0);
   app.add_flag("--dry-run", o.outputs.dry_run,
-               "render for a few seconds, write nothing, and say what memory and time it would all take");
-  app.add_option(
-         "--restarts", a.restarts,
-         "start again as often as this where the render is killed or the machine fails it; it goes on "
-         "from its checkpoint")
+               "render for a few seconds, write nothing, and print the memory and time of the whole render");
+  app.add_option("--restarts", a.restarts,
+                 "start again at most this often if the render is killed or the machine fails; it continues "
+                 "from its checkpoint")
       ->check(CLI::Range(0, 1'000'000));
-  app.add_option("--launcher", a.launcher, "with --restarts: what starts the ranks, e.g. 'mpirun -np 8'");
+  app.add_option("--launcher", a.launcher,
+                 "with --restarts: the command that starts the ranks, e.g. 'mpirun -np 8'");
 }
 
 // What is written besides.
 void declare_outputs(CLI::App& app, RenderArguments& a) {
   RenderOptions& o = a.options;
+  app.add_option("--sensors", o.picture.sensors,
+                 "measure irradiance instead of rendering a picture. The text has lines of x y z nx ny nz, "
+                 "or plane O U V NXxNY. Each sensor gets 16 times --spp samples; develop writes the .csv");
   app.add_option(
-      "--sensors", o.picture.sensors,
-      "measure irradiance instead of a picture: a text of x y z nx ny nz lines, or plane O U V NXxNY; "
-      "each sensor gets 16 times --spp samples; develop writes the .csv");
-  app.add_option("--frames", a.frames,
-                 "a text with a line of --camera, --look-at, --fov, --set, --seed or --spp for each picture "
-                 "of a bundle; "
-                 "--output has %04d for its number, from 1. Pictures that are there stay, unless --force");
-  app.add_option(
-      "--preview", a.preview,
-      "a picture of what is done, .png or another: at once, after twice the time and so on, and where "
-      "the render is stopped");
+      "--frames", a.frames,
+      "render a picture of a bundle for each line of this text: --camera, --look-at, --fov, --set, --seed or --spp. "
+      "--output has %04d for its number, from 1. Existing pictures stay, unless --force");
+  app.add_option("--preview", a.preview,
+                 "write the picture so far to this file, .png or another: soon, after twice the time and so "
+                 "on, and when the render is stopped");
   app.add_option("--display-server", a.display_server,
-                 "HOST:PORT of a viewer that shows what is done as often as that, tev for example");
+                 "send the picture so far, as often as --preview, to a viewer such as tev at HOST:PORT");
   app.add_option("--stats", o.outputs.stats, "write statistics as JSON");
   app.add_option("--profile", o.outputs.profile,
-                 "write where rays went, for `partition --profile` and `plan`");
+                 "write how many rays each domain traced and sent on, for `partition --profile` and `plan`");
   app.add_option("--trace", o.outputs.trace,
-                 "write what each thread of each rank did when: loads, batches, idleness, messages; opens in "
-                 "Perfetto (ui.perfetto.dev)");
+                 "write the activity of each thread of each rank over time: loads, batches, idleness, "
+                 "messages; for Perfetto (ui.perfetto.dev)");
 }
 
 // What is said, and what is refused.
 void declare_words(CLI::App& app, RenderArguments& a) {
   app.add_option("--progress", a.progress,
-                 "bar; lines: soon one, at last one a minute; json: lines of it on standard output, the last "
-                 "with the event "
-                 "\"end\"; none; auto: a bar on a terminal, else lines")
+                 "auto: a bar on a terminal, else lines; lines: more often at first, at last one a minute; "
+                 "json: lines of JSON on standard output, the last with the event \"end\"")
       ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
       ->capture_default_str();
   app.add_flag("--strict", a.strict, "refuse a scene that is not imported exactly");
-  app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
+  app.add_flag("--quiet", a.quiet, "print problems only");
 }
 
 // For tests: not in the help.

@@ -45,39 +45,37 @@ Filter parse_filter(const std::string& text) {
 }  // namespace
 
 void declare_sample_options(CLI::App& app, SampleArguments& a) {
-  app.add_option(
-      "--filter", a.filter,
-      "NAME or NAME:RADIUS in pixels: box, triangle, gaussian, mitchell or sinc over the samples of "
-      "a pixel; default: as the scene says");
+  app.add_option("--filter", a.filter,
+                 "pixel filter, NAME or NAME:RADIUS in pixels: box, triangle, gaussian, mitchell or sinc; "
+                 "default: the scene's");
   app.add_flag("--splat", a.splat,
-               "each sample adds to all pixels that the filter reaches from it, by its values, instead of to "
-               "one: less noise, and neighbours alike; the border of a crop has what falls inside");
+               "each sample adds to all pixels that the filter reaches, not only to one: less noise, but the "
+               "noise of neighbours is alike. At the border of a crop, samples from outside are missing");
   app.add_flag("--one-sequence", a.one_sequence,
-               "the samples of a pixel are spread out together instead of in two groups: less noise, and the "
-               "film does not know how much");
+               "the samples of a pixel are spread out together instead of in two groups: less noise, but the "
+               "film does not know its error");
   app.add_option("--texture-filter", a.texture_filter,
-                 "none: images are as fine far away as near; nearest: their texels are seen as squares too; "
-                 "default: as the scene says of each")
+                 "none: distant textures are not blurred; nearest: not blurred, and texels are squares; "
+                 "default: the scene's for each texture")
       ->check(CLI::IsMember({"none", "nearest"}));
-  app.add_option(
-         "--roulette", a.roulette,
-         "paths end by chance once they carry less than all of a camera ray (early), less than a quarter of "
-         "it (usual), or not in the first 254 events (never): the same picture, quicker and noisier or "
-         "slower "
-         "and less so")
+  app.add_option("--roulette", a.roulette,
+                 "when paths may end by chance: once they carry less than a camera ray (early), less than a "
+                 "quarter of it (usual), or after 254 events (never). Early is quicker and noisier, never is "
+                 "slower; the mean is the same")
       ->check(CLI::IsMember({"early", "usual", "never"}))
       ->capture_default_str();
-  app.add_option("--wavelengths", a.wavelengths, "of a path: 4, or 1, which has more noise of colour")
+  app.add_option("--wavelengths", a.wavelengths,
+                 "wavelengths of a path: 4, or 1, which has more colour noise")
       ->check(CLI::IsMember({1, 4}))
       ->capture_default_str();
   app.add_option("--light-sampling", a.light_sampling,
-                 "choose among lamps by what each can send to a point (tree), or by their power alone, which "
-                 "is quicker where they are few")
+                 "choose lamps by the light that each can send to a point (tree), or by power alone, which "
+                 "is quicker for few lamps")
       ->check(CLI::IsMember({"tree", "power"}))
       ->capture_default_str();
   app.add_option("--light-candidates", a.light_candidates,
-                 "points on lamps that are looked at before one is connected to, where the camera sees the "
-                 "surface and the lamps differ")
+                 "points on lamps to compare before a connection, where the camera sees the surface and the "
+                 "lamps differ")
       ->check(CLI::Range(1u, most_light_candidates))
       ->capture_default_str();
 }

@@ -61,7 +61,7 @@ void print(const std::filesystem::path& bundle, const VerifyResult& r, bool quie
 
 int main(int argc, char** argv) {
   using namespace vitrail;
-  CLI::App app("reads every byte of a bundle and says what is wrong with it", "vitrail verify");
+  CLI::App app("reads every byte of a bundle and reports damage", "vitrail verify");
   std::filesystem::path bundle;
   bool json = false, quiet = false, strict = false;
   VerifyOptions options;

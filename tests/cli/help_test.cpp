@@ -69,7 +69,7 @@ TEST(Help, StandsUnderHeadings) {
   EXPECT_THAT(headings,
               ElementsAre("Examples:", "What to render:", "How good:", "How long:", "On how many:",
                           "In how much memory:", "What to write:", "How to sample:", "Photon mapping:",
-                          "How the scene is read:", "What becomes of its meshes:", "Help:"));
+                          "How the scene is read:", "Changes to its meshes:", "Help:"));
   for (const Verb& verb : verbs())
     EXPECT_THAT(help_of(verb.name), Not(HasSubstr("Other options"))) << verb.name;
 }
