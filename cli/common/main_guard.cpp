@@ -148,6 +148,8 @@ int run_guarded(CLI::App& app, int argc, char** argv, const std::function<int()>
       return answer(help_text(describe(app), help_width()));
     } catch (const CLI::CallForVersion& e) {
       return answer(std::string(e.what()) + '\n');
+    } catch (const CLI::Success&) {  // an option that answers by itself, as develop --find-denoiser
+      return answer({});
     } catch (const CLI::ExtrasError&) {
       throw UsageError(fmt::format("{} (see {} --help)", about_unexpected(app), app.get_name()));
     } catch (const CLI::ParseError& e) {

@@ -193,10 +193,10 @@ void declare_outputs(CLI::App& app, RenderArguments& a) {
   app.add_option("--sensors", o.picture.sensors,
                  "measure irradiance instead of rendering a picture. The text has lines of x y z nx ny nz, "
                  "or plane O U V NXxNY. Each sensor gets 16 times --spp samples; develop writes the .csv");
-  app.add_option(
-      "--frames", a.frames,
-      "render a picture of a bundle for each line of this text: --camera, --look-at, --fov, --set, --seed or --spp. "
-      "--output has %04d for its number, from 1. Existing pictures stay, unless --force");
+  app.add_option("--frames", a.frames,
+                 "render a picture of a bundle for each line of this text: --camera, --look-at, --fov, "
+                 "--set, --seed or --spp. "
+                 "--output has %04d for its number, from 1. Existing pictures stay, unless --force");
   app.add_option("--preview", a.preview,
                  "write the picture so far to this file, .png or another: soon, after twice the time and so "
                  "on, and when the render is stopped");

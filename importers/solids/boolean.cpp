@@ -6,6 +6,7 @@
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <cmath>
@@ -49,6 +50,27 @@ std::optional<OperandMesh> operand_mesh(const Solid& solid, std::uint32_t operan
   std::uint32_t triangle = 0;
   for (const Face f : made.mesh.faces()) made.from[f] = 2 * triangle++ + operand;
   return made;
+}
+
+// Without the triangles of no area that the rounding of earlier cuts leaves. Faces that fill their places
+// come from where a neighbour does.
+void clean(OperandMesh& operand) {
+  Mesh& mesh = operand.mesh;
+  pmp::remove_degenerate_faces(mesh);
+  constexpr std::uint32_t nowhere = 0xffffffff;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Face f : mesh.faces()) {
+      if (operand.from[f] != nowhere) continue;
+      for (const auto edge : mesh.halfedges_around_face(mesh.halfedge(f))) {
+        const Face other = mesh.face(mesh.opposite(edge));
+        if (other == Mesh::null_face() || operand.from[other] == nowhere) continue;
+        operand.from[f] = operand.from[other];
+        changed = true;
+        break;
+      }
+    }
+  }
 }
 
 // Passes origins on to the parts and copies of faces.
@@ -145,12 +167,14 @@ constexpr const char* intersects_itself = "an operand intersects itself";
 
 // Carries out `compute(mesh a, mesh b, output, visitor)`, which says whether there is a result.
 template <class Compute>
-BooleanResult attempt(const Solid& a, const Solid& b, bool turn_second, bool closed, Compute&& compute) {
+BooleanResult attempt_once(const Solid& a, const Solid& b, bool turn_second, bool closed, bool cleaned,
+                           Compute&& compute) {
   auto first = operand_mesh(a, 0), second = operand_mesh(b, 1);
   if (!first || !second) return {{}, not_manifold};
   Mesh out;
   std::map<const Mesh*, Origins> known{{&first->mesh, first->from}, {&second->mesh, second->from}};
   try {
+    if (cleaned) clean(*first), clean(*second);
     const Mesh* result = compute(first->mesh, second->mesh, out, PassOrigins(known));
     if (!result) return {{}, touches_itself};
     if (result->number_of_faces() == 0) return {Solid{}, {}};
@@ -160,6 +184,13 @@ BooleanResult attempt(const Solid& a, const Solid& b, bool turn_second, bool clo
   } catch (const std::exception& error) {
     return {{}, std::string("CGAL refuses: ") + error.what()};
   }
+}
+
+template <class Compute>
+BooleanResult attempt(const Solid& a, const Solid& b, bool turn_second, bool closed, Compute&& compute) {
+  BooleanResult result = attempt_once(a, b, turn_second, closed, false, compute);
+  if (result.reason == intersects_itself) result = attempt_once(a, b, turn_second, closed, true, compute);
+  return result;
 }
 
 // Without and then with a tiny shift of the second operand.

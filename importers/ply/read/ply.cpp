@@ -107,7 +107,8 @@ void report_skipped(const Header& header, const BodyPlan& plan, const Attributes
       continue;
     }
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
-      if (is_used(plan, attributes, e, i) || (corner_uvs && *corner_uvs == i && e == plan.faces->element)) continue;
+      if (is_used(plan, attributes, e, i) || (corner_uvs && *corner_uvs == i && e == plan.faces->element))
+        continue;
       const Property& property = element.properties[i];
       diagnostics.push_back({Fidelity::dropped,
                              fmt::format("property {} of element {}", property.name, element.name),

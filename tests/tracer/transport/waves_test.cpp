@@ -159,7 +159,6 @@ std::vector<Case> cases() {
          add_ball(s, material(DiffuseMaterial{}), AreaLight{ConstantSpectrum{4}});
          s.lights.push_back(Light{InfiniteLight{ConstantSpectrum{0.5f}}});
          s.settings.hides_emitters = true;
-         s.film.layers.add(Layer::alpha);
        }},
       {"an open box under a sky",
        [](Scene& s) {
