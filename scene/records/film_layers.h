@@ -41,6 +41,7 @@ struct LayerKind {
   bool is_length, has_frame;
   bool is_matte = false;
 
+  // A number of what is seen, which is not added up.
   constexpr bool is_id() const { return sums == 0 && !is_matte; }
 };
 inline constexpr std::array<LayerKind, layer_count> layer_kinds{
