@@ -177,7 +177,7 @@ TEST_F(Mistakes, HelpSaysWhatHappensWithoutAnOption) {
   }
   for (const char* option :
        {"--spp", "--seed", "--max-depth", "--memory", "--threads", "--crop", "--progress"}) {
-    const std::size_t at = help.output.find(std::string("  ") + option);
+    const std::size_t at = help.output.find(std::string("\n  ") + option);
     const std::size_t named = at == std::string::npos ? help.output.find(option) : at;
     ASSERT_NE(named, std::string::npos) << option;
     const std::string entry = help.output.substr(named, 400);
