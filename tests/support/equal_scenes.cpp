@@ -42,7 +42,10 @@ class Renumbering {
     copy(id, media_, from_.media, to.media, [](Medium& medium) { medium.name.clear(); });
   }
   void use(Id<AreaLight>& id) {
-    copy(id, area_lights_, from_.area_lights, to.area_lights, [&](AreaLight& light) { use(light.radiance); });
+    copy(id, area_lights_, from_.area_lights, to.area_lights, [&](AreaLight& light) {
+      light.name.clear();
+      use(light.radiance);
+    });
   }
   void use(Id<Prototype>& id) {
     copy(id, prototypes_, from_.prototypes, to.prototypes, [&](Prototype& prototype) {
@@ -63,6 +66,7 @@ class Renumbering {
     if (shape.exterior) use(*shape.exterior);
   }
   void use(Light& light) {
+    light.name.clear();
     if (auto* projection = std::get_if<ProjectionLight>(&light.model)) use(projection->image);
     if (auto* spot = std::get_if<SpotLight>(&light.model); spot && spot->texture) use(*spot->texture);
   }
