@@ -35,7 +35,7 @@ LightNames light_names(const Manifest& m) {
     names.lights.push_back(name_of(light.name, kind_of(light.model), ++number));
   for (const Medium& medium : m.media) {
     const bool shines = medium.emission || medium.temperature;
-    names.media.push_back(shines ? name_of(medium.name, "medium", names.media.size() + 1) : "");
+    names.media.push_back(shines ? fmt::format("medium-{}", names.media.size() + 1) : "");
   }
   return names;
 }

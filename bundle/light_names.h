@@ -16,7 +16,8 @@ struct LightNames {
   std::vector<std::string> media;  // that shine; "" of others
 };
 
-// "lamp", "area-3": numbers are those that `inspect` lists lights by, area lights first, from 1.
+// "lamp", "area-3": numbers are those that `inspect` lists lights by, area lights first, from 1; of media,
+// "medium-2", those of the manifest.
 LightNames light_names(const Manifest& manifest);
 
 }  // namespace vitrail

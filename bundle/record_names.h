@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names that a scene's file gives its materials, lights and media. They are no part of the scene's hash:
+// The names that a scene's file gives its materials and lights. They are no part of the scene's hash:
 // a name changes no picture.
 #pragma once
 

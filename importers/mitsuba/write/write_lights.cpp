@@ -163,16 +163,21 @@ void write(Context&, Element root, const SkyLight& light) {
 
 void write_lights(Context& context, Element root) {
   join_surroundings(context, context.exposed.lights, "Mitsuba", context.images, context.file.parent_path());
-  for (const Light& light : context.exposed.lights) {
+  for (std::size_t i = 0; i < context.exposed.lights.size(); ++i) {
+    const Light& light = context.exposed.lights[i];
     context.begin(RecordKind::light, light.origin);
+    const Element before = root.last_child();
     std::visit([&](const auto& model) { write(context, root, model); }, light.model);
+    if (Element made = before.next_sibling("emitter"); made && !light.name.empty())
+      made.append_attribute("id") = context.new_id(light.name, "light", i).c_str();
   }
 }
 
 void write_area_light(Context& context, Element shape, const AreaLight& light) {
   context.begin(RecordKind::area_light, light.origin);
   if (!light.sampled) context.approximated("it lights the scene: Mitsuba has none that shines and does not");
-  Element element = add(shape, "emitter", light.directional ? "directionalarea" : "area");
+  Element element = add(shape, "emitter", light.directional ? "directionalarea" : "area", "",
+                        light.name.empty() ? "" : context.new_id(light.name, "area", 0));
   if (light.directional)
     context.approximated("Mitsuba's path tracers show nothing of a directionalarea; its ptracer does");
   if (const auto radiance = value_of(context, light.radiance))

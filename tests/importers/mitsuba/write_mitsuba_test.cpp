@@ -475,6 +475,18 @@ TEST_F(WriteMitsuba, ExposureIsInTheLights) {
   EXPECT_EQ(value(write(scene).child("emitter"), "radiance"), "6");  // of both
 }
 
+TEST_F(WriteMitsuba, LightsKeepTheirNames) {
+  Scene scene = square_scene({});
+  scene.lights = {{PointLight{{1, 2, 3}, ConstantSpectrum{3}}, {}, "bulb"}};
+  scene.area_lights.push_back({.radiance = ConstantSpectrum{5}, .name = "panel"});
+  scene.shapes[0].area_light = Id<AreaLight>{0};
+  const auto root = write(scene);
+  EXPECT_STREQ(root.child("emitter").attribute("id").value(), "bulb");
+  EXPECT_STREQ(root.child("shape").child("emitter").attribute("id").value(), "panel");
+  scene.lights[0].name = "", scene.area_lights[0].name = "";
+  EXPECT_FALSE(write(scene).child("emitter").attribute("id"));
+}
+
 TEST_F(WriteMitsuba, LightsThatMitsubaDoesNotHave) {
   Scene scene = square_scene({});
   EnvironmentLight light;
