@@ -144,8 +144,8 @@ class TexelMaker {
       if (format_ <= TexelFormat::vector_float || by_matrix_r(format_))
         for (std::size_t p = range.begin(); p != range.end(); ++p) words[p] = word(color_at(image, p), known);
       else
-        for (std::size_t p = range.begin(); p < range.end(); p += 4)
-          sigmoid_words(image, p, std::min(p + 4, range.end()), words, known);
+        for (std::size_t p = range.begin(); p < range.end(); p += reflectance_batch)
+          sigmoid_words(image, p, std::min(p + reflectance_batch, range.end()), words, known);
     });
     return words;
   }
@@ -166,26 +166,25 @@ class TexelMaker {
     return k.words;
   }
 
-  // Of four pixels, or of fewer at the end.
+  // Of at most reflectance_batch pixels.
   void sigmoid_words(const Image& image, std::size_t first, std::size_t end, std::vector<TexelWords>& words,
                      std::vector<Known>& known) const {
-    std::array<Color, 4> colors, scaled;
-    std::array<float, 4> scales;
-    for (std::size_t l = 0; l < 4; ++l) {
-      colors[l] = color_at(image, std::min(first + l, end - 1));
+    std::array<Color, reflectance_batch> colors, scaled;
+    std::array<float, reflectance_batch> scales;
+    std::array<std::optional<SigmoidNodes>, reflectance_batch> nodes;
+    const std::size_t count = end - first;
+    for (std::size_t l = 0; l < count; ++l) {
+      colors[l] = color_at(image, first + l);
       scales[l] = scale_of(colors[l], format_);
       for (std::size_t k = 0; k < 3; ++k) scaled[l][k] = colors[l][k] / scales[l];
     }
-    const auto nodes = table_.of_four(scaled);
-    for (std::size_t p = first; p < end; ++p) {
-      const std::size_t l = p - first;
-      words[p] = nodes[l] ? pack({*nodes[l], scales[l]}) : word(colors[l], known);
-    }
+    tabulated_reflectances({scaled.data(), count}, {nodes.data(), count});
+    for (std::size_t l = 0; l < count; ++l)
+      words[first + l] = nodes[l] ? pack({*nodes[l], scales[l]}) : word(colors[l], known);
   }
 
   TexelFormat format_;
   const ReflectanceFitter& fitter_;
-  ReflectanceTable table_;
   std::size_t most_known_;
   tbb::enumerable_thread_specific<std::vector<Known>> known_;
 };

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <span>
 
 #include "bundle/texel.h"
 
@@ -14,28 +16,19 @@ namespace vitrail {
 // 360, 595 and 830 nm, and its slopes. Cells interpolate with cubics (Hermite's, without mixed derivatives).
 //
 // S differs from that of reflectance_from_rgb by less than 5e-4, and by 5e-6 in the mean: a cell is only used
-// where it agrees with fits at five places within `trusted_difference`. Bright colours are looked up by
-// their complement: 1 − S has the colour 1 − c, and −x. Cells very near black, white and some edges of the
-// gamut are not used.
+// where it agrees with fits at five places within `ReflectanceChart::trusted_difference`. Bright colours are
+// looked up by their complement: 1 − S has the colour 1 − c, and −x. Cells very near black, white and some
+// edges of the gamut are not used.
 //
-// Vertices and cells are made when they are first asked for, once in a process. What they hold depends on
-// nothing, so that the result is a pure function of the colour, the same on every machine and for any number
-// of threads. Safe to use from many threads.
-class ReflectanceTable {
- public:
-  ReflectanceTable();
+// The table is made while the project is built (make_reflectance_table.cpp), and takes 5 MB of the programs
+// that bake images.
 
-  // Linear sRGB. Nothing for greys, for what is outside [0,1], and where the table is not close enough: those
-  // colours are to be fitted.
-  std::optional<SigmoidNodes> operator()(const std::array<float, 3>& color) const;
-  // The same of four at once, in less time.
-  std::array<std::optional<SigmoidNodes>, 4> of_four(const std::array<std::array<float, 3>, 4>& colors) const;
-
-  static constexpr double trusted_difference = 1e-4;  // of S
-
- private:
-  struct Charts;
-  Charts& charts_;
-};
+// Linear sRGB. Nothing for greys, for what is outside [0,1], and where the table is not close enough: those
+// colours are to be fitted.
+std::optional<SigmoidNodes> tabulated_reflectance(const std::array<float, 3>& color);
+// The same of several, at most reflectance_batch, in less time.
+inline constexpr std::size_t reflectance_batch = 64;
+void tabulated_reflectances(std::span<const std::array<float, 3>> colors,
+                            std::span<std::optional<SigmoidNodes>> nodes);
 
 }  // namespace vitrail

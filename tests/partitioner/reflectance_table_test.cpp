@@ -8,8 +8,6 @@
 #include <functional>
 #include <limits>
 #include <random>
-#include <thread>
-#include <vector>
 
 #include "scene/spectra/rgb_to_spectrum.h"
 
@@ -44,7 +42,6 @@ struct Agreement {
 };
 
 Agreement agreement(int colors, const std::function<double(double, int)>& component) {
-  const ReflectanceTable table;
   std::mt19937 random(4);
   std::uniform_real_distribution<double> u(0, 1);
   Agreement a;
@@ -53,7 +50,7 @@ Agreement agreement(int colors, const std::function<double(double, int)>& compon
     Color c;
     for (float& v : c)
       v = static_cast<float>(std::clamp(component(u(random), static_cast<int>(common * 1e6)), 0.0, 1.0));
-    const auto nodes = table(c);
+    const auto nodes = tabulated_reflectance(c);
     if (!nodes) continue;
     const double d = difference(*nodes, fitted(c));
     if (!(d <= a.greatest)) a.greatest = d, a.where = c;
@@ -94,12 +91,11 @@ TEST(ReflectanceTable, AgreesWithFitsOfBrightColors) {
 TEST(ReflectanceTable, AgreesWithFitsAtTheEdgesOfTheGamut) {
   constexpr std::array edges{0.0f, 1e-30f, 1e-6f, 1e-4f, 3e-4f,     0.01f,
                              0.2f, 0.5f,   0.8f,  0.99f, 1 - 1e-6f, 1.0f};
-  const ReflectanceTable table;
   int found = 0;
   for (const float r : edges)
     for (const float g : edges)
       for (const float b : edges)
-        if (const auto nodes = table({r, g, b})) {
+        if (const auto nodes = tabulated_reflectance({r, g, b})) {
           ++found;
           EXPECT_LT(difference(*nodes, fitted({r, g, b})), 5e-4) << r << ' ' << g << ' ' << b;
         }
@@ -107,34 +103,11 @@ TEST(ReflectanceTable, AgreesWithFitsAtTheEdgesOfTheGamut) {
 }
 
 TEST(ReflectanceTable, LeavesGreysAndWhatIsOutsideToTheFit) {
-  const ReflectanceTable table;
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const Color c : {Color{0, 0, 0}, Color{1, 1, 1}, Color{0.3f, 0.3f, 0.3f}, Color{-0.1f, 0.5f, 0.5f},
                         Color{0.5f, 1.1f, 0.5f}, Color{nan, 0.5f, 0.5f}, Color{0.5f, 0.4f, nan}})
-    EXPECT_FALSE(table(c)) << c[0] << ' ' << c[1] << ' ' << c[2];
-  EXPECT_TRUE(table({0.5f, 0.4f, 0.3f}));
-}
-
-TEST(ReflectanceTable, IsAFunctionOfTheColor) {
-  constexpr std::size_t count = 4000;
-  const auto color = [](std::size_t i) {
-    return Color{static_cast<float>(i % 13) / 13, static_cast<float>(i % 47) / 47,
-                 static_cast<float>(i % 101) / 101};
-  };
-  std::array<std::vector<std::optional<SigmoidNodes>>, 3> results;
-  std::vector<std::thread> threads;
-  for (std::size_t t = 0; t < results.size(); ++t)
-    threads.emplace_back([&, t] {
-      const ReflectanceTable table;
-      results[t].resize(count);
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t at = t == 1 ? count - 1 - i : i;
-        results[t][at] = table(color(at));
-      }
-    });
-  for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(results[0], results[1]);
-  EXPECT_EQ(results[0], results[2]);
+    EXPECT_FALSE(tabulated_reflectance(c)) << c[0] << ' ' << c[1] << ' ' << c[2];
+  EXPECT_TRUE(tabulated_reflectance({0.5f, 0.4f, 0.3f}));
 }
 
 }  // namespace
