@@ -76,6 +76,9 @@ Filter read_filter(const Object& film, Report& report) {
   return filter;
 }
 
+// Of Mitsuba 3 and of 0.6: rgba, luminance_alpha, luminanceAlpha, xyza …
+bool has_alpha(std::string_view pixel_format) { return pixel_format.ends_with('a'); }
+
 }  // namespace
 
 void read_film(Builder& builder, const Object& sensor) {
@@ -97,10 +100,10 @@ void read_film(Builder& builder, const Object& sensor) {
   settings.height = pixels(*film, "height", 576, report);
   settings.crop = read_crop(*film, settings.width, settings.height, report);
   settings.filter = read_filter(*film, report);
+  if (has_alpha(film->text("pixel_format", "rgb", report))) settings.layers.add(Layer::alpha);
   film->children("spectrum");
-  film->ignore({"filename", "file_format", "pixel_format", "component_format", "sample_border", "compensate",
-                "banner", "attach_log", "high_quality_edges", "gamma", "variable", "digits",
-                "channel_names"});
+  film->ignore({"filename", "file_format", "component_format", "sample_border", "compensate", "banner",
+                "attach_log", "high_quality_edges", "gamma", "variable", "digits", "channel_names"});
   report_unused_in_one(*film, report,
                        {"width", "height", "crop_offset_x", "crop_offset_y", "crop_width", "crop_height"});
 }

@@ -337,6 +337,8 @@ TEST(MitsubaIntegrator, AovsAreWritten) {
   std::ifstream file(folder / "scene.xml");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   EXPECT_THAT(text, ::testing::HasSubstr("value=\"rgba\""));
+  scene.film.layers.remove(Layer::crypto_object);
+  EXPECT_EQ(written_and_read(scene).scene.film.layers, scene.film.layers);
 }
 
 TEST(MitsubaIntegrator, PhotonMappersOfOldTracePhotons) {
