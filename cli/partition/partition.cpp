@@ -105,9 +105,10 @@ void interpret(PartitionArguments& a) {
   if (!a.stats.empty()) require_place(a.stats);
   if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);
   if (!a.aov.empty()) a.layers = parse_layers(a.aov);
-  if (a.cached) a.options.cache = cache_folder();
-  if (const auto folder = cache_folder(); a.cached && a.keeps_domains && !folder.empty())
-    a.options.bundles = folder / "bundles";
+  if (const auto folder = cache_folder(); a.cached && !folder.empty()) {
+    a.options.cache = folder / "images";
+    if (a.keeps_domains) a.options.bundles = folder / "bundles";
+  }
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
 }
 

@@ -7,11 +7,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <new>
 
 #include "bundle/checked_json.h"
+#include "partitioner/caching/make_room.h"
 #include "partitioner/writing/bundle_directory.h"
 #include "scene/system/diagnostics.h"
 
@@ -97,17 +97,6 @@ void remove_files(const fs::path& bundle) {
   fs::create_directories(bundle / "domains", ignored);
 }
 
-std::uint64_t bytes_in(const fs::path& folder) {
-  std::uint64_t sum = 0;
-  std::error_code gone;  // others remove entries too
-  for (fs::recursive_directory_iterator at(folder, gone), end; !gone && at != end; at.increment(gone)) {
-    std::error_code failed;
-    if (const std::uintmax_t bytes = at->is_regular_file(failed) ? at->file_size(failed) : 0; !failed)
-      sum += bytes;
-  }
-  return sum;
-}
-
 }  // namespace
 
 BundleCache::BundleCache(fs::path folder, std::uint64_t most_bytes)
@@ -150,33 +139,7 @@ void BundleCache::keep(const std::string& key, const fs::path& bundle, const Pla
     throw;
   } catch (const std::exception&) {  // a full disk, a folder that cannot be written
   }
-  make_room();
-}
-
-void BundleCache::make_room() const {
-  struct Entry {
-    fs::file_time_type used;
-    fs::path folder;
-    std::uint64_t bytes;
-  };
-  std::vector<Entry> entries;
-  std::uint64_t sum = 0;
-  std::error_code gone;  // others remove entries too
-  for (fs::directory_iterator at(folder_, gone), end; !gone && at != end; at.increment(gone)) {
-    std::error_code failed;
-    const auto used = at->last_write_time(failed);
-    if (failed) continue;
-    entries.push_back({used, at->path(), bytes_in(at->path())});
-    sum += entries.back().bytes;
-  }
-  std::ranges::sort(entries, {}, &Entry::used);
-  // One with an extension was being made when its process was killed.
-  const auto abandoned = fs::file_time_type::clock::now() - std::chrono::hours(24);
-  for (const Entry& entry : entries) {
-    if (sum <= most_bytes_ && !(entry.folder.has_extension() && entry.used < abandoned)) continue;
-    fs::remove_all(entry.folder, gone);
-    sum -= entry.bytes;
-  }
+  make_room(folder_, most_bytes_);
 }
 
 }  // namespace vitrail

@@ -42,8 +42,6 @@ class BundleCache {
   void keep(const std::string& key, const std::filesystem::path& bundle, const PlacedScene& placed) const;
 
  private:
-  void make_room() const;
-
   std::filesystem::path folder_;
   std::uint64_t most_bytes_;
 };

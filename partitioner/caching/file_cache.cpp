@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "bundle/checksum.h"
+#include "partitioner/caching/make_room.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {
@@ -182,32 +183,7 @@ void FileCache::keep(const std::string& key, const fs::path& from, const Note& n
          ::ftruncate(*entry, static_cast<off_t>(content_offset + *size)) == 0 && entry.close() &&
          std::rename(temporary.c_str(), (folder_ / key).c_str()) == 0;
   if (!kept) ::unlink(temporary.c_str());
-  make_room();
-}
-
-void FileCache::make_room() const {
-  struct Entry {
-    fs::file_time_type used;
-    fs::path file;
-    std::uint64_t bytes;
-  };
-  std::vector<Entry> entries;
-  std::uint64_t sum = 0;
-  std::error_code gone;  // others remove entries too
-  for (fs::directory_iterator at(folder_, gone), end; !gone && at != end; at.increment(gone)) {
-    std::error_code failed;
-    const auto used = at->last_write_time(failed);
-    const std::uint64_t bytes = failed ? 0 : at->file_size(failed);
-    if (failed) continue;
-    entries.push_back({used, at->path(), bytes});
-    sum += bytes;
-  }
-  std::ranges::sort(entries, {}, &Entry::used);
-  for (const Entry& entry : entries) {
-    if (sum <= most_bytes_) break;
-    ::unlink(entry.file.c_str());
-    sum -= entry.bytes;
-  }
+  make_room(folder_, most_bytes_);
 }
 
 }  // namespace vitrail

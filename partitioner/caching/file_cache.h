@@ -38,8 +38,6 @@ class FileCache {
   void keep(const std::string& key, const std::filesystem::path& from, const Note& note) const;
 
  private:
-  void make_room() const;
-
   std::filesystem::path folder_;
   std::uint64_t most_bytes_;
 };

@@ -33,7 +33,7 @@ class ImageCache : public ::testing::Test {
                            (directory_ / "cache").string(), vitrail(words)));
   }
   std::ptrdiff_t entries() const {
-    const fs::path folder = directory_ / "cache" / "vitrail";
+    const fs::path folder = directory_ / "cache" / "vitrail" / "images";
     return fs::exists(folder) ? std::distance(fs::directory_iterator(folder), fs::directory_iterator()) : 0;
   }
   std::string texture_of(const std::string& bundle) const {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "partitioner/caching/content_hash.h"
@@ -92,6 +93,20 @@ TEST(FileCache, RemovesWhatWasUsedLongestAgo) {
   EXPECT_TRUE(c.cache.note("d"));
   c.keep("large", std::string(20'000, 'x'));
   EXPECT_FALSE(c.cache.note("large"));
+  EXPECT_TRUE(c.cache.note("a"));
+}
+
+TEST(FileCache, RemovesWhatWasLeftHalfMade) {
+  Caches c;
+  c.keep("a", "x");
+  const auto now = fs::file_time_type::clock::now();
+  for (const auto& [name, hours] : {std::pair{"b.AAAAAA", 25}, std::pair{"b.BBBBBB", 1}}) {
+    std::ofstream(c.folder / name) << 'x';
+    fs::last_write_time(c.folder / name, now - std::chrono::hours(hours));
+  }
+  c.keep("c", "x");
+  EXPECT_FALSE(fs::exists(c.folder / "b.AAAAAA"));
+  EXPECT_TRUE(fs::exists(c.folder / "b.BBBBBB"));
   EXPECT_TRUE(c.cache.note("a"));
 }
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps a cache's folder within its size.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace vitrail {
+
+// Removes entries (files, or folders with files) until all are within `most_bytes`, those used longest ago
+// first. Removes those too that have an extension and are a day old: their maker was killed. Throws nothing
+// but std::bad_alloc: what cannot be read or removed stays.
+void make_room(const std::filesystem::path& folder, std::uint64_t most_bytes);
+
+}  // namespace vitrail
