@@ -36,15 +36,6 @@ Bounds3d around(Point3d p, double reach) {
   return {p - r, p + r};
 }
 
-Bounds3d common(const Bounds3d& a, const Bounds3d& b) {
-  Bounds3d out;
-  for (int axis = 0; axis < 3; ++axis) {
-    out.lower[axis] = std::max(a.lower[axis], b.lower[axis]);
-    out.upper[axis] = std::min(a.upper[axis], b.upper[axis]);
-  }
-  return out;
-}
-
 double greatest_row(const Transform& t) {
   return std::max({row_sum(t.m[0]), row_sum(t.m[1]), row_sum(t.m[2])});
 }

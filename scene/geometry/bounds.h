@@ -24,7 +24,7 @@ struct Bounds3 {
 using Bounds3f = Bounds3<float>;
 using Bounds3d = Bounds3<double>;
 
-// To the least box that holds both.
+// To the least box that holds it and the point.
 template <class T>
 void extend(Bounds3<T>& b, Point3<T> p) {
   b.lower = {std::min(b.lower.x, p.x), std::min(b.lower.y, p.y), std::min(b.lower.z, p.z)};
@@ -36,6 +36,13 @@ template <class T>
 void extend(Bounds3<T>& b, const Bounds3<T>& other) {
   extend(b, other.lower);
   extend(b, other.upper);
+}
+
+// What both hold; empty where they do not meet.
+template <class T>
+Bounds3<T> common(const Bounds3<T>& a, const Bounds3<T>& b) {
+  return {{std::max(a.lower.x, b.lower.x), std::max(a.lower.y, b.lower.y), std::max(a.lower.z, b.lower.z)},
+          {std::min(a.upper.x, b.upper.x), std::min(a.upper.y, b.upper.y), std::min(a.upper.z, b.upper.z)}};
 }
 
 // Its three edges; 0 when empty.

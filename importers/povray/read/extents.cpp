@@ -105,15 +105,6 @@ Bounds3d shape_box(const Object& object) {
 
 }  // namespace
 
-Bounds3d common(const Bounds3d& a, const Bounds3d& b) {
-  Bounds3d result;
-  for (int i = 0; i < 3; ++i) {
-    result.lower[i] = std::max(a.lower[i], b.lower[i]);
-    result.upper[i] = std::min(a.upper[i], b.upper[i]);
-  }
-  return result;
-}
-
 const Bounds3d& own_box(const Object& object) {
   if (!object.box) object.box = shape_box(object);
   return *object.box;

@@ -9,9 +9,6 @@ namespace vitrail::pov {
 
 class Reader;
 
-// What both hold; empty where they do not meet.
-Bounds3d common(const Bounds3d& a, const Bounds3d& b);
-
 // The box of what the object is made of, before its transformation; of what has no end, ±1e7.
 const Bounds3d& own_box(const Object& object);
 // That box under the transformation: min_extent() and max_extent(). What is inverse keeps it.
