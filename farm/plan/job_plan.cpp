@@ -94,7 +94,8 @@ JobPlan plan_job(const Manifest& m, const RenderOptions& options, const Place& p
   plan.all_domains = bytes_of_all(m);
   share_out(plan, options, largest_domain(m));
   plan.homes = homes_of(m, options, place.ranks);
-  plan.queues = queue_bounds(plan.memory, place.ranks);
+  plan.queues = plan.key.photons.photons > 0 ? queue_bounds_with_photons(plan.memory, place.ranks)
+                                             : queue_bounds(plan.memory, place.ranks);
   const bool in_flow = is_in_flow(m, plan.homes, options.resources.distribution, plan.memory.domains_bytes);
   const std::int64_t rays_a_rank =
       in_flow ? rays_allowed_in_flow(plan.threads) : rays_allowed_a_rank(plan.memory);

@@ -39,8 +39,15 @@ MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t p
 }
 
 QueueBounds queue_bounds(const MemoryPlan& plan, int ranks) {
-  if (ranks == 1) return {plan.queue_bytes, 0, 0};
-  return {plan.queue_bytes / 2, plan.queue_bytes / 4, plan.queue_bytes / 4};
+  if (ranks == 1) return {plan.queue_bytes, 0, 0, 0};
+  return {plan.queue_bytes / 2, plan.queue_bytes / 4, plan.queue_bytes / 4, 0};
+}
+
+QueueBounds queue_bounds_with_photons(const MemoryPlan& plan, int ranks) {
+  QueueBounds bounds = queue_bounds(plan, ranks);
+  if (ranks > 1) bounds.questions = bounds.waiting / 2;
+  bounds.waiting -= bounds.questions;
+  return bounds;
 }
 
 std::uint64_t table_bytes(std::uint64_t domains, int threads) {

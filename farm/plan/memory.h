@@ -29,8 +29,11 @@ std::int64_t rays_allowed_in_flow(int threads);
 // Of queue_bytes. The farm holds these bounds, whatever comes.
 struct QueueBounds {
   std::uint64_t waiting = 0, outgoing = 0, being_sent = 0;  // bytes
+  std::uint64_t questions = 0;  // of what waits: what paths ask the photons of a rank
 };
 QueueBounds queue_bounds(const MemoryPlan& plan, int ranks);
+// The same where photons fly: half of what waits may be questions. A rank alone asks none.
+QueueBounds queue_bounds_with_photons(const MemoryPlan& plan, int ranks);
 
 // Of the farm's tables, which grow with the number of domains: queues, counts, what is resident, of which
 // every thread may hold one of its own.

@@ -156,7 +156,7 @@ void Exchange::take_in(RayBatch batch) {
       state_.scheduler.count(0, batch.count());
       return;
     case RayKind::question:
-      state_.photons->questions.push_back(std::move(batch));
+      state_.photons->questions.push(std::move(batch));
       state_.work_available.notify_one();
       return;
     case RayKind::path:

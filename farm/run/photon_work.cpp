@@ -13,9 +13,10 @@ Point3d eye_of(const Manifest& m) {
 
 }  // namespace
 
-PhotonWork::PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size_t most_landed, Homes homes,
-                       int rank, int ranks)
-    : scene_(scene),
+PhotonWork::PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size_t most_landed,
+                       std::uint64_t most_question_bytes, Homes homes, int rank, int ranks)
+    : questions(most_question_bytes),
+      scene_(scene),
       key_(key),
       emission_(scene.lights, scene.manifest.bounds, eye_of(scene.manifest)),
       map_(most_landed),

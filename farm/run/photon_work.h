@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "farm/plan/options.h"
-#include "farm/rays/batch.h"
+#include "farm/rays/waiting_batches.h"
 #include "farm/scheduler/homes.h"
 #include "tracer/photons/photon_pass.h"
 #include "tracer/photons/places.h"
@@ -21,9 +21,9 @@ namespace vitrail {
 
 class PhotonWork {
  public:
-  // Each domain's first home answers for it. `scene` outlives it.
-  PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size_t most_landed, Homes homes, int rank,
-             int ranks);
+  // Each domain's first home answers for it. `scene` outlives it. `most_question_bytes`: in memory.
+  PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size_t most_landed,
+             std::uint64_t most_question_bytes, Homes homes, int rank, int ranks);
   PhotonWork(const PhotonWork&) = delete;  // its parts refer to each other
 
   // Photons are dealt out in chunks, in turn.
@@ -42,9 +42,9 @@ class PhotonWork {
   template <class Send>
   void deal_out(const Photon& photon, const Send& send);
 
-  std::vector<RayBatch> questions;  // of other ranks, that wait
-  std::uint64_t landed = 0;         // of all iterations, here
-  std::size_t most_kept = 0;        // of any
+  WaitingBatches questions;   // of other ranks
+  std::uint64_t landed = 0;   // of all iterations, here
+  std::size_t most_kept = 0;  // of any
 
  private:
   const RenderScene& scene_;

@@ -235,6 +235,7 @@ void Rank::add_to(RenderStats& stats) const {
   stats.evictions = state_.scheduler.residency().evictions();
   checkpointing_.add_to(stats);
   if (state_.photons) {
+    stats.spilled_bytes += state_.photons->questions.written_bytes();
     stats.photons_landed = state_.photons->landed;
     stats.photons_kept = state_.photons->most_kept;
   }

@@ -15,7 +15,8 @@ RankState::RankState(const RenderScene& the_scene, Film& the_film, WorkPlan the_
       domains(scene.manifest, options.bundle) {
   const int ranks = job.scheduler.ranks;
   if (job.key.photons.photons > 0)
-    photons.emplace(scene, job.key.photons, job.most_photons, job.homes, job.scheduler.rank, ranks);
+    photons.emplace(scene, job.key.photons, job.most_photons, job.queues.questions, job.homes,
+                    job.scheduler.rank, ranks);
   if (!options.outputs.profile.empty()) work.traffic.emplace(scene.manifest.domains.size());
   if (!options.outputs.trace.empty()) work.timeline.emplace(Timeline::most_events(ranks));
 }

@@ -40,8 +40,7 @@ Task take_task(const Locked& locked, RankState& s) {
   task.table = s.domains.table();
   if (s.photons && !s.photons->questions.empty()) {
     task.work = Scheduler::Work::trace;
-    task.batch = std::move(s.photons->questions.back());
-    s.photons->questions.pop_back();
+    task.batch = s.photons->questions.pop();
     return task;
   }
   const Scheduler::Task next = s.scheduler.next_task();

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "farm/rays/queues.h"
+#include "farm/rays/waiting_batches.h"
 
 namespace vitrail {
 namespace {
@@ -30,6 +31,45 @@ TEST(QueueBounds, OfARankAloneAreForRaysThatWait) {
     const QueueBounds bounds = queue_bounds({0, bytes}, 1);
     EXPECT_EQ(bounds.waiting, bytes);
     EXPECT_EQ(bounds.outgoing + bounds.being_sent, 0u) << "it sends none";
+  }
+}
+
+TEST(QueueBounds, OfPhotonsHaveAPartForQuestions) {
+  for (const std::uint64_t bytes : {std::uint64_t{0}, std::uint64_t{3}, few_rays_bytes, 512 * mib}) {
+    const QueueBounds rays = queue_bounds({0, bytes}, 2), photons = queue_bounds_with_photons({0, bytes}, 2);
+    EXPECT_EQ(photons.waiting + photons.questions, rays.waiting);
+    EXPECT_LE(photons.waiting - photons.questions, 1u);
+    EXPECT_EQ(queue_bounds_with_photons({0, bytes}, 1).questions, 0u) << "a rank alone asks none";
+  }
+}
+
+TEST(WaitingBatches, HoldTheirBoundAndLoseNothing) {
+  for (const std::uint64_t bound : {std::uint64_t{0}, std::uint64_t{3000}, std::uint64_t{mib}}) {
+    WaitingBatches waiting(bound);
+    constexpr std::uint32_t batches = 200, of_each = 20;
+    std::uint64_t pushed_bytes = 0;
+    for (std::uint32_t i = 0; i < batches; ++i) {
+      RayBatch batch(i, RayKind::question);
+      for (std::uint32_t k = 0; k < of_each; ++k) {
+        Gather question{};
+        question.pixel = i * of_each + k;
+        batch.append(question);
+      }
+      pushed_bytes += batch.bytes().size();
+      waiting.push(std::move(batch));
+      ASSERT_LE(waiting.held_bytes(), bound);
+    }
+    EXPECT_EQ(waiting.written_bytes() > 0, bound < pushed_bytes);
+    std::vector<std::uint32_t> asked(batches * of_each);
+    while (!waiting.empty()) {
+      RayBatch batch = waiting.pop();
+      for (const Gather& question : batch.records<Gather>()) {
+        EXPECT_EQ(question.pixel / of_each, batch.domain());
+        ++asked.at(question.pixel);
+      }
+    }
+    EXPECT_EQ(asked, std::vector(asked.size(), 1u));
+    EXPECT_EQ(waiting.held_bytes(), 0u);
   }
 }
 
