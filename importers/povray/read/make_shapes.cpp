@@ -67,12 +67,14 @@ void SceneMaker::add(const Object& object, const Transform& parent_to_world, Loo
   if (const auto* light = std::get_if<LightShape>(&object.shape)) {
     if (&target.shapes != &scene_.shapes) return;
     add_light(object, *light, to_world);
-    for (const auto& child : object.children)
-      add(*child, to_world, {reader_.defaults.texture, {}, nullptr}, target);
+    for (const auto& child : object.children) {
+      Look lamp{reader_.defaults.texture, {}, nullptr};
+      lamp.no_shadow = lamp.of_lamp = true;
+      add(*child, to_world, lamp, target);
+    }
     return;
   }
-  if (object.no_shadow)
-    reader_.notes.approximated("no_shadow: it has a shadow", reader_.location(object.place));
+  look.no_shadow = look.no_shadow || object.no_shadow;
   if (object.no_image) {
     reader_.notes.dropped("an object with no_image", reader_.location(object.place));
     return;
@@ -96,7 +98,7 @@ void SceneMaker::add_group(const Object& object, const Transform& to_world, cons
   for (const auto& child : object.children) {
     const bool plain = !look.texture || pov::is_plain(*look.texture);
     if (child->declared && std::holds_alternative<GroupShape>(child->shape) && plain && is_plain(*child) &&
-        (!object.texture && !look.interior))
+        (!object.texture && !look.interior && !look.no_shadow))
       if (const auto prototype = prototype_of(child)) {
         target.instances.push_back({*prototype, to_world, origin(object.place)});
         continue;
@@ -153,7 +155,8 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
     own.to_world = to_world * piece.look->to_world;
   }
   if (piece.look && piece.look->interior) own.interior = piece.look->interior;
-  const Surface surface = surfaces_.of(own);
+  Surface surface = surfaces_.of(own);
+  if (own.no_shadow) surface = without_shadow(surface, own.of_lamp, object);
   Shape shape;
   shape.mesh = piece.mesh;
   shape.material = surface.material;
@@ -163,6 +166,34 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
   shape.flip_orientation = !piece.faces_out != object.inverse;
   shape.origin = origin(object.place);
   if (is_invertible(shape.object_to_world)) target.shapes.push_back(std::move(shape));
+}
+
+Surface SceneMaker::without_shadow(Surface surface, bool of_lamp, const Object& object) {
+  const SourceLocation place = reader_.location(object.place);
+  const auto* const diffuse = std::get_if<DiffuseMaterial>(&scene_.materials[surface.material.value].model);
+  const auto* const reflects = diffuse ? std::get_if<Spectrum>(&diffuse->reflectance) : nullptr;
+  const bool only_glows = surface.glow && reflects && luminance(*reflects) == 0;
+  if (!only_glows && !(of_lamp && surface.glow)) {
+    reader_.notes.approximated("no_shadow: it has a shadow", place);
+    return surface;
+  }
+  reader_.notes.approximated("no_shadow: light passes it, and what is behind shows through", place);
+  if (!clear_sheet_) {
+    ThinDielectricMaterial sheet;
+    sheet.eta = ConstantSpectrum{1};
+    Material clear;
+    clear.model = sheet;
+    scene_.materials.push_back(std::move(clear));
+    clear_sheet_ = Id<Material>{static_cast<std::uint32_t>(scene_.materials.size() - 1)};
+  }
+  surface.material = *clear_sheet_;
+  if (of_lamp) {  // seen through its front, its back would glow a second time
+    AreaLight front = scene_.area_lights[surface.glow->value];
+    front.two_sided = false;
+    scene_.area_lights.push_back(std::move(front));
+    surface.glow = Id<AreaLight>{static_cast<std::uint32_t>(scene_.area_lights.size() - 1)};
+  }
+  return surface;
 }
 
 std::vector<SceneMaker::Piece> SceneMaker::pieces_of(const Object& object) {

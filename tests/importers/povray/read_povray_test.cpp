@@ -238,5 +238,40 @@ TEST_F(ReadPovray, APlaneAloneReachesTheHorizon) {
   EXPECT_GT(length(transform_vector(scene.shapes[0].object_to_world, Vector3d{1, 0, 0})), 1e4);
 }
 
+// A light within what it looks like would else light nothing.
+TEST_F(ReadPovray, LightPassesWhatALampLooksLike) {
+  const Scene scene =
+      read(
+          "camera { location -4*z } light_source { <0,2,0> 1 looks_like { sphere { 0, 0.1 pigment { rgb 1 } "
+          "finish { ambient 1 } } } } sphere { 0, 1 pigment { rgb 1 } no_shadow }")
+          .scene;
+  ASSERT_EQ(scene.shapes.size(), 2u);
+  const auto* const sheet =
+      std::get_if<ThinDielectricMaterial>(&scene.materials.at(scene.shapes[0].material.value).model);
+  ASSERT_TRUE(sheet);
+  EXPECT_EQ(sheet->eta, Spectrum{ConstantSpectrum{1}});
+  ASSERT_TRUE(scene.shapes[0].area_light);
+  EXPECT_FALSE(scene.area_lights.at(scene.shapes[0].area_light->value).two_sided)
+      << "its back would be seen through its front, too";
+  EXPECT_TRUE(
+      std::holds_alternative<DiffuseMaterial>(scene.materials.at(scene.shapes[1].material.value).model))
+      << "what reflects stays as it is";
+}
+
+TEST_F(ReadPovray, LightPassesASkyWithoutShadow) {
+  const auto sheets = [&](const char* more) {
+    const Scene scene =
+        read(
+            std::string("camera { location -4*z } union { sphere { 0, 100 } pigment { rgb <0,0,1> } finish { "
+                        "ambient 1 diffuse 0 } ") +
+            more + "}")
+            .scene;
+    return std::holds_alternative<ThinDielectricMaterial>(
+        scene.materials.at(scene.shapes.at(0).material.value).model);
+  };
+  EXPECT_TRUE(sheets("no_shadow"));
+  EXPECT_FALSE(sheets(""));
+}
+
 }  // namespace
 }  // namespace vitrail
