@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "tests/support/command.h"
@@ -99,6 +100,71 @@ TEST_F(Povray, ATextThatGrows) {
                      "#fclose F\nsphere { 0, 1 }\n");
   expect_limit("--write-limit=8K", "--write-limit=16K");
   EXPECT_FALSE(fs::exists(folder_ / "a.txt"));
+}
+
+class PovrayExamples : public Povray, public ::testing::WithParamInterface<const char*> {};
+
+// Each is read, and nothing of it is dropped.
+TEST_P(PovrayExamples, AreReadWhole) {
+  const CommandResult read = run_verb(
+      "inspect",
+      fmt::format("'{}/examples/povray/{}.pov' --json > report.json", VITRAIL_SOURCE_DIR, GetParam()));
+  ASSERT_EQ(read.status, 0) << read.output;
+  const nlohmann::json report = read_json(folder_ / "report.json");
+  EXPECT_GT(report["triangles"], 0);
+  for (const auto& note : report["not_exact"]) EXPECT_EQ(note["fidelity"], "approximated") << note;
+}
+
+INSTANTIATE_TEST_SUITE_P(, PovrayExamples, ::testing::Values("room", "carved", "patterns"),
+                         [](const auto& one) { return std::string(one.param); });
+
+// The lamp of the room is a ball around a light: the floor below it is lit.
+TEST_F(Povray, TheLampOfTheRoomShines) {
+  const auto mean = [&](const std::string& scene) {
+    const CommandResult made = run_verb(
+        "render",
+        fmt::format("{} --width 16 --height 12 --spp 4 --crop 0,16,9,12 --quiet -o a.film --force", scene));
+    EXPECT_EQ(made.status, 0) << made.output;
+    const CommandResult seen = run_verb("inspect", "a.film --json > film.json");
+    EXPECT_EQ(seen.status, 0) << seen.output;
+    return read_json(folder_ / "film.json")["mean_luminance"].get<double>();
+  };
+  const std::string room = VITRAIL_SOURCE_DIR "/examples/povray/room.pov";
+  std::ifstream in(room);
+  std::string dark{std::istreambuf_iterator<char>(in), {}};
+  const std::string lamp = "color rgb <2.2, 2.0, 1.7>";
+  ASSERT_NE(dark.find(lamp), std::string::npos);
+  write("dark.pov", dark.replace(dark.find(lamp), lamp.size(), "color rgb 0"));
+  EXPECT_GT(mean("'" + room + "'"), 3 * mean("dark.pov"));
+}
+
+// The film of one domain, too, where two ranks hold an eighth of 64.
+TEST_F(Povray, TheFilmOfOneDomainInAnEighthOfTheMemory) {
+  const std::string scene = VITRAIL_SOURCE_DIR "/examples/povray/carved.pov";
+  const auto render = [&](int domains, int ranks, const std::string& more) {
+    const std::string bundle = fmt::format("{}.vit", domains);
+    if (!fs::exists(folder_ / bundle)) {
+      EXPECT_EQ(run_verb("partition", fmt::format("'{}' -o {} --domains {} --quiet", scene, bundle, domains))
+                    .status,
+                0);
+    }
+    const CommandResult done = run(fmt::format(
+        "cd '{}' && {} {} -o a.film --force --width 96 --height 72 --spp 2 --quiet --stats stats.json {}",
+        folder_.path().string(), mpi_vitrail("render", ranks), bundle, more));
+    EXPECT_EQ(done.status, 0) << done.output;
+    return done.status == 0 ? read_json(folder_ / "stats.json") : nlohmann::json();
+  };
+  const nlohmann::json one = render(1, 1, ""), all = render(64, 2, "");
+  ASSERT_FALSE(one.is_null() || all.is_null());
+  std::uint64_t bytes = 0, largest = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "64.vit/domains"))
+    bytes += entry.file_size(), largest = std::max(largest, entry.file_size());
+  ASSERT_GT(bytes / 8, largest);
+  const nlohmann::json little = render(64, 2, fmt::format("--domain-memory {}", bytes / 8));
+  ASSERT_FALSE(little.is_null());
+  EXPECT_EQ(all["film_hash"], one["film_hash"]);
+  EXPECT_EQ(little["film_hash"], one["film_hash"]);
+  EXPECT_GT(little["evictions"], 0) << "all domains had room";
 }
 
 }  // namespace
