@@ -273,5 +273,36 @@ TEST_F(ReadPovray, LightPassesASkyWithoutShadow) {
   EXPECT_FALSE(sheets(""));
 }
 
+TEST_F(ReadPovray, AFlatBoxIsARectangle) {
+  const ImportedScene read_scene = read("camera { location -4*z } box { <-1,-1,2>, <1,1,2> }");
+  ASSERT_EQ(read_scene.scene.meshes.size(), 1u);
+  EXPECT_EQ(read_scene.scene.meshes[0].triangles.size(), 2u);
+  Bounds3f bounds;
+  for (const Point3f& p : read_scene.scene.meshes[0].positions) extend(bounds, p);
+  EXPECT_EQ(bounds.lower, (Point3f{-1, -1, 2}));
+  EXPECT_EQ(bounds.upper, (Point3f{1, 1, 2}));
+  EXPECT_TRUE(
+      read("camera { location -4*z } box { <-1,2,2>, <1,2,2> } sphere { 0, 1 }").scene.meshes.size() == 1u)
+      << "a line is dropped";
+}
+
+// POV-Ray's image begins at +x and goes towards +z, with its top at +y; u runs backwards here.
+TEST_F(ReadPovray, AnImageAroundASphere) {
+  std::ofstream(folder_.path() / "a.ppm") << "P3 2 1 255 255 0 0 0 0 255\n";
+  const auto at = [&](const char* more, double u, double v) {
+    const Scene scene =
+        read(std::string("sphere { 0, 1 pigment { image_map { ppm \"a.ppm\" map_type 1 } ") + more + " } }")
+            .scene;
+    const double phi = (1 - u) * 2 * M_PI, theta = (1 - v) * M_PI;  // of the sphere's own (u,v)
+    return transform_point(
+        scene.shapes.at(0).object_to_world,
+        {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+  };
+  EXPECT_LT(length(at("", 0, 0.5) - Point3d{1, 0, 0}), 1e-12);
+  EXPECT_LT(length(at("", 0.25, 0.5) - Point3d{0, 0, 1}), 1e-12);
+  EXPECT_LT(length(at("", 0.25, 1) - Point3d{0, 1, 0}), 1e-12);
+  EXPECT_LT(length(at("rotate 90*y scale 3", 0, 0.5) - Point3d{0, 0, -1}), 1e-12);
+}
+
 }  // namespace
 }  // namespace vitrail
