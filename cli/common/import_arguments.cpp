@@ -1,10 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common/import_arguments.h"
 
+#include <limits>
+
 #include "cli/common/sizes.h"
 #include "scene/system/input_files.h"
 
 namespace vitrail {
+
+namespace {
+
+void declare_program_limits(CLI::App& app, ImportArguments& a) {
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  constexpr int most_nested = 1000;  // what a stack of 8 MiB holds
+  app.add_option("--token-limit", a.program.tokens,
+                 "most tokens that a POV-Ray scene may read, counted again in each round of its loops")
+      ->check(CLI::Range(std::int64_t{1}, most))
+      ->capture_default_str();
+  app.add_option("--call-limit", a.program.open_calls,
+                 "most macros, loops and files of a POV-Ray scene within each other")
+      ->check(CLI::Range(std::int64_t{1}, most))
+      ->capture_default_str();
+  app.add_option("--nesting-limit", a.program.nested,
+                 "most objects, textures and brackets of a POV-Ray scene within each other, up to 1000")
+      ->check(CLI::Range(1, most_nested))
+      ->capture_default_str();
+  app.add_option("--write-limit", a.write_limit,
+                 "most text that a POV-Ray scene may write, which is kept in memory (default: 256M)");
+}
+
+}  // namespace
 
 void declare_import_options(CLI::App& app, ImportArguments& a) {
   app.add_option("-D,--define", a.definitions,
@@ -28,6 +53,10 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
                  "2026-06-21T12:00+02:00; default of up: the camera's");
   app.add_option("--include-limit", a.include_limit,
                  "most text, in all, of files that a scene includes more than once (default: 1G)");
+  app.add_option("--include", a.include_folders,
+                 "where files of a POV-Ray scene are looked for, after its own folder; may be repeated")
+      ->allow_extra_args(false);
+  declare_program_limits(app, a);
   app.add_option("--root", a.root, "the scene may name only files in this folder, links resolved");
 }
 
@@ -50,6 +79,9 @@ ImportOptions import_options(const ImportArguments& a) {
     options.definitions[word.substr(0, at)] = word.substr(at + 1);
   }
   if (!a.include_limit.empty()) options.include_limit = parse_bytes(a.include_limit);
+  options.include_folders = a.include_folders;
+  options.program = a.program;
+  if (!a.write_limit.empty()) options.program.written_bytes = parse_bytes(a.write_limit);
   if (!a.root.empty()) confine_inputs(a.root);
   return options;
 }
@@ -61,6 +93,14 @@ std::vector<std::string> arguments_of(const ImportArguments& a) {
   if (a.missing != "refuse") words.push_back("--missing=" + a.missing);
   if (!a.sky.empty()) words.push_back("--sky=" + a.sky);
   if (!a.include_limit.empty()) words.push_back("--include-limit=" + a.include_limit);
+  for (const std::string& folder : a.include_folders) words.push_back("--include=" + folder);
+  const ProgramLimits usual;
+  if (a.program.tokens != usual.tokens) words.push_back("--token-limit=" + std::to_string(a.program.tokens));
+  if (a.program.open_calls != usual.open_calls)
+    words.push_back("--call-limit=" + std::to_string(a.program.open_calls));
+  if (a.program.nested != usual.nested)
+    words.push_back("--nesting-limit=" + std::to_string(a.program.nested));
+  if (!a.write_limit.empty()) words.push_back("--write-limit=" + a.write_limit);
   if (!a.root.empty()) words.push_back("--root=" + a.root);
   return words;
 }

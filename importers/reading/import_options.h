@@ -5,8 +5,17 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace vitrail {
+
+// What a scene that is a program, as POV-Ray's are, may ask for before it is refused. Each has its option.
+struct ProgramLimits {
+  std::uint64_t tokens = 2'000'000'000;     // --token-limit: read, again in each round of a loop
+  std::uint64_t written_bytes = 256 << 20;  // --write-limit: by #write, kept in memory
+  std::size_t open_calls = 20'000;          // --call-limit: macros, loops and files within each other
+  int nested = 200;                         // --nesting-limit: objects and brackets within each other
+};
 
 // What a reader is told beside the file.
 struct ImportOptions {
@@ -16,7 +25,9 @@ struct ImportOptions {
   bool replace_missing = false;  // go on without images and meshes that are not there (missing_files.h)
   std::string sky;  // in place of all light from infinitely far (given_sky.h); "": as the file says
   int camera = 0;   // which of a Mitsuba scene's sensors, in the file's order, from 0
-  std::uint64_t include_limit = 1 << 30;  // bytes of text that is included again (included_text.h)
+  std::uint64_t include_limit = 1 << 30;     // bytes of text that is included again (included_text.h)
+  std::vector<std::string> include_folders;  // searched for files of a POV-Ray scene, after its own folder
+  ProgramLimits program;
 };
 
 }  // namespace vitrail

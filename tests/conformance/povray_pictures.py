@@ -58,11 +58,15 @@ def by_vitrail(scene, folder, options, extra):
     return Image.open(target)
 
 
-def notes_of(scene, options):
+def report_of(scene, options):
     done = run([options.bin / "vitrail", "inspect", scene, "--json", "--missing", "replace"], options.seconds)
     if done.returncode:
         raise Skipped("not read")
-    return [item["what"] for item in json.loads(done.stdout)["not_exact"]]
+    return json.loads(done.stdout)
+
+
+def notes_of(report):
+    return [item["what"] for item in report["not_exact"]]
 
 
 def coverage(image):
@@ -71,17 +75,45 @@ def coverage(image):
     return np.asarray(image.getchannel("A"), dtype=float) / 255
 
 
+def first_channel(path):
+    """Of a Radiance picture whose rows are packed: a mantissa and the exponent that all channels share."""
+    data = path.read_bytes()
+    head, _, rest = data.partition(b"\n\n")
+    size, _, packed = rest.partition(b"\n")
+    words = size.split()
+    rows, columns = int(words[1]), int(words[3])
+    image, at = np.empty((rows, 4, columns)), 0
+    for row in range(rows):
+        at += 4
+        for channel in range(4):
+            values = []
+            while len(values) < columns:
+                count = packed[at]
+                if count > 128:
+                    values += [packed[at + 1]] * (count - 128)
+                    at += 2
+                else:
+                    values += packed[at + 1 : at + 1 + count]
+                    at += 1 + count
+            image[row, channel] = values
+    return image[:, 0] * 2.0 ** (image[:, 3] - 136)
+
+
 def silhouettes(scene, folder, options):
-    notes = notes_of(scene, options)
-    theirs = by_povray(scene, folder, options, ["+Q1", "+UA", "+A0.0", "+AM1", "+R4"])
-    ours = by_vitrail(scene, folder, options, ["--spp", "16", "--alpha", "--max-depth", "0", "--aov", "depth"])
+    report = report_of(scene, options)
+    bare = folder / "bare.pov"
+    nothing = "pigment { color rgbt <0, 0, 0, 1> }"
+    bare.write_text(f'#include "{scene}"\nbackground {{ color rgbt <0, 0, 0, 1> }}\nsky_sphere {{ {nothing} }}\n')
+    theirs = by_povray(bare, folder, options, [f"+L{scene.parent}", "+Q1", "+UA", "+A0.0", "+AM1", "+R4"])
+    ours = by_vitrail(scene, folder, options, ["--spp", "64", "--filter", "box", "--alpha", "--max-depth", "0", "--aov", "depth"])
     a, b = coverage(theirs), coverage(ours)
-    if any(note.startswith("what is around the scene") for note in notes):
-        # The sphere that stands for it is farther than all else.
-        run([options.bin / "vitrail", "develop", folder / "vitrail.film", "-o", folder / "depth.tif", "--layer",
+    if any(note.startswith("what is around the scene") for note in notes_of(report)):
+        # The sphere that stands for it is farther than all else: depths are means of what a pixel shows.
+        run([options.bin / "vitrail", "develop", folder / "vitrail.film", "-o", folder / "depth.hdr", "--layer",
              "depth"], options.seconds)
-        depth = np.asarray(Image.open(folder / "depth.tif"), dtype=float)
-        b = np.where(depth > 0.5 * depth.max(), 0, b)
+        radius = (report["bounds_upper"][0] - report["bounds_lower"][0]) / 2
+        depth = first_channel(folder / "depth.hdr")
+        b = b * (1 - np.clip(depth / radius, 0, 1))
     union = np.maximum(a, b).sum()
     if union == 0:
         raise Skipped("nothing is seen")
@@ -99,8 +131,7 @@ def blocks_of(image):
 
 
 def blocks(scene, folder, options):
-    notes = notes_of(scene, options)
-    for note in notes:
+    for note in notes_of(report_of(scene, options)):
         if any(word in note for word in WITHOUT_BLOCKS):
             raise Skipped(f"has {note[:60]}")
     if b"radiosity" in scene.read_bytes():

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "importers/povray/read/extents.h"
@@ -19,6 +20,45 @@ namespace {
 Transform along(Point3d from, Vector3d axis, double radius) {
   const double high = length(axis);
   return translate(from - Point3d{}) * transform_of(Frame(axis * (1 / high))) * scale({radius, radius, high});
+}
+
+// Two triangles for a box whose corners lie in a plane that two axes span.
+std::optional<TriangleMesh> rectangle(const BoxShape& box) {
+  const Vector3d size = box.corner2 - box.corner1;
+  std::vector<Vector3d> sides;
+  for (const Vector3d side : {Vector3d{size.x, 0, 0}, Vector3d{0, size.y, 0}, Vector3d{0, 0, size.z}})
+    if (length(side) > 0) sides.push_back(side);
+  if (sides.size() != 2) return std::nullopt;
+  TriangleMesh mesh;
+  for (const Vector3d corner : {Vector3d{}, sides[0], sides[0] + sides[1], sides[1]})
+    mesh.positions.push_back(cast<float>(box.corner1 + corner));
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+// The pigment of an image around a sphere, or none.
+const Pigment* wrapped_image(const pov::Texture& texture) {
+  const Pigment* const pigment = texture.pigment.get();
+  return pigment && pigment->pattern.image && pigment->pattern.image->map_type == 1 ? pigment : nullptr;
+}
+
+// Turns a sphere's own (u,v), whose pole is +z, to where an image around it lies: its pole is +y, its left
+// edge at +x, and u runs backwards (make_textures.cpp). `image_to_sphere` counts where it is a rotation and a
+// scale.
+Transform turned_to_image(const Transform& image_to_sphere) {
+  Transform turn;
+  std::array<double, 3> size{};
+  for (std::size_t k = 0; k < 3; ++k)
+    size[k] = length(
+        transform_vector(image_to_sphere, Vector3d{k == 0 ? 1.0 : 0, k == 1 ? 1.0 : 0, k == 2 ? 1.0 : 0}));
+  const bool even = std::abs(size[0] - size[1]) + std::abs(size[0] - size[2]) < 1e-6 * size[0];
+  if (even && !swaps_handedness(image_to_sphere))
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t k = 0; k < 3; ++k) turn.m[row][k] = image_to_sphere.m[row][k] / size[k];
+  Transform pole;
+  pole.m[1] = {0, 0, 1, 0};
+  pole.m[2] = {0, -1, 0, 0};
+  return turn * pole;
 }
 
 Numbers ambient_of(const World& world) {
@@ -67,12 +107,14 @@ void SceneMaker::add(const Object& object, const Transform& parent_to_world, Loo
   if (const auto* light = std::get_if<LightShape>(&object.shape)) {
     if (&target.shapes != &scene_.shapes) return;
     add_light(object, *light, to_world);
-    for (const auto& child : object.children)
-      add(*child, to_world, {reader_.defaults.texture, {}, nullptr}, target);
+    for (const auto& child : object.children) {
+      Look lamp{reader_.defaults.texture, {}, nullptr};
+      lamp.no_shadow = lamp.of_lamp = true;
+      add(*child, to_world, lamp, target);
+    }
     return;
   }
-  if (object.no_shadow)
-    reader_.notes.approximated("no_shadow: it has a shadow", reader_.location(object.place));
+  look.no_shadow = look.no_shadow || object.no_shadow;
   if (object.no_image) {
     reader_.notes.dropped("an object with no_image", reader_.location(object.place));
     return;
@@ -96,7 +138,7 @@ void SceneMaker::add_group(const Object& object, const Transform& to_world, cons
   for (const auto& child : object.children) {
     const bool plain = !look.texture || pov::is_plain(*look.texture);
     if (child->declared && std::holds_alternative<GroupShape>(child->shape) && plain && is_plain(*child) &&
-        (!object.texture && !look.interior))
+        (!object.texture && !look.interior && !look.no_shadow))
       if (const auto prototype = prototype_of(child)) {
         target.instances.push_back({*prototype, to_world, origin(object.place)});
         continue;
@@ -153,16 +195,50 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
     own.to_world = to_world * piece.look->to_world;
   }
   if (piece.look && piece.look->interior) own.interior = piece.look->interior;
-  const Surface surface = surfaces_.of(own);
+  Surface surface = surfaces_.of(own);
+  if (own.no_shadow) surface = without_shadow(surface, own.of_lamp, object);
   Shape shape;
   shape.mesh = piece.mesh;
   shape.material = surface.material;
   shape.area_light = surface.glow;
   shape.opacity = surface.opacity;
   shape.object_to_world = to_world * piece.to_object;
+  if (const Pigment* const image = own.texture ? wrapped_image(*own.texture) : nullptr;
+      image && std::holds_alternative<SphereShape>(object.shape) && is_invertible(to_world))
+    shape.object_to_world =
+        shape.object_to_world *
+        turned_to_image(inverse(to_world) * own.to_world * own.texture->to_object * image->to_object);
   shape.flip_orientation = !piece.faces_out != object.inverse;
   shape.origin = origin(object.place);
   if (is_invertible(shape.object_to_world)) target.shapes.push_back(std::move(shape));
+}
+
+Surface SceneMaker::without_shadow(Surface surface, bool of_lamp, const Object& object) {
+  const SourceLocation place = reader_.location(object.place);
+  const auto* const diffuse = std::get_if<DiffuseMaterial>(&scene_.materials[surface.material.value].model);
+  const auto* const reflects = diffuse ? std::get_if<Spectrum>(&diffuse->reflectance) : nullptr;
+  const bool only_glows = surface.glow && reflects && luminance(*reflects) == 0;
+  if (!only_glows && !(of_lamp && surface.glow)) {
+    reader_.notes.approximated("no_shadow: it has a shadow", place);
+    return surface;
+  }
+  reader_.notes.approximated("no_shadow: light passes it, and what is behind shows through", place);
+  if (!clear_sheet_) {
+    ThinDielectricMaterial sheet;
+    sheet.eta = ConstantSpectrum{1};
+    Material clear;
+    clear.model = sheet;
+    scene_.materials.push_back(std::move(clear));
+    clear_sheet_ = Id<Material>{static_cast<std::uint32_t>(scene_.materials.size() - 1)};
+  }
+  surface.material = *clear_sheet_;
+  if (of_lamp) {  // seen through its front, its back would glow a second time
+    AreaLight front = scene_.area_lights[surface.glow->value];
+    front.two_sided = false;
+    scene_.area_lights.push_back(std::move(front));
+    surface.glow = Id<AreaLight>{static_cast<std::uint32_t>(scene_.area_lights.size() - 1)};
+  }
+  return surface;
 }
 
 std::vector<SceneMaker::Piece> SceneMaker::pieces_of(const Object& object) {
@@ -181,6 +257,7 @@ std::vector<SceneMaker::Piece> SceneMaker::pieces_of(const Object& object) {
   if (const auto* s = std::get_if<ConeShape>(&object.shape)) return round_pieces(*s);
   if (const auto* s = std::get_if<BoxShape>(&object.shape)) {
     const Vector3d size = s->corner2 - s->corner1;
+    if (auto flat = rectangle(*s)) return {{add_mesh(std::move(*flat)), {}, {}}};
     if (size.x == 0 || size.y == 0 || size.z == 0) {
       reader_.notes.dropped("a box without volume", reader_.location(object.place));
       return {};

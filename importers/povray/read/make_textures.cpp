@@ -164,7 +164,7 @@ SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& 
     texture.mapping = planar;
   } else {
     approximated("an image around a sphere, cylinder or torus: by (u,v) of the surface", place);
-    texture.mapping = UvMapping{};
+    texture.mapping = UvMapping{-1, 0, 1, 0, 1, 0};  // of a sphere u runs the other way
   }
   return add(std::move(texture), false, place);
 }

@@ -8,9 +8,8 @@ namespace vitrail {
 
 ImportedScene read_povray(const std::filesystem::path& file, MeshMemory memory,
                           const ImportOptions& options) {
-  pov::Limits limits;
-  limits.include_bytes = options.include_limit;
-  pov::Reader reader(file, pov::search_of(file, {}), limits);
+  const pov::Limits limits{options.program, options.include_limit};
+  pov::Reader reader(file, pov::search_of(file, options.include_folders), limits);
   const pov::World world = pov::read_world(reader);
   ImportedScene imported;
   imported.scene = pov::SceneMaker(reader, world, memory).make();

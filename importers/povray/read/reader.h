@@ -17,17 +17,14 @@
 #include "importers/povray/read/notes.h"
 #include "importers/povray/read/number_words.h"
 #include "importers/povray/read/search.h"
+#include "importers/reading/import_options.h"
 #include "scene/geometry/vec.h"
 
 namespace vitrail::pov {
 
 // What a scene may ask for before it is refused.
-struct Limits {
-  std::uint64_t tokens = 2'000'000'000;
-  std::uint64_t written_bytes = 256 << 20;  // by #write, kept in memory
-  std::size_t open_calls = 20'000;          // of macros and loops within each other
-  int nested = 200;                         // expressions and objects within each other
-  std::uint64_t include_bytes = 1 << 30;    // of text that is included again
+struct Limits : ProgramLimits {
+  std::uint64_t include_bytes = 1 << 30;  // of text that is included again
 };
 
 struct Macro {
@@ -80,6 +77,8 @@ class Reader {
 
   // ---- Errors, with the macros and files that lead there.
   [[noreturn]] void fail(const std::string& message, const Place& place);
+  // Of objects, textures and brackets within each other.
+  [[noreturn]] void too_deep(const Place& place);
   [[noreturn]] void unexpected(const Token& token, const std::string& wanted);
   SourceLocation location(const Place& place) const;
   // Of the token that was read last.
@@ -265,7 +264,7 @@ class Reader::Deeper {
   Deeper(Reader& reader, const Place& place) : reader_(reader) {
     if (++reader_.depth_ > reader_.limits_.nested) {
       --reader_.depth_;
-      reader_.fail("too deep: objects, textures and brackets may lie 200 within each other", place);
+      reader_.too_deep(place);
     }
   }
   ~Deeper() { --reader_.depth_; }

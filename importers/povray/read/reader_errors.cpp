@@ -49,6 +49,13 @@ void Reader::fail(const std::string& message, const Place& place) {
   throw Error(text, location(place), excerpt(place));
 }
 
+void Reader::too_deep(const Place& place) {
+  fail(fmt::format("too deep: more than {} objects, textures and brackets lie within each other; "
+                   "--nesting-limit raises that",
+                   limits_.nested),
+       place);
+}
+
 void Reader::unexpected(const Token& token, const std::string& wanted) {
   if (token.kind == TokenKind::word && token.symbol->word == Word::none && token.symbol->bindings.empty())
     fail(fmt::format("{} is not declared{}", describe(token),
@@ -65,7 +72,7 @@ std::filesystem::path Reader::find_file(const std::string& name, const Place& pl
     if (std::filesystem::is_directory(folder)) folders += (folders.empty() ? "" : ", ") + folder.string();
   fail(fmt::format(
            "there is no file \"{}\" in {}; POV-Ray's own are in the package povray-includes, others are "
-           "found in the folders of $POV_INC",
+           "found in the folders of --include and $POV_INC",
            name, folders.empty() ? "the working directory" : folders),
        place);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "importers/povray/read/surfaces.h"
@@ -39,6 +40,8 @@ class SceneMaker {
                  Target target);
   void add_piece(const Object& object, const Piece& piece, const Transform& to_world, const Look& look,
                  Target target);
+  // Of an object without shadow. What only glows becomes a clear sheet that glows, so that light passes it.
+  Surface without_shadow(Surface surface, bool of_lamp, const Object& object);
   std::vector<Piece> pieces_of(const Object& object);
   std::vector<Piece> round_pieces(const ConeShape& cone);
   Id<TriangleMesh> add_mesh(TriangleMesh mesh);
@@ -71,7 +74,8 @@ class SceneMaker {
   std::map<const Object*, bool> plain_;
   std::vector<std::pair<Quadric, Id<TriangleMesh>>> quadrics_;
   std::vector<Shared<Object>> kept_;  // what the maps' keys point to
-  double reach_ = 1;                  // beyond all that is finite
+  std::optional<Id<Material>> clear_sheet_;
+  double reach_ = 1;  // beyond all that is finite
 };
 
 }  // namespace vitrail::pov

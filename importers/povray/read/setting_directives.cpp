@@ -196,7 +196,8 @@ void Reader::write_text() {
   }
   written_ += written.size();
   if (written_ > limits_.written_bytes)
-    fail(fmt::format("#write writes more than {} bytes", limits_.written_bytes), last_);
+    fail(fmt::format("#write writes more than {} bytes; --write-limit raises that", limits_.written_bytes),
+         last_);
   written_files_[file->name] += written;
 }
 

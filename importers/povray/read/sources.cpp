@@ -46,7 +46,8 @@ void Reader::open_file(const std::filesystem::path& path, const std::string& nam
 
 void Reader::push(Frame opened) {
   if (frames_.size() >= limits_.open_calls)
-    fail(fmt::format("too deep: {} macros, loops and files lie within each other", limits_.open_calls),
+    fail(fmt::format("too deep: {} macros, loops and files lie within each other; --call-limit raises that",
+                     limits_.open_calls),
          opened.call);
   frames_.push_back(std::move(opened));
 }
@@ -59,7 +60,9 @@ void Reader::pop_frame() {
 
 void Reader::count_token() {
   if (++tokens_ > limits_.tokens)
-    fail(fmt::format("too long: more than {} tokens are read; does a loop end?", limits_.tokens), last_);
+    fail(fmt::format("too long: more than {} tokens are read; does a loop end? --token-limit raises that",
+                     limits_.tokens),
+         last_);
 }
 
 Token Reader::raw() {

@@ -17,6 +17,8 @@ struct Look {
   Transform to_world;
   Shared<Interior> interior;
   bool by_uv = false;  // images lie by (u,v)
+  bool no_shadow = false;
+  bool of_lamp = false;  // it stands around a light, as what that looks like
 };
 
 // What a Shape takes of it.

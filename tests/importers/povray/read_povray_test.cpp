@@ -238,5 +238,71 @@ TEST_F(ReadPovray, APlaneAloneReachesTheHorizon) {
   EXPECT_GT(length(transform_vector(scene.shapes[0].object_to_world, Vector3d{1, 0, 0})), 1e4);
 }
 
+// A light within what it looks like would else light nothing.
+TEST_F(ReadPovray, LightPassesWhatALampLooksLike) {
+  const Scene scene =
+      read(
+          "camera { location -4*z } light_source { <0,2,0> 1 looks_like { sphere { 0, 0.1 pigment { rgb 1 } "
+          "finish { ambient 1 } } } } sphere { 0, 1 pigment { rgb 1 } no_shadow }")
+          .scene;
+  ASSERT_EQ(scene.shapes.size(), 2u);
+  const auto* const sheet =
+      std::get_if<ThinDielectricMaterial>(&scene.materials.at(scene.shapes[0].material.value).model);
+  ASSERT_TRUE(sheet);
+  EXPECT_EQ(sheet->eta, Spectrum{ConstantSpectrum{1}});
+  ASSERT_TRUE(scene.shapes[0].area_light);
+  EXPECT_FALSE(scene.area_lights.at(scene.shapes[0].area_light->value).two_sided)
+      << "its back would be seen through its front, too";
+  EXPECT_TRUE(
+      std::holds_alternative<DiffuseMaterial>(scene.materials.at(scene.shapes[1].material.value).model))
+      << "what reflects stays as it is";
+}
+
+TEST_F(ReadPovray, LightPassesASkyWithoutShadow) {
+  const auto sheets = [&](const char* more) {
+    const Scene scene =
+        read(
+            std::string("camera { location -4*z } union { sphere { 0, 100 } pigment { rgb <0,0,1> } finish { "
+                        "ambient 1 diffuse 0 } ") +
+            more + "}")
+            .scene;
+    return std::holds_alternative<ThinDielectricMaterial>(
+        scene.materials.at(scene.shapes.at(0).material.value).model);
+  };
+  EXPECT_TRUE(sheets("no_shadow"));
+  EXPECT_FALSE(sheets(""));
+}
+
+TEST_F(ReadPovray, AFlatBoxIsARectangle) {
+  const ImportedScene read_scene = read("camera { location -4*z } box { <-1,-1,2>, <1,1,2> }");
+  ASSERT_EQ(read_scene.scene.meshes.size(), 1u);
+  EXPECT_EQ(read_scene.scene.meshes[0].triangles.size(), 2u);
+  Bounds3f bounds;
+  for (const Point3f& p : read_scene.scene.meshes[0].positions) extend(bounds, p);
+  EXPECT_EQ(bounds.lower, (Point3f{-1, -1, 2}));
+  EXPECT_EQ(bounds.upper, (Point3f{1, 1, 2}));
+  EXPECT_TRUE(
+      read("camera { location -4*z } box { <-1,2,2>, <1,2,2> } sphere { 0, 1 }").scene.meshes.size() == 1u)
+      << "a line is dropped";
+}
+
+// POV-Ray's image begins at +x and goes towards +z, with its top at +y; u runs backwards here.
+TEST_F(ReadPovray, AnImageAroundASphere) {
+  std::ofstream(folder_.path() / "a.ppm") << "P3 2 1 255 255 0 0 0 0 255\n";
+  const auto at = [&](const char* more, double u, double v) {
+    const Scene scene =
+        read(std::string("sphere { 0, 1 pigment { image_map { ppm \"a.ppm\" map_type 1 } ") + more + " } }")
+            .scene;
+    const double phi = (1 - u) * 2 * M_PI, theta = (1 - v) * M_PI;  // of the sphere's own (u,v)
+    return transform_point(
+        scene.shapes.at(0).object_to_world,
+        {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+  };
+  EXPECT_LT(length(at("", 0, 0.5) - Point3d{1, 0, 0}), 1e-12);
+  EXPECT_LT(length(at("", 0.25, 0.5) - Point3d{0, 0, 1}), 1e-12);
+  EXPECT_LT(length(at("", 0.25, 1) - Point3d{0, 1, 0}), 1e-12);
+  EXPECT_LT(length(at("rotate 90*y scale 3", 0, 0.5) - Point3d{0, 0, -1}), 1e-12);
+}
+
 }  // namespace
 }  // namespace vitrail
