@@ -68,14 +68,21 @@ bool is_smooth_glass(const Material& material) {
 
 namespace {
 
-void add_needs(Requirements& r, const Material& material, const std::vector<ScatteringTable>& tables) {
+// Patterns tilt normals by where a point is, and not by its (u,v).
+bool is_bumped_by_uv(const Material& material, const std::vector<Texture>& textures) {
+  if (!material.displacement) return false;
+  const auto* id = std::get_if<Id<Texture>>(&*material.displacement);
+  return !id || !std::holds_alternative<PatternTexture>(textures.at(id->value).model);
+}
+
+void add_needs(Requirements& r, const Material& material, const Manifest& m) {
   const MaterialTraits traits = traits_of(material.model);
   const auto* glass = std::get_if<DielectricMaterial>(&material.model);
   const auto* mask = std::get_if<MaskMaterial>(&material.model);
   const auto* tabulated = std::get_if<TabulatedMaterial>(&material.model);
-  const auto* table = tabulated ? std::get_if<AdaptiveTable>(&tables.at(tabulated->table.value)) : nullptr;
-  r.uv |= (traits.along_surface && !(table && is_isotropic(*table))) || material.displacement ||
-          material.normal_map;
+  const auto* table = tabulated ? std::get_if<AdaptiveTable>(&m.tables.at(tabulated->table.value)) : nullptr;
+  r.uv |= (traits.along_surface && !(table && is_isotropic(*table))) || material.normal_map ||
+          is_bumped_by_uv(material, m.textures);
   r.refraction |= is_smooth_glass(material);
   r.dispersion |= glass && traits.disperses;
   const bool is_full_mask = mask && mask->opacity == FloatParameter{1.0f};
@@ -92,7 +99,7 @@ Requirements requirements_of(const Manifest& m, bool has_normals) {
   const std::vector<bool> used = textures_on_surfaces(m);
   for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i]) std::visit(TextureNeeds{r}, m.textures[i].model);
-  for (const Material& material : m.materials) add_needs(r, material, m.tables);
+  for (const Material& material : m.materials) add_needs(r, material, m);
   for (const Surface& surface : m.surfaces) r.see_through |= surface.opacity != FloatParameter{1.0f};
   return r;
 }

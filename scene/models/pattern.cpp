@@ -60,6 +60,8 @@ double number(const PatternTexture& t, Point3d p) {
 
 }  // namespace
 
+Point3d moved_in_pattern(const PatternTexture& t, Point3d p) { return moved(t, p); }
+
 const char* fault_of(const PatternTexture& t) {
   constexpr int most_octaves = 10, most_iterations = 10000;
   if (t.turbulence.octaves < 1 || t.turbulence.octaves > most_octaves)

@@ -16,6 +16,9 @@ std::size_t places_of(PatternTexture::Kind kind);
 // Of the other kinds. `p`: after turbulence, which marble and agate do by themselves.
 double number_of_pattern(const PatternTexture& pattern, Point3d p);
 
+// The point of its first tile that stands for p, after turbulence (pattern.cpp).
+Point3d moved_in_pattern(const PatternTexture& pattern, Point3d p);
+
 // Of crackle (pattern_crackle.cpp).
 double crackle(const PatternCrackle& crackle, Point3d p);
 

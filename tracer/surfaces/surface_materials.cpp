@@ -4,6 +4,7 @@
 #include <map>
 
 #include "scene/geometry/portable_math.h"
+#include "scene/models/pattern_normal.h"
 #include "scene/records/material_traits.h"
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/local.h"
@@ -63,6 +64,46 @@ Vector3d mapped(Id<Texture> map, const Interaction& at, Vector3d n, const Textur
   const Vector3d local = normalize(Vector3d{2 * c[0] - 1, 2 * c[1] - 1, 2 * c[2] - 1});
   const Vector3d tangent = normalize(at.dpdu - n * dot(n, at.dpdu));
   return normalize(tangent * local.x + cross(n, tangent) * local.y + n * local.z);
+}
+
+// The pattern that is its displacement: it tilts normals as POV-Ray's `normal` does.
+const PatternTexture* bumps_of(const Material& material, const Manifest& manifest) {
+  const FloatParameter* const height = material.displacement ? &*material.displacement : nullptr;
+  const auto* const id = std::get_if<Id<Texture>>(height);
+  return id ? std::get_if<PatternTexture>(&manifest.textures[id->value].model) : nullptr;
+}
+
+// v of scene/models/pattern_normal.h.
+Vector3d push_of(const PatternTexture& pattern, const FloatParameter& height, const TexturePoint& at,
+                 const Textures& textures) {
+  const Point3d p = transform_point(inverse(pattern.texture_to_world), at.p);
+  if (!pushes_by_itself(pattern.kind))
+    return descent_of_height(p, [&](Point3d q) {
+      TexturePoint moved = at;
+      moved.p = transform_point(pattern.texture_to_world, q);
+      return textures.number(height, moved);
+    });
+  if (pattern.map.empty()) return {};
+  const SpectrumParameter& last = pattern.map.back().value;
+  const auto* constant = std::get_if<Spectrum>(&last);
+  const double most = constant ? evaluate(*constant, 550) : textures.number(std::get<Id<Texture>>(last), at);
+  return push_of_pattern(pattern, p) * (most / bump_height);
+}
+
+// The normal as maps, heights and patterns turn it, whichever side the ray sees of it.
+Vector3d tilted(const Material& material, const Interaction& at, const Manifest& manifest,
+                const Textures& textures) {
+  Vector3d n = at.shading;
+  const PatternTexture* const pattern = bumps_of(material, manifest);
+  if (dot(at.dpdu, at.dpdu) > 0) {
+    if (material.normal_map) n = mapped(*material.normal_map, at, n, textures);
+    if (material.displacement && !pattern) n = bumped(*material.displacement, at, n, textures);
+  }
+  if (!pattern) return n;
+  // The side of the surface that the ray sees is tilted.
+  const Vector3d push = push_of(*pattern, *material.displacement, at.texture_point(), textures);
+  const Vector3d turned = tilted_normal(*pattern, n * at.side(), push) * at.side();
+  return dot(turned, turned) > 0 ? normalize(turned) : n;
 }
 
 RoughPlasticTables plastic_tables(double eta, const Microfacets& facets) {
@@ -212,11 +253,7 @@ SampledSpectrum Materials::mirrors(std::uint32_t material, const Interaction& at
 }
 
 Vector3d Materials::shading_normal(const Material& material, const Interaction& at) const {
-  Vector3d n = at.shading;
-  if (dot(at.dpdu, at.dpdu) > 0) {
-    if (material.normal_map) n = mapped(*material.normal_map, at, n, textures_);
-    if (material.displacement) n = bumped(*material.displacement, at, n, textures_);
-  }
+  Vector3d n = tilted(material, at, manifest_, textures_);
   // A normal that the ray sees from the other side than the surface is turned around the smooth one, to face
   // the ray (Schüssler et al., "Microfacet-Based Normal Mapping for Robust Monte Carlo Path Tracing", 2017).
   const auto usable = [&] { return dot(n, n) > 0.5 && (dot(at.out, n) > 0) == at.front; };
@@ -232,7 +269,6 @@ Scattering Materials::scattering_at(const Material& material, const Interaction&
                                     const SampledWavelengths& wavelengths, const SampledSpectrum& throughput,
                                     std::uint64_t event) const {
   const bool both_sides = kind(index_of(material)).transmits;
-  const Vector3d normal = shading_normal(material, at);
   const BsdfMaker maker{
       textures_,
       at.texture_point(),
@@ -248,8 +284,13 @@ Scattering Materials::scattering_at(const Material& material, const Interaction&
   // A map turns the frame of the smooth normal, whose tangent is perpendicular to that, as in pbrt and
   // Mitsuba.
   if (material.normal_map) along = along - at.shading * dot(at.shading, along);
-  return Scattering{std::visit(maker, material.model),
-                    frame_around(normal, along, both_sides ? 1.0 : at.side()), both_sides,
+  Bsdf bsdf = std::visit(maker, material.model);
+  // A pattern may turn the normal away from the ray, as POV-Ray's: what is as bright from all directions
+  // shows it as it is.
+  const bool as_it_is = has_one_lobe(bsdf) && bumps_of(material, manifest_);
+  const Vector3d normal =
+      as_it_is ? tilted(material, at, manifest_, textures_) : shading_normal(material, at);
+  return Scattering{std::move(bsdf), frame_around(normal, along, both_sides ? 1.0 : at.side()), both_sides,
                     material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
 }
 

@@ -91,13 +91,21 @@ bool end_at_surface(Tracing& tracing, CameraPath& path, const Event& event) {
   return true;
 }
 
+// The direction that light leaves to, in the frame of the scattering. Where a pattern turns the normal away
+// from the ray, and what is there is as bright from all directions, that is above the surface all the same.
+Vector3d local_out(const Scattering& scattering, const Interaction& at, const Material& material) {
+  Vector3d out = scattering.frame.to_local(at.out);
+  if (material.displacement && has_one_lobe(scattering.bsdf)) out.z = std::abs(out.z);
+  return out;
+}
+
 // Connects to lights, gathers what photons bring, and goes on by a sample of the BSDF.
 bool scatter_path(Tracing& tracing, CameraPath& path, const Event& event, ShadowRays& shadows) {
   const auto [material, passes] = material_at(tracing, path, event);
   if (!material) return passes;
   const Interaction& at = event.at;
   const Scattering scattering = scattering_at(tracing, path, at, *material);
-  const Vector3d out = scattering.frame.to_local(at.out);
+  const Vector3d out = local_out(scattering, at, *material);
   const std::uint32_t candidates =
       is_specular(scattering.bsdf) ? 0 : light_candidates(tracing, path, at.p, is_diffuse(scattering.bsdf));
   if (candidates > 0 && tracing.scene.lights.can_sample())

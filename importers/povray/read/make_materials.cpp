@@ -12,6 +12,7 @@
 
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/surfaces.h"
+#include "scene/records/material_traits.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail::pov {
@@ -57,12 +58,13 @@ std::string key_of(const Look& look) {
   std::string key = fmt::format("{},{};", static_cast<const void*>(look.interior.get()), look.by_uv);
   if (!look.texture) return key;
   const pov::Texture& t = *look.texture;
-  if (t.layers.empty() && !t.pattern && t.pigment && t.pigment->color) {
+  if (t.layers.empty() && !t.pattern && !t.normal && t.pigment && t.pigment->color) {
     key += "c" + key_of(*t.pigment->color);
     return key + key_of(t.finish ? *t.finish : default_finish());
   }
-  key += fmt::format("{};{};{};", static_cast<const void*>(t.pigment.get()),
-                     static_cast<const void*>(t.finish.get()), static_cast<const void*>(t.map.get()));
+  key += fmt::format("{};{};{};{};", static_cast<const void*>(t.pigment.get()),
+                     static_cast<const void*>(t.finish.get()), static_cast<const void*>(t.map.get()),
+                     static_cast<const void*>(t.normal.get()));
   if (t.pattern || !t.layers.empty())
     key += fmt::format("t{};", static_cast<const void*>(look.texture.get()));
   if (is_plain(t)) return key;
@@ -79,7 +81,7 @@ bool is_plain(const Pigment& pigment) {
 }
 
 bool is_plain(const pov::Texture& texture) {
-  if (texture.pattern) return false;
+  if (texture.pattern || texture.normal) return false;
   for (const auto& layer : texture.layers)
     if (!is_plain(*layer)) return false;
   return !texture.pigment || is_plain(*texture.pigment);
@@ -96,6 +98,9 @@ Id<Material> Surfaces::add(MaterialModel model, const Place& place) {
   Material material;
   material.model = std::move(model);
   material.origin = origin(place);
+  const bool has_faces =
+      !is_made_of_others(material) && !std::holds_alternative<ThinDielectricMaterial>(material.model);
+  if (has_faces) material.displacement = displacement_;
   return append(scene_.materials, std::move(material));
 }
 
@@ -153,20 +158,17 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
   }();
   const Pigment& pigment = texture.pigment ? *texture.pigment : *black;
   const Finish& finish = texture.finish ? *texture.finish : default_finish();
-  if (texture.normal) dropped("normal: the surface is smooth", texture.normal->place);
   const Transform placed = to_world * pigment.to_object;
   Layer layer;
   layer.opacity = opacity_of(pigment, placed, look.by_uv);
-  layer.material = material_of(pigment, finish, placed, look);
   const float* const opacity = std::get_if<float>(&layer.opacity);
   const bool clear = opacity && *opacity < 1 && look.interior && look.interior->ior > 1.0001;
   const bool colored = opacity && *opacity < 1 && pigment.color && pigment.color->v[3] > 0;
-  if (clear || colored) {  // light goes through the material itself
-    const Id<Material> through = clear_material(pigment, finish, look.interior.get());
-    layer.material =
-        *opacity > 0.001f ? add(BlendMaterial{through, layer.material, *opacity}, texture.place) : through;
-    layer.opacity = 1.0f;
-  }
+  Body body{pigment, finish, placed, look, std::nullopt, texture.place};
+  if (clear || colored) body.solid = *opacity;
+  const Bump* const bump = texture.normal.get();
+  layer.material = bumpy(body, bump, bump ? to_world * bump->to_object : to_world);
+  if (body.solid) layer.opacity = 1.0f;
   const Numbers& a = finish.ambient;
   std::array<double, 3> factors;
   for (std::size_t i = 0; i < 3; ++i)
@@ -176,7 +178,7 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
     if (factors[0] != factors[1] || factors[1] != factors[2])
       if (!pigment.color)
         approximated("a colour of ambient or emission upon a pattern: its greatest component", finish.place);
-    const double share = opacity && (clear || colored) ? *opacity : 1;
+    const double share = body.solid ? static_cast<double>(*body.solid) : 1;
     if (pigment.color) {
       RGB glow;
       glow.r = reader_.linear(pigment.color->v[0]) * factors[0] * share;
@@ -190,6 +192,14 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
     }
   }
   return layer;
+}
+
+Id<Material> Surfaces::material_of(const Body& body) {
+  if (!body.solid) return material_of(body.pigment, body.finish, body.to_world, body.look);
+  const Id<Material> through = clear_material(body.pigment, body.finish, body.look.interior.get());
+  if (!(*body.solid > 0.001f)) return through;
+  const Id<Material> solid = material_of(body.pigment, body.finish, body.to_world, body.look);
+  return add(BlendMaterial{through, solid, *body.solid}, body.place);
 }
 
 Id<Material> Surfaces::clear_material(const Pigment& pigment, const Finish& finish,

@@ -52,9 +52,9 @@ Shared<BlendMap> read_map_block(Reader& reader, Word kind) {
         continue;
       }
       case Word::slope_map_:
-        reader.numbers();
+        entry.color = reader.numbers();
         reader.comma();
-        if (reader.number_follows()) reader.numbers();
+        if (reader.number_follows()) entry.color.v[1] = reader.number("a slope");
         break;
       default: {
         // The old form gives both ends of a piece: [0.0 0.5 color A color B].
@@ -176,7 +176,6 @@ Shared<Bump> read_normal_block(Reader& reader) {
   const Reader::Deeper deeper(reader, reader.here());
   Bump bump;
   bump.place = reader.here();
-  Shared<BlendMap> map;
   for (;;) {
     reader.comma();
     const Token token = reader.peek();
@@ -189,7 +188,7 @@ Shared<Bump> read_normal_block(Reader& reader) {
       const Word word = token.symbol->word;
       if (names_pattern(word)) {
         reader.next();
-        read_pattern(reader, word, bump.pattern, map);
+        read_pattern(reader, word, bump.pattern, bump.map);
         reader.comma();
         if (reader.number_follows()) bump.size = reader.number("the size of bumps");
         continue;
@@ -200,13 +199,18 @@ Shared<Bump> read_normal_block(Reader& reader) {
         bump.pattern.image = read_image_map(reader, &bump.size);
         continue;
       }
+      if (word == Word::no_bump_scale_) {
+        reader.next();
+        bump.scaled = !reader.flag();
+        continue;
+      }
       if (word == Word::bump_size_) {
         reader.next();
         bump.size = reader.number("bump_size");
         continue;
       }
     }
-    if (read_pattern_modifier(reader, bump.pattern, map, bump.to_object)) continue;
+    if (read_pattern_modifier(reader, bump.pattern, bump.map, bump.to_object)) continue;
     if (reader.number_follows()) {
       bump.size = reader.number("the size of bumps");
       continue;

@@ -18,7 +18,7 @@ class Reader;
 // An entry of a map: of its kinds one is there.
 struct BlendEntry {
   double at = 0;
-  Numbers color;
+  Numbers color;  // of a slope_map: the height and the slope
   Shared<Pigment> pigment;
   Shared<Texture> texture;
   Shared<Bump> bump;
@@ -101,6 +101,8 @@ struct Bump {
   Place place;
   Pattern pattern;
   double size = 0.5;
+  Shared<BlendMap> map;  // a slope_map, a normal_map, or a list of normals
+  bool scaled = true;    // false: no_bump_scale
   Transform to_object;
 };
 

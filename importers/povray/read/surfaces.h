@@ -51,6 +51,18 @@ class Surfaces {
   Layer blended(const Texture& texture, const Transform& to_world, const Look& look);
   Id<Material> material_of(const Pigment& pigment, const Finish& finish, const Transform& to_world,
                            const Look& look);
+  // What is solid of it, and what light goes through, in their shares; with its bumps (make_bumps.cpp).
+  struct Body {
+    const Pigment& pigment;
+    const Finish& finish;
+    Transform to_world;  // of the pigment
+    const Look& look;
+    std::optional<float> solid;  // how much of it; none: all, as nothing goes through
+    Place place;
+  };
+  Id<Material> material_of(const Body& body);
+  Id<Material> bumpy(const Body& body, const Bump* bump, const Transform& to_world);
+  std::optional<FloatParameter> bump_texture(const Bump& bump, const Transform& to_world);
   Id<Material> clear_material(const Pigment& pigment, const Finish& finish, const Interior* interior);
 
   // Textures (make_textures.cpp). `what` of a colour becomes the value.
@@ -81,6 +93,7 @@ class Surfaces {
   Reader& reader_;
   Scene& scene_;
   Numbers ambient_;
+  std::optional<FloatParameter> displacement_;  // of materials that are added
   std::map<std::string, Surface> made_;
   std::vector<Shared<Texture>> kept_;
 };

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "importers/povray/write/write_patterns.h"
 #include "importers/povray/write/write_pigments.h"
 #include "importers/writing/export_colors.h"
 
@@ -58,7 +59,12 @@ class Builder {
     if (!material_.displacement) return "";
     const auto* id = std::get_if<Id<Texture>>(&*material_.displacement);
     if (!id) return "";  // a constant height tilts nothing
-    const auto* image = std::get_if<ImageTexture>(&context_.scene.textures.at(id->value).model);
+    const TextureModel& model = context_.scene.textures.at(id->value).model;
+    if (const auto* pattern = std::get_if<PatternTexture>(&model))
+      if (const auto text = normal_text(*pattern))
+        return fmt::format(" normal {{ {} {} }}", *text,
+                           matrix(context_.units.to_pov * pattern->texture_to_world));
+    const auto* image = std::get_if<ImageTexture>(&model);
     const auto file =
         image ? image_of(context_, *image, ImageUse::number, material_.origin) : std::optional<std::string>{};
     if (!file || !std::holds_alternative<UvMapping>(image->mapping)) {

@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "scene/models/pattern_normal.h"
+
 namespace vitrail::povray {
 
 namespace {
@@ -74,6 +76,35 @@ std::string pattern_text(const PatternTexture& t, const std::vector<std::string>
   for (std::size_t i = 0; i < values.size(); ++i) text += fmt::format(" [{} {}]", t.map[i].at, values[i]);
   if (values.empty()) text += " [0 rgb 0] [1 rgb 1]";
   return text + " }" + tiles(t.repeat);
+}
+
+std::optional<std::string> normal_text(const PatternTexture& t) {
+  std::vector<double> heights;  // of an amount of 1
+  for (const PatternStop& stop : t.map) {
+    const auto* constant = std::get_if<Spectrum>(&stop.value);
+    if (!constant) return std::nullopt;
+    heights.push_back(evaluate(*constant, lambda_min_nm) / bump_height);
+  }
+  if (heights.empty()) return std::nullopt;
+  std::string text = kind_text(t) + turbulence_text(t);
+  if (is_of_places(t.kind)) {
+    if (t.kind == Kind::brick)
+      text += fmt::format(" brick_size {} mortar {}", triple(t.brick.size), t.brick.mortar);
+    text += fmt::format(" bump_size {}", heights.back());
+  } else if (pushes_by_itself(t.kind)) {
+    text += fmt::format(" frequency {} phase {} bump_size {}", t.frequency, t.phase, heights.back());
+  } else {
+    text += wave_text(t) + " bump_size 1 slope_map {";
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+      const double before = i > 0 ? heights[i] - heights[i - 1] : 0,
+                   after = i + 1 < heights.size() ? heights[i + 1] - heights[i] : 0;
+      if (i > 0) text += fmt::format(" [{} <{},{}>]", t.map[i].at, heights[i], before);
+      if (i + 1 < heights.size() || i == 0)
+        text += fmt::format(" [{} <{},{}>]", t.map[i].at, heights[i], after);
+    }
+    text += " }";
+  }
+  return text + tiles(t.repeat);
 }
 
 }  // namespace vitrail::povray

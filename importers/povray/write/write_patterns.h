@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,5 +12,9 @@ namespace vitrail::povray {
 // A pattern with its modifiers, and `values` of its map: pigments, as they are written. Without a map it goes
 // from 0 to 1.
 std::string pattern_text(const PatternTexture& pattern, const std::vector<std::string>& values);
+
+// Behind `normal {`, of a pattern that tilts normals (scene/models/pattern_normal.h): each piece of its map
+// is one of a slope_map. None where its values are textures.
+std::optional<std::string> normal_text(const PatternTexture& texture);
 
 }  // namespace vitrail::povray

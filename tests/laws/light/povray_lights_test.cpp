@@ -231,6 +231,39 @@ TEST(PovrayLights, OnePicture) {
   shining.radiance = texture;
   add_shape(scene, square(scene, 0.1f, 0.2f), white, shining);
   expect_one_picture("lamps and a glow");
+  PatternTexture bumps;
+  bumps.kind = PatternTexture::Kind::wrinkles;
+  bumps.map = {{0, ConstantSpectrum{0}}, {1, ConstantSpectrum{0.05f}}};
+  scene.textures.push_back({bumps, true, "", {}});
+  for (Material& material : scene.materials)
+    material.displacement = Id<Texture>{static_cast<std::uint32_t>(scene.textures.size() - 1)};
+  expect_one_picture("bumps");
+}
+
+// ---- Normals by patterns
+
+// On a floor that rises by half of x, and on the same pattern three times as large along z: the height is
+// measured in the pattern's space. From a low eye that floor's normal looks away, and is as bright.
+TEST(PovrayLights, NormalsOfPatterns) {
+  for (const Vector3d& out : {Vector3d{0, 0, 1}, Vector3d{0.96, 0, 0.28}})
+    for (const double tall : {1.0, 3.0})
+      for (const double sine : {-0.6, 0.6}) {
+        Material bumpy = white;
+        bumpy.displacement = Id<Texture>{0};
+        Scene scene = floor_seen(bumpy);
+        PatternTexture ramp;
+        ramp.kind = PatternTexture::Kind::gradient;
+        ramp.texture_to_world = scale({1, 1, tall});
+        ramp.map = {{0, Spectrum{ConstantSpectrum{0}}}, {1, Spectrum{ConstantSpectrum{0.5f}}}};
+        scene.textures.push_back({ramp, true, "", {}});
+        look_along(scene, out, {0.4, 0, 0}, 1e-4);
+        scene.lights.push_back({DistantLight{{-sine, 0, -0.8}, ConstantSpectrum{1}}, {}});
+        const double slope = 0.5 * tall;
+        const double cosine = (0.8 - slope * sine) / std::sqrt(1 + slope * slope);
+        const std::string what = fmt::format("seen from {}, light from {}, {} tall", out.x, sine, tall);
+        expect_mean(what, scene, Integrator::direct, std::max(cosine, 0.0) / pi, 4);
+        expect_mean(what, scene, Integrator::path, std::max(cosine, 0.0) / pi, 4);
+      }
 }
 
 }  // namespace

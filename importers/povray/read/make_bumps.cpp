@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// normal {}: patterns that tilt normals (scene/models/pattern_normal.h), as the displacement of materials.
+// Several normals of a map or a list are several materials, blended by the pattern.
+#include <algorithm>
+#include <cmath>
+
+#include "importers/povray/read/pattern_kinds.h"
+#include "importers/povray/read/reader.h"
+#include "importers/povray/read/surfaces.h"
+#include "scene/models/pattern_normal.h"
+
+namespace vitrail::pov {
+
+namespace {
+
+constexpr int pieces = 16;  // straight ones, in place of each curved piece of a slope_map
+
+// The cubic between two entries of a slope_map, by their heights and slopes (Hermite), t from 0 to 1. Slopes
+// are those of t: POV-Ray shows [0 <0, 1>] [0.5 <1, 1>] as a straight line.
+double height_between(const BlendEntry& a, const BlendEntry& b, double t) {
+  const double t2 = t * t, t3 = t2 * t;
+  return (2 * t3 - 3 * t2 + 1) * a.color.v[0] + (t3 - 2 * t2 + t) * a.color.v[1] +
+         (3 * t2 - 2 * t3) * b.color.v[0] + (t3 - t2) * b.color.v[1];
+}
+
+bool is_straight(const BlendEntry& a, const BlendEntry& b) {
+  const double rise = b.color.v[0] - a.color.v[0];
+  constexpr double tolerance = 1e-9;
+  return std::abs(a.color.v[1] - rise) < tolerance && std::abs(b.color.v[1] - rise) < tolerance;
+}
+
+void add_stop(PatternTexture& t, double at, double value) {
+  PatternStop stop;
+  stop.at = static_cast<float>(std::clamp(at, 0.0, 1.0));
+  stop.value = Spectrum{ConstantSpectrum{static_cast<float>(value)}};
+  t.map.push_back(std::move(stop));
+}
+
+void add_slopes(PatternTexture& t, const BlendMap& map, double height) {
+  const auto stop = [&](double at, double value) { add_stop(t, at, value * height); };
+  for (std::size_t i = 0; i < map.entries.size(); ++i) {
+    const BlendEntry& a = map.entries[i];
+    stop(a.at, a.color.v[0]);
+    if (i + 1 == map.entries.size()) break;
+    const BlendEntry& b = map.entries[i + 1];
+    if (!(b.at > a.at) || is_straight(a, b)) continue;
+    for (int k = 1; k < pieces; ++k) {
+      const double u = static_cast<double>(k) / pieces;
+      stop(a.at + u * (b.at - a.at), height_between(a, b, u));
+    }
+  }
+  std::ranges::stable_sort(t.map, {}, &PatternStop::at);
+}
+
+bool has_normals(const Bump& bump) {
+  return bump.map && std::ranges::any_of(bump.map->entries, [](const BlendEntry& e) { return !!e.bump; });
+}
+
+}  // namespace
+
+std::optional<FloatParameter> Surfaces::bump_texture(const Bump& bump, const Transform& to_world) {
+  if (bump.pattern.kind == Word::none || bump.size == 0) return std::nullopt;
+  if (!pattern_kind(bump.pattern.kind)) {
+    dropped("a normal of this pattern: the surface is smooth", bump.place);
+    return std::nullopt;
+  }
+  auto made = pattern_texture(bump.pattern, to_world, bump.place);
+  if (!made) return std::nullopt;
+  double height = bump.size * bump_height;
+  if (!bump.scaled) {  // a height of the world, where ours is of the pattern's space
+    const double size = std::cbrt(std::abs(determinant3(to_world)));
+    height /= size;
+    if (std::abs(length(transform_vector(to_world, {1, 0, 0})) - size) > 1e-6 * size ||
+        std::abs(length(transform_vector(to_world, {0, 1, 0})) - size) > 1e-6 * size)
+      approximated("no_bump_scale of a pattern that is not scaled evenly: by its mean scale", bump.place);
+  }
+  if (bump.map && bump.map->kind == Word::slope_map_ && !is_of_places(made->kind) &&
+      !pushes_by_itself(made->kind)) {
+    add_slopes(*made, *bump.map, height);
+  } else {
+    add_stop(*made, 0, 0);
+    add_stop(*made, is_of_places(made->kind) ? 0 : 1, height);
+  }
+  return add(std::move(*made), true, bump.place);
+}
+
+Id<Material> Surfaces::bumpy(const Body& body, const Bump* bump, const Transform& to_world) {
+  if (!bump || !has_normals(*bump)) {
+    displacement_ = bump ? bump_texture(*bump, to_world) : std::nullopt;
+    const Id<Material> made = material_of(body);
+    displacement_.reset();
+    return made;
+  }
+  std::optional<Id<Material>> result;
+  const BlendMap& map = *bump->map;
+  const bool average = bump->pattern.kind == Word::average_;
+  const bool list = !average && map.kind == Word::normal_map_ && map.entries.back().at >= 1 &&
+                    pattern_kind(bump->pattern.kind) && is_of_places(*pattern_kind(bump->pattern.kind));
+  double before = 0, weights = 0;
+  for (std::size_t i = 0; i < map.entries.size(); ++i) {
+    const BlendEntry& entry = map.entries[i];
+    const Bump* const inner = entry.bump.get();
+    const Id<Material> made = bumpy(body, inner, inner ? to_world * inner->to_object : to_world);
+    weights += entry.at;
+    if (result) {
+      const FloatParameter amount =
+          average ? FloatParameter{static_cast<float>(weights > 0 ? entry.at / weights : 0)}
+                  : amount_texture(bump->pattern, to_world, before, entry.at, bump->place, list, i);
+      result = add(BlendMaterial{*result, made, amount}, bump->place);
+    } else {
+      result = made;
+    }
+    before = entry.at;
+  }
+  if (!list) approximated("normals between two of a map: a mixture of both", bump->place);
+  return *result;
+}
+
+}  // namespace vitrail::pov
