@@ -29,6 +29,8 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
   app.add_option("--include-limit", a.include_limit,
                  "most text, in all, of files that a scene includes more than once (default: 1G)");
   app.add_option("--root", a.root, "the scene may name only files in this folder, links resolved");
+  app.add_flag("--all-media", a.all_media,
+               "keep fog and absorption that the scene's integrator ignores, such as pbrt's \"path\"");
 }
 
 void declare_rgb_option(CLI::App& app, std::string& method) {
@@ -45,6 +47,7 @@ RgbMethod rgb_method(const std::string& method) {
 
 ImportOptions import_options(const ImportArguments& a) {
   ImportOptions options{{}, a.missing == "replace", a.sky, a.camera};
+  options.all_media = a.all_media;
   for (const std::string& word : a.definitions) {
     const std::size_t at = word.find('=');
     options.definitions[word.substr(0, at)] = word.substr(at + 1);
@@ -62,6 +65,7 @@ std::vector<std::string> arguments_of(const ImportArguments& a) {
   if (!a.sky.empty()) words.push_back("--sky=" + a.sky);
   if (!a.include_limit.empty()) words.push_back("--include-limit=" + a.include_limit);
   if (!a.root.empty()) words.push_back("--root=" + a.root);
+  if (a.all_media) words.push_back("--all-media");
   return words;
 }
 

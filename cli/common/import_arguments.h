@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// -D name=value, --camera N, --missing, --sky, --include-limit and --root: what a scene is loaded with.
+// -D name=value, --camera N, --missing, --sky, --include-limit, --root and --all-media: what a scene is
+// loaded with.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,6 +16,7 @@ struct ImportArguments {
   std::vector<std::string> definitions;
   int camera = 0;
   std::string missing = "refuse", sky, include_limit, root;
+  bool all_media = false;
 };
 
 // --rgb jakob-hanika|matrix-r: how a scene's colours become spectra as it is partitioned.

@@ -7,10 +7,10 @@ namespace {
 
 constexpr Heading scene{
     "How the scene is read",
-    "define=NAME=VALUE camera sky=SKY rgb missing root=FOLDER include-limit=SIZE no-cache strict"};
+    "define=NAME=VALUE camera sky=SKY rgb all-media missing root=FOLDER include-limit=SIZE no-cache strict"};
 constexpr Heading scene_of_render{
     "How the scene is read",
-    "define=NAME=VALUE sky=SKY rgb missing root=FOLDER include-limit=SIZE no-cache strict"};
+    "define=NAME=VALUE sky=SKY rgb all-media missing root=FOLDER include-limit=SIZE no-cache strict"};
 constexpr Heading meshes{"Changes to its meshes",
                          "tessellate=SEGMENTS repair orient subdivide=LEVELS decimate=FRACTION"};
 

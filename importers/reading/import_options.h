@@ -17,6 +17,7 @@ struct ImportOptions {
   std::string sky;  // in place of all light from infinitely far (given_sky.h); "": as the file says
   int camera = 0;   // which of a Mitsuba scene's sensors, in the file's order, from 0
   std::uint64_t include_limit = 1 << 30;  // bytes of text that is included again (included_text.h)
+  bool all_media = false;                 // also those that the scene's integrator passes by (pbrt's "path")
 };
 
 }  // namespace vitrail
