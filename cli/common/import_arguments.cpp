@@ -58,6 +58,8 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
       ->allow_extra_args(false);
   declare_program_limits(app, a);
   app.add_option("--root", a.root, "the scene may name only files in this folder, links resolved");
+  app.add_flag("--all-media", a.all_media,
+               "keep fog and absorption that the scene's integrator ignores, such as pbrt's \"path\"");
 }
 
 void declare_rgb_option(CLI::App& app, std::string& method) {
@@ -74,6 +76,7 @@ RgbMethod rgb_method(const std::string& method) {
 
 ImportOptions import_options(const ImportArguments& a) {
   ImportOptions options{{}, a.missing == "replace", a.sky, a.camera};
+  options.all_media = a.all_media;
   for (const std::string& word : a.definitions) {
     const std::size_t at = word.find('=');
     options.definitions[word.substr(0, at)] = word.substr(at + 1);
@@ -102,6 +105,7 @@ std::vector<std::string> arguments_of(const ImportArguments& a) {
     words.push_back("--nesting-limit=" + std::to_string(a.program.nested));
   if (!a.write_limit.empty()) words.push_back("--write-limit=" + a.write_limit);
   if (!a.root.empty()) words.push_back("--root=" + a.root);
+  if (a.all_media) words.push_back("--all-media");
   return words;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// -D name=value, --camera N, --missing, --sky, --include, --root and limits: what a scene is loaded with.
+// -D name=value, --camera N, --missing, --sky, --include, --root, --all-media and limits: what a scene is
+// loaded with.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,6 +19,7 @@ struct ImportArguments {
   std::vector<std::string> include_folders;
   ProgramLimits program;
   std::string write_limit;
+  bool all_media = false;
 };
 
 // --rgb jakob-hanika|matrix-r: how a scene's colours become spectra as it is partitioned.

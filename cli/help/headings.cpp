@@ -7,12 +7,12 @@ namespace {
 
 constexpr Heading scene{
     "How the scene is read",
-    "define=NAME=VALUE camera sky=SKY rgb missing include=FOLDER root=FOLDER include-limit=SIZE "
+    "define=NAME=VALUE camera sky=SKY rgb all-media missing include=FOLDER root=FOLDER include-limit=SIZE "
     "token-limit=COUNT call-limit=COUNT nesting-limit=COUNT write-limit=SIZE no-cache strict"};
-constexpr Heading scene_of_render{
-    "How the scene is read",
-    "define=NAME=VALUE sky=SKY rgb missing include=FOLDER root=FOLDER include-limit=SIZE token-limit=COUNT "
-    "call-limit=COUNT nesting-limit=COUNT write-limit=SIZE no-cache strict"};
+constexpr Heading scene_of_render{"How the scene is read",
+                                  "define=NAME=VALUE sky=SKY rgb all-media missing include=FOLDER "
+                                  "root=FOLDER include-limit=SIZE token-limit=COUNT "
+                                  "call-limit=COUNT nesting-limit=COUNT write-limit=SIZE no-cache strict"};
 constexpr Heading meshes{"Changes to its meshes",
                          "tessellate=SEGMENTS repair orient subdivide=LEVELS decimate=FRACTION"};
 

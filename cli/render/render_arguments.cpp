@@ -398,7 +398,10 @@ void interpret(const CLI::App& app, RenderArguments& a) {
 std::vector<std::string> partition_arguments(const RenderArguments& a) {
   std::vector<std::string> arguments = arguments_of(a.meshes);
   arguments.insert(arguments.end(), {"--no-sync", "--no-summary"});
-  std::ranges::copy(arguments_of(a.imports), std::back_inserter(arguments));
+  // An integrator that is given shows media, whatever the scene's own does; photons do not cross them.
+  ImportArguments imports = a.imports;
+  imports.all_media |= !a.integrator.empty() && a.integrator != "photon";
+  std::ranges::copy(arguments_of(imports), std::back_inserter(arguments));
   if (a.rgb != usual_rgb) arguments.push_back("--rgb=" + a.rgb);
   arguments.push_back(a.cached ? "--keep-domains" : "--no-cache");
   if (a.quiet) arguments.push_back("--quiet");

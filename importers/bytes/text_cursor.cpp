@@ -6,10 +6,24 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include "scene/system/say.h"
 
 namespace vitrail {
+
+namespace {
+
+// Microsoft's C library before 2015: "-1.#IND", "1.#QNAN0", "1.#INF00".
+bool is_not_finite(std::string_view word) {
+  if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
+  if (!word.starts_with("1.#")) return false;
+  word.remove_prefix(3);
+  const std::string_view kind = word.substr(0, word.find_last_not_of("0123456789") + 1);
+  return kind == "IND" || kind == "QNAN" || kind == "SNAN" || kind == "INF";
+}
+
+}  // namespace
 
 std::string printable(std::string_view text, std::size_t longest) {
   std::string shown;
@@ -102,9 +116,10 @@ double TextCursor::number(const char* what) {
   // Numbers too small for a double are zero; those too large have become infinite.
   if (error == std::errc::invalid_argument || !at_separator()) {
     at_ = begin;
-    const std::string found = printable(word());
+    const std::string_view found = word();
+    if (is_not_finite(found)) return std::numeric_limits<double>::quiet_NaN();
     fail(found.empty() ? fmt::format("{} is missing", what)
-                       : fmt::format("{} is not a number: '{}'", what, found),
+                       : fmt::format("{} is not a number: '{}'", what, printable(found)),
          begin);
   }
   return value;

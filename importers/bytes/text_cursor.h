@@ -45,7 +45,7 @@ class TextCursor {
   // The rest of the line without the blanks around it.
   std::string_view rest_of_line();
   // A number that ends at a blank or the end of the line; anything else throws Error. `what` names it in the
-  // message.
+  // message. "nan", "inf" and what Microsoft's libraries wrote for them ("-1.#IND") are numbers.
   double number(const char* what);
   // The next number if it is a plain one (plain_decimal.h) behind spaces and line feeds; its place goes to
   // `begin`. Otherwise false, and perhaps blanks have been skipped.

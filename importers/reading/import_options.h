@@ -28,6 +28,7 @@ struct ImportOptions {
   std::uint64_t include_limit = 1 << 30;     // bytes of text that is included again (included_text.h)
   std::vector<std::string> include_folders;  // searched for files of a POV-Ray scene, after its own folder
   ProgramLimits program;
+  bool all_media = false;  // also those that the scene's integrator passes by (pbrt's "path")
 };
 
 }  // namespace vitrail

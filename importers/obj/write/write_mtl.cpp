@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "importers/obj/read/obj_meshes.h"
 #include "importers/obj/write/mtl_text.h"
 #include "importers/writing/unique_names.h"
 #include "scene/records/curve_uses.h"
@@ -266,7 +267,29 @@ std::string cleaned(std::string name) {
   return begin == std::string::npos ? "" : name.substr(begin, name.find_last_not_of(' ') - begin + 1);
 }
 
+// Diffuse by the colours of its mesh's vertices, and nothing else.
+bool is_vertex_coloured(const Scene& scene, const Shape& shape) {
+  const Material& material = scene.materials.at(shape.material.value);
+  const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model);
+  const auto* texture = diffuse ? std::get_if<Id<Texture>>(&diffuse->reflectance) : nullptr;
+  if (!texture || diffuse->sigma_deg != FloatParameter{0.0f} || !material.two_sided ||
+      material.displacement || material.normal_map || shape.area_light ||
+      shape.opacity != FloatParameter{1.0f})
+    return false;
+  const auto* colors = std::get_if<MeshAttributeTexture>(&scene.textures.at(texture->value).model);
+  return colors && *colors == MeshAttributeTexture{std::string(obj::vertex_color)} &&
+         vertex_colors(scene.meshes.at(shape.mesh.value));
+}
+
 }  // namespace
+
+const MeshAttribute* vertex_colors(const TriangleMesh& mesh) {
+  const auto found = std::ranges::find_if(mesh.attributes, [&](const MeshAttribute& a) {
+    return a.name == obj::vertex_color && !a.per_face && a.channels == 3 &&
+           a.values.size() == 3 * mesh.positions.size();
+  });
+  return found == mesh.attributes.end() ? nullptr : &*found;
+}
 
 MtlNames write_mtl(const std::vector<FlatShape>& shapes, const std::filesystem::path& path,
                    ConversionNotes& notes) {
@@ -280,7 +303,7 @@ MtlNames write_mtl(const std::vector<FlatShape>& shapes, const std::filesystem::
     std::string name = cleaned(notes.scene.materials.at(std::get<0>(key)).name);
     if (name.empty()) name = fmt::format("material_{}", std::get<0>(key));
     name = taken.take(name);
-    text += writer.write(name, flat.shape);
+    if (!is_vertex_coloured(notes.scene, flat.shape)) text += writer.write(name, flat.shape);
     names.emplace(key, name);
   }
   AtomicFile file(path);

@@ -12,6 +12,7 @@
 #include "scene/records/uv_uses.h"
 #include "scene/shapes/deferred_mesh.h"
 #include "scene/shapes/mesh_uv.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 
@@ -27,8 +28,28 @@ bool is_translation(const Transform& t) {
   return still == Transform{};
 }
 
+// Behind each position its colour, as readers take it: in sRGB's encoding, within 0 to 1.
+void put_coloured_positions(const TriangleMesh& mesh, const MeshAttribute& colors, const Transform& to_world,
+                            TextSink& out) {
+  const auto encoded = [](float linear) {
+    return static_cast<float>(srgb_encode(std::clamp(static_cast<double>(linear), 0.0, 1.0)));
+  };
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const auto put = [&, rgb = &colors.values[3 * i]](const auto& p) {
+      out.put(FMT_COMPILE("v {} {} {} {} {} {}\n"), p.x, p.y, p.z, encoded(rgb[0]), encoded(rgb[1]),
+              encoded(rgb[2]));
+    };
+    if (to_world == Transform{})
+      put(mesh.positions[i]);
+    else
+      put(transform_point(to_world, cast<double>(mesh.positions[i])));
+  }
+}
+
 void put_vertices(const TriangleMesh& mesh, const Transform& to_world, TextSink& out) {
-  if (to_world == Transform{}) {
+  if (const MeshAttribute* colors = vertex_colors(mesh)) {
+    put_coloured_positions(mesh, *colors, to_world, out);
+  } else if (to_world == Transform{}) {
     for (const Point3f& p : mesh.positions) out.put(FMT_COMPILE("v {} {} {}\n"), p.x, p.y, p.z);
   } else {
     for (const Point3f& p : mesh.positions) {
@@ -103,15 +124,24 @@ void put_geometry(const Scene& scene, const std::vector<FlatShape>& shapes, cons
   }
 }
 
+void note_attributes(const TriangleMesh& mesh, const FlatShape& flat, ConversionNotes& notes) {
+  const MeshAttribute* colors = vertex_colors(mesh);
+  if (mesh.attributes.size() > (colors ? 1 : 0))
+    notes.dropped("attributes of a mesh: OBJ has colours of vertices alone", flat.shape.origin,
+                  RecordKind::shape);
+  const auto outside = [](float value) { return value < 0 || value > 1; };
+  if (colors && std::ranges::any_of(colors->values, outside))
+    notes.approximated("colours of vertices outside of 0 to 1: the nearest of these", flat.shape.origin,
+                       RecordKind::shape);
+}
+
 }  // namespace
 
 Diagnostics write_obj(const Scene& scene, const std::filesystem::path& path) {
   ConversionNotes notes(scene);
   note_geometry_only(notes);
   const std::vector<FlatShape> shapes = flat_shapes(scene);
-  for (const FlatShape& flat : shapes)
-    if (!scene.meshes.at(flat.shape.mesh.value).attributes.empty())
-      notes.dropped("attributes of a mesh: OBJ has none", flat.shape.origin, RecordKind::shape);
+  for (const FlatShape& flat : shapes) note_attributes(scene.meshes.at(flat.shape.mesh.value), flat, notes);
   const std::filesystem::path library = path.parent_path() / SideFiles(path).name("mtl");
   note_quadrics(shapes, notes);
   const MtlNames names = write_mtl(shapes, library, notes);

@@ -17,6 +17,7 @@ struct Context {
   Version version = Version::v4;
   bool version_is_certain = true;
   bool replace_missing = false;     // leave out meshes that are not there
+  bool all_media = false;           // keep those that the integrator passes by
   std::filesystem::path directory;  // of the main file
   Report report;
   MeshMemory mesh_memory;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
+#include <string_view>
+#include <vector>
 
 #include "importers/pbrt/read/camera_film.h"
 
@@ -40,7 +43,36 @@ PhotonSettings read_photons(ParameterSet& parameters, Context& context, ViewSett
   return photons;
 }
 
+bool leave_out_media(std::vector<Shape>& shapes) {
+  bool any = false;
+  for (Shape& shape : shapes) {
+    any |= shape.interior || shape.exterior;
+    shape.interior.reset();
+    shape.exterior.reset();
+  }
+  return any;
+}
+
 }  // namespace
+
+bool passes_media_by(const std::string& integrator) {
+  constexpr std::array<std::string_view, 7> names{
+      "path", "simplepath", "directlighting", "whitted", "lightpath", "randomwalk", "sppm"};
+  return std::ranges::count(names, integrator) > 0;
+}
+
+bool leave_out_media(Scene& scene) {
+  bool any = scene.camera_medium.has_value();
+  scene.camera_medium.reset();
+  any |= leave_out_media(scene.shapes);
+  for (Prototype& prototype : scene.prototypes) any |= leave_out_media(prototype.shapes);
+  return any;
+}
+
+bool has_subsurface(const Scene& scene) {
+  return std::ranges::any_of(
+      scene.materials, [](const Material& m) { return std::holds_alternative<SubsurfaceMaterial>(m.model); });
+}
 
 void read_integrator(const std::string& kind, ParameterSet& parameters, Context& context,
                      ViewSettings& view) {

@@ -10,6 +10,7 @@ ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory,
                         std::function<void(double)> progress, const ImportOptions& options) {
   pbrt::Context context;
   context.replace_missing = options.replace_missing;
+  context.all_media = options.all_media;
   context.mesh_memory = std::move(memory);
   context.progress = std::move(progress);
   const pbrt::DetectedVersion detected = pbrt::detect_version(file);

@@ -16,7 +16,7 @@ namespace vitrail {
 // (importers/README.md). Bad input throws Error with its place. A file without WorldBegin is a part of a
 // scene: it gets a camera and a sky.
 // `progress`, if given, gets the fraction of the file that is read; what it throws stops the reading.
-// Of the options only replace_missing, of meshes here, and include_limit count.
+// Of the options only replace_missing, of meshes here, include_limit and all_media count.
 ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
                         std::function<void(double)> progress = {}, const ImportOptions& options = {});
 

@@ -54,6 +54,20 @@ void Interpreter::integrator(const Place& place) {
 
 void Interpreter::report_integrator() {
   context_.report.begin_item(integrator_place_, RecordKind::integrator);
+  // Without the directive v3 takes "path", v4 "volpath".
+  const bool is_default = view_.integrator.name.empty();
+  const std::string name = is_default && context_.version == Version::v3 ? "path" : view_.integrator.name;
+  if (!context_.all_media && passes_media_by(name) && leave_out_media(scene_))
+    context_.report.dropped(fmt::format("media: {}integrator \"{}\" ignores them, in pbrt as here; "
+                                        "\"volpath\" or --all-media shows them",
+                                        is_default ? "pbrt-v3's default " : "", name),
+                            integrator_place_);
+  if (!context_.all_media && context_.version == Version::v4 && passes_media_by(name) &&
+      has_subsurface(scene_))
+    context_.report.approximated(fmt::format("light scatters below surfaces here: integrator \"{}\" ignores "
+                                             "that in pbrt-v4, and \"volpath\" shows it",
+                                             name),
+                                 integrator_place_);
   for (const std::string& difference : settle_integrator(view_.integrator, scene_))
     context_.report.approximated(difference, integrator_place_);
 }

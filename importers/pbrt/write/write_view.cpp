@@ -4,6 +4,7 @@
 #include <numbers>
 #include <optional>
 
+#include "importers/pbrt/read/camera_film.h"
 #include "importers/pbrt/read/gbuffer.h"
 #include "importers/pbrt/write/writer.h"
 #include "importers/reading/sensor_view.h"
@@ -187,6 +188,9 @@ void write_photons(Writer& w, const PhotonSettings& photons, int depth) {
   w.line(fmt::format("Integrator \"sppm\" \"integer maxdepth\" {}{}", depth, given));
 }
 
+// pbrt-v4's "path" ignores media, and light that scatters below a surface.
+bool needs_volpath(const Writer& w) { return !w.scene.media.empty() || has_subsurface(w.scene); }
+
 }  // namespace
 
 void write_view(Writer& w) {
@@ -206,8 +210,8 @@ void write_view(Writer& w) {
     w.dropped("hidden emitters: the camera sees lamps and surroundings", w.scene.integrator_origin,
               RecordKind::integrator);
   if (s.photons) return write_photons(w, *s.photons, depth);
-  w.line(fmt::format("Integrator \"{}\" \"integer maxdepth\" {}", w.scene.media.empty() ? "path" : "volpath",
-                     depth));
+  w.line(
+      fmt::format("Integrator \"{}\" \"integer maxdepth\" {}", needs_volpath(w) ? "volpath" : "path", depth));
 }
 
 }  // namespace vitrail::pbrt

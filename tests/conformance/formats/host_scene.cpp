@@ -20,6 +20,7 @@ std::string pbrt_scene(bool v3, const PluginCase& plugin, const std::string& par
                         word == "AreaLightSource" || word == "Shape" || word == "MakeNamedMedium";
   std::string scene = "LookAt 0 0 5 0 0 0 0 1 0\n";
   if (!in_world && !plugin.name.empty()) scene += text;
+  if (v3 && word == "MakeNamedMedium") scene += "Integrator \"volpath\"\n";
   if (word != "Camera") scene += "Camera \"perspective\"\n";
   scene += "WorldBegin\n" + unless("LightSource", "LightSource \"infinite\"");
   const char* named = v3 ? "matte" : "diffuse";

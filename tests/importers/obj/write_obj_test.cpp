@@ -8,6 +8,7 @@
 
 #include "importers/obj/read/obj.h"
 #include "scene/shapes/deferred_mesh.h"
+#include "scene/spectra/color.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/support/png.h"
@@ -77,6 +78,29 @@ TEST_F(WriteObj, GeometryOfItsOwnReaderStaysBitForBit) {
       "v .1 .2 .3\nv 1e-30 16777217 -3.4e38\nv 0.333333333 1e10 7\nvt .1 .7\nvn .1 .2 .9\nf 1 2 3\n"
       "usemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\nf 3 2 1\n");
   EXPECT_THAT(diagnostics_, IsEmpty());
+}
+
+// In sRGB's encoding behind the positions; readers take them where no library defines the material.
+TEST_F(WriteObj, ColoursOfVertices) {
+  const Scene scene =
+      read_obj(folder_.write("in.obj", "v 0 0 0 1 .5 0\nv 1 0 0 0 0 1\nv 0 1 .1 .2 .2 .2\nf 1 2 3\n")).scene;
+  const Scene again = written(scene);
+  EXPECT_THAT(diagnostics_, IsEmpty());
+  EXPECT_EQ(again.textures, scene.textures);
+  EXPECT_EQ(again.materials.at(0).model, scene.materials.at(0).model);
+  EXPECT_EQ(again.meshes.at(0).positions, scene.meshes.at(0).positions);
+  const std::vector<float>& values = again.meshes[0].attributes.at(0).values;
+  ASSERT_EQ(values.size(), 9u);
+  EXPECT_NEAR(values[1], srgb_decode(.5), 1e-6);
+  EXPECT_NEAR(values[8], srgb_decode(.2), 1e-6);
+  Scene bright = scene;
+  bright.meshes[0].attributes[0].values[0] = 2;
+  EXPECT_EQ(written(bright).meshes.at(0).attributes.at(0).values[0], 1);
+  EXPECT_THAT(diagnostics_, says("outside of 0 to 1"));
+  Scene other = scene;
+  other.meshes[0].attributes[0].name = "vertex_heat";
+  EXPECT_TRUE(written(other).meshes.at(0).attributes.empty());
+  EXPECT_THAT(diagnostics_, says("colours of vertices alone"));
 }
 
 TEST_F(WriteObj, FarFromTheOriginToo) {

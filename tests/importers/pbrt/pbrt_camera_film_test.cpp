@@ -249,6 +249,56 @@ TEST(PbrtIntegrators, WhatFindsTheSameLightIsExact) {
     expect_no_diagnostics(import_text(integrator(name) + "LightSource \"infinite\" " + triangle));
 }
 
+ImportedScene with_all_media(const std::string& text) {
+  const TemporaryFolder folder;
+  ImportOptions options;
+  options.all_media = true;
+  return read_pbrt(folder.write("scene.pbrt", text), MeshMemory{}, {}, options);
+}
+
+// What pbrt's "path" shows clear, "volpath" shows coloured.
+TEST(PbrtIntegrators, IntegratorsOfSurfacesIgnoreMedia) {
+  const std::string world =
+      "Film \"rgb\" MakeNamedMedium \"m\" \"string type\" \"homogeneous\" MediumInterface \"\" \"m\" Camera "
+      "\"perspective\" WorldBegin ObjectBegin \"o\" MediumInterface \"m\" \"\" " +
+      triangle + "ObjectEnd ObjectInstance \"o\" MediumInterface \"m\" \"\" " + triangle;
+  for (const std::string name : {"path", "simplepath", "directlighting", "whitted", "lightpath", "randomwalk",
+                                 "sppm", "volpath", "simplevolpath", "bdpt", "mlt"}) {
+    const ImportedScene imported = import_text("Integrator \"" + name + "\" " + world);
+    const Scene& scene = imported.scene;
+    const bool sees = name.find("vol") != std::string::npos || name == "bdpt" || name == "mlt";
+    EXPECT_EQ(scene.camera_medium.has_value(), sees) << name;
+    EXPECT_EQ(scene.shapes.at(0).interior.has_value(), sees) << name;
+    EXPECT_EQ(scene.prototypes.at(0).shapes.at(0).interior.has_value(), sees) << name;
+    EXPECT_EQ(mentions(imported.diagnostics, "ignores them"), !sees) << name;
+    EXPECT_EQ(scene.settings.photons.has_value(), name == "sppm") << "photons cross no media here";
+    EXPECT_TRUE(with_all_media("Integrator \"" + name + "\" " + world).scene.camera_medium);
+  }
+  EXPECT_FALSE(mentions(import_text("Integrator \"path\" WorldBegin " + triangle).diagnostics, "ignores"));
+  // Without an integrator v3 takes "path", v4 "volpath".
+  const std::string v3 =
+      "Film \"image\" MakeNamedMedium \"m\" \"string type\" \"homogeneous\" MediumInterface \"\" \"m\" "
+      "Camera "
+      "\"perspective\" WorldBegin " +
+      triangle + "WorldEnd";
+  EXPECT_FALSE(import_text(v3).scene.camera_medium);
+  EXPECT_TRUE(import_text(world).scene.camera_medium);
+}
+
+// pbrt-v4's "path" takes it for clear glass; v3's shows it.
+TEST(PbrtIntegrators, PathShowsNoScatteringBelowSurfaces) {
+  const auto says = [](const std::string& name, const std::string& film) {
+    const std::string end = film == "image" ? "WorldEnd" : "";
+    return mentions(import_text("Integrator \"" + name + "\" Film \"" + film +
+                                "\" WorldBegin Material \"subsurface\" " + triangle + end)
+                        .diagnostics,
+                    "below surfaces");
+  };
+  EXPECT_TRUE(says("path", "rgb"));
+  EXPECT_FALSE(says("volpath", "rgb"));
+  EXPECT_FALSE(says("path", "image"));
+}
+
 TEST(PbrtIntegrators, OthersSayWhatTheyMiss) {
   const auto says = [](const std::string& text, const char* what) {
     return mentions(import_text(text).diagnostics, what);
@@ -278,10 +328,9 @@ TEST(PbrtIntegrators, SppmTracesPhotons) {
   EXPECT_EQ(given.max_depth, 9);
   EXPECT_EQ(of("Integrator \"sppm\" Sampler \"halton\" Film \"image\"").samples_per_pixel, 64) << "of v3";
   // Photons do not cross media.
-  const ImportedScene fog = import_text(integrator("sppm") +
-                                        "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" "
-                                        "MediumInterface \"m\" \"\" " +
-                                        triangle);
+  const ImportedScene fog = with_all_media(
+      integrator("sppm") +
+      "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" MediumInterface \"m\" \"\" " + triangle);
   EXPECT_EQ(fog.scene.settings.photons, std::nullopt);
   EXPECT_TRUE(mentions(fog.diagnostics, "photons do not cross media"));
 }
