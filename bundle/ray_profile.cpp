@@ -77,26 +77,64 @@ std::uint32_t RayProfile::domain_at(Point3d world) const {
   return at & ~KdNode::leaf_bit;
 }
 
+namespace {
+
+// JSON, a part at a time: a tree of all of it would take ten times its text.
+class ProfileWriter {
+ public:
+  explicit ProfileWriter(const std::filesystem::path& file) : out_(file) {}
+
+  void add(std::string_view text) {
+    constexpr std::size_t worth_writing_bytes = 64 << 10;
+    text_ += text;
+    if (text_.size() > worth_writing_bytes) write();
+  }
+  template <class T>
+  void add_list(const char* name, const std::vector<T>& list, const auto& to_json) {
+    add(fmt::format(",\"{}\":[", name));
+    for (const T& item : list) {
+      if (&item != list.data()) add(",");
+      add(to_json(item).dump());
+    }
+    add("]");
+  }
+  void commit() {
+    write();
+    out_.commit();
+  }
+
+ private:
+  void write() {
+    out_.write(std::as_bytes(std::span(text_)));
+    text_.clear();
+  }
+
+  AtomicFile out_;
+  std::string text_;
+};
+
+}  // namespace
+
 void write_ray_profile(const std::filesystem::path& file, const RayProfile& p) {
-  Json json{{"format", "vitrail ray profile"},
-            {"version", 3},
-            {"offset", {p.offset.x, p.offset.y, p.offset.z}},
-            {"kd_nodes", Json::array()},
-            {"domains", Json::array()}};
-  for (const KdNode& n : p.kd_nodes) json["kd_nodes"].push_back({n.axis, n.split, n.below, n.above});
-  for (const RayProfile::Domain& d : p.domains) json["domains"].push_back({d.rays, d.items, d.seconds});
-  json["ways"] = Json::array();  // from −1: the camera
-  for (const RayProfile::Way& w : p.ways)
-    json["ways"].push_back(
-        {w.from == RayProfile::Way::camera ? std::int64_t{-1} : std::int64_t{w.from}, w.to, w.rays});
-  json["cost"] = {{"camera_rays", p.cost.camera_rays},
+  ProfileWriter out(file);
+  const Json offset{p.offset.x, p.offset.y, p.offset.z};
+  out.add("{\"format\":\"vitrail ray profile\",\"version\":3,\"offset\":" + offset.dump());
+  out.add_list("kd_nodes", p.kd_nodes, [](const KdNode& n) {
+    return Json{n.axis, n.split, n.below, n.above};
+  });
+  out.add_list("domains", p.domains, [](const RayProfile::Domain& d) {
+    return Json{d.rays, d.items, d.seconds};
+  });
+  // From −1: the camera.
+  out.add_list("ways", p.ways, [](const RayProfile::Way& w) {
+    return Json{w.from == RayProfile::Way::camera ? std::int64_t{-1} : std::int64_t{w.from}, w.to, w.rays};
+  });
+  const Json cost{{"camera_rays", p.cost.camera_rays},
                   {"trace_s", p.cost.trace_s},
                   {"camera_s", p.cost.camera_s},
                   {"load_s", p.cost.load_s},
                   {"loads", p.cost.loads}};
-  const std::string text = json.dump() + "\n";
-  AtomicFile out(file);
-  out.write(std::as_bytes(std::span(text)));
+  out.add(",\"cost\":" + cost.dump() + "}\n");
   out.commit();
 }
 

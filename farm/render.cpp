@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 
 #include "farm/conclude/gather_profile.h"
 #include "farm/conclude/gather_timeline.h"
@@ -84,8 +85,18 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   agree(transport, [&] {  // what fails on rank 0 ends the job everywhere
     if (transport.rank() == 0) conclude(job, options, samples_before, profile, stats);
   });
-  if (state.work.timeline)
-    write_timelines(transport, *state.work.timeline, job.plan.threads, start, options.outputs.trace);
+  std::exception_ptr no_trace;  // on all ranks or on none; the statistics are written all the same
+  try {
+    if (state.work.timeline)
+      write_timelines(transport, *state.work.timeline, job.plan.threads, start, options.outputs.trace);
+  } catch (...) {
+    no_trace = std::current_exception();
+  }
+  gather_peaks(transport, stats);
+  agree(transport, [&] {
+    if (transport.rank() == 0) write_stats(options, stats);
+  });
+  if (no_trace) std::rethrow_exception(no_trace);
   return stats;
 }
 

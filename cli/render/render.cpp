@@ -23,6 +23,7 @@
 #include "cli/render/render_arguments.h"
 #include "cli/render/supervise.h"
 #include "cli/render/temporary_bundle.h"
+#include "farm/conclude/job_report.h"
 #include "farm/files/output_lock.h"
 #include "farm/files/signals.h"
 #include "farm/render.h"
@@ -107,7 +108,7 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   };
   if (preview || display) a.options.outputs.after_checkpoint = show;
   a.options.resources.after_film = developing(a);
-  const RenderStats stats = render(transport, a.options);
+  RenderStats stats = render(transport, a.options);
   agree(transport, [&] { require_unsaturated(stats.refused, a.options.outputs.film); });
   const int signal = number_of(stats.ending);
   if (!first) return signal ? 128 + signal : exit_done;
@@ -122,7 +123,9 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
       write_picture_of_film(a, stats);
   });
   print_end(a.options, stats);
+  if (!a.options.outputs.dry_run) add_peak_of_picture(a.options, stats);
   if (signal) throw Interrupted(signal, stopped);
+  if (!a.memory.empty()) require_kept_memory(stats);  // of a Slurm job's share nobody has promised anything
   return exit_done;
 }
 

@@ -15,6 +15,8 @@ namespace vitrail {
 
 namespace {
 
+constexpr double mib = 1 << 20;
+
 std::uint64_t pixels_without_samples(const Film& film) {
   std::uint64_t none = 0;
   for (std::uint32_t p = 0; p < film.pixels(); ++p)
@@ -26,7 +28,6 @@ double minutes(double s) { return s / 60; }
 
 // From what was done until the time limit. The first samples of a picture may be cheaper than its others.
 void print_estimate(const RenderStats& s, const Job& job, std::uint64_t samples_before) {
-  constexpr double mib = 1 << 20;
   const std::uint64_t in_memory = job.plan.memory.domains_bytes, all_domains = job.plan.all_domains;
   const std::uint64_t samples_in_all = std::uint64_t{job.plan.goal.samples} * job.film.pixels();
   show("memory of a rank: {:.0f} MiB of program, film and textures, {:.0f} MiB of domains{}\n",
@@ -42,13 +43,6 @@ void print_estimate(const RenderStats& s, const Job& job, std::uint64_t samples_
         "time: about {:.1f} min on {} × {} threads for {:.3g} million samples, by {:.3g} million that took "
         "{:.1f} s\n",
         minutes(s.wall_s * left / here), s.ranks, s.threads, left * 1e-6, here * 1e-6, s.wall_s);
-}
-
-void write_stats(const std::filesystem::path& file, const RenderStats& stats) {
-  AtomicFile out(file);
-  const std::string json = to_json(stats) + "\n";
-  out.write(std::as_bytes(std::span(json)));
-  out.commit();
 }
 
 // What the picture lacks, or has too little of.
@@ -106,9 +100,33 @@ void conclude(Job& job, const RenderOptions& options, std::uint64_t samples_befo
   stats.pixels = film.pixels();
   // The film holds all that the checkpoint does.
   if (writes_film(stats.ending)) std::filesystem::remove(checkpoint_path(options.outputs.film));
-  if (!options.outputs.stats.empty()) write_stats(options.outputs.stats, stats);
   if (profile)
     write_profile(options.outputs.profile, *profile, samples_before == 0 && stats.ending == Ending::finished);
+}
+
+void write_stats(const RenderOptions& options, const RenderStats& stats) {
+  if (options.outputs.stats.empty()) return;
+  AtomicFile out(options.outputs.stats);
+  const std::string json = to_json(stats) + "\n";
+  out.write(std::as_bytes(std::span(json)));
+  out.commit();
+}
+
+void add_peak_of_picture(const RenderOptions& options, RenderStats& stats) {
+  const std::uint64_t peak = peak_resident_bytes();
+  if (stats.by_rank.empty() || peak <= stats.by_rank[0].peak_rss_bytes) return;
+  stats.by_rank[0].peak_rss_bytes = peak;
+  stats.peak_rss_bytes = std::max(stats.peak_rss_bytes, peak);
+  write_stats(options, stats);
+}
+
+void require_kept_memory(const RenderStats& stats) {
+  if (stats.memory_budget_bytes == 0 || stats.peak_rss_bytes <= stats.memory_budget_bytes) return;
+  const auto of = std::ranges::max_element(stats.by_rank, {}, &RankStats::peak_rss_bytes);
+  throw MachineError(
+      fmt::format("rank {} took {:.1f}M of memory, and --memory allows {:.1f}M; what it made is whole",
+                  of - stats.by_rank.begin(), static_cast<double>(stats.peak_rss_bytes) / mib,
+                  static_cast<double>(stats.memory_budget_bytes) / mib));
 }
 
 }  // namespace vitrail

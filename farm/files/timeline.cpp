@@ -30,8 +30,9 @@ std::size_t Timeline::most_events(int ranks) {
 }
 
 std::uint64_t Timeline::most_bytes(int ranks) {
-  constexpr std::uint64_t copies = 3;  // itself, in order, as words
-  return copies * most_events(ranks) * sizeof(Event);
+  constexpr std::uint64_t copies = 3;      // itself, in order, as words
+  constexpr std::uint64_t text = 2 << 20;  // of the file, as it is written
+  return copies * most_events(ranks) * sizeof(Event) + text;
 }
 
 void Timeline::add(Kind kind, int thread, Clock::time_point begin, Clock::time_point end,

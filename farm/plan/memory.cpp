@@ -25,13 +25,13 @@ MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t p
   const std::uint64_t fixed = base + slack_bytes + slack_a_thread * static_cast<std::uint64_t>(threads);
   const std::uint64_t least = std::max(peak, fixed + least_queue_bytes + largest_domain);
   if (budget < least)
-    throw MachineError(
-        fmt::format("--memory {:.0f}M is too little: {:.0f}M for the program and the film, {:.0f}M for the "
-                    "largest domain and the objects in it, {:.0f}M at the highest while the scene was read; "
-                    "at least {:.0f}M is needed, or more domains",
-                    static_cast<double>(budget) / mib, static_cast<double>(fixed) / mib,
-                    static_cast<double>(largest_domain) / mib, static_cast<double>(peak) / mib,
-                    static_cast<double>(least + mib - 1) / mib));
+    throw MachineError(fmt::format(
+        "--memory {:.0f}M is too little: {:.0f}M for the program and the film, {:.0f}M for the "
+        "largest domain and the objects in it, {:.0f}M while the scene is read or the picture made; "
+        "at least {:.0f}M is needed, or more domains",
+        static_cast<double>(budget) / mib, static_cast<double>(fixed) / mib,
+        static_cast<double>(largest_domain) / mib, static_cast<double>(peak) / mib,
+        static_cast<double>(least + mib - 1) / mib));
   const std::uint64_t free = budget - fixed;
   const std::uint64_t queues =
       std::clamp(free / 5, least_queue_bytes, std::min(most_queue_bytes, free - largest_domain));
@@ -53,6 +53,16 @@ QueueBounds queue_bounds_with_photons(const MemoryPlan& plan, int ranks) {
 std::uint64_t table_bytes(std::uint64_t domains, int threads) {
   constexpr std::uint64_t a_domain = 400, of_a_resident_table = 24;
   return domains * (a_domain + of_a_resident_table * static_cast<std::uint64_t>(threads + 2));
+}
+
+std::uint64_t profile_bytes(std::uint64_t domains, int threads) {
+  // A way is from a domain to a neighbour. Where all are gathered it stands in a list that grows, in a map in
+  // order, and in the profile.
+  constexpr std::uint64_t ways = 40, a_way = 40, a_way_gathered = 128;
+  constexpr std::uint64_t a_domain = 16, a_domain_gathered = 128;
+  const auto tables = static_cast<std::uint64_t>(threads) + 1;
+  return domains * (a_domain * tables + a_domain_gathered +
+                    std::min(domains + 1, ways) * (a_way * tables + a_way_gathered));
 }
 
 std::uint64_t connection_bytes(int ranks) {

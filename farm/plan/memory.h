@@ -12,7 +12,8 @@ struct MemoryPlan {
 };
 
 // `budget` for the whole rank, 0: no limit. `base`: resident already, film and manifest included; `peak`: at
-// the highest so far. `largest_domain` has to fit. Throws MachineError with the least budget that would do.
+// the highest so far, or later while the picture is made. `largest_domain` has to fit. Throws MachineError
+// with the least budget that would do.
 MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t peak, int threads,
                        std::uint64_t largest_domain, std::uint64_t all_domains);
 
@@ -38,6 +39,9 @@ QueueBounds queue_bounds_with_photons(const MemoryPlan& plan, int ranks);
 // Of the farm's tables, which grow with the number of domains: queues, counts, what is resident, of which
 // every thread may hold one of its own.
 std::uint64_t table_bytes(std::uint64_t domains, int threads);
+
+// Of what --profile counts, on every thread, and of what becomes of it on rank 0.
+std::uint64_t profile_bytes(std::uint64_t domains, int threads);
 
 // Of what MPI keeps for the other ranks, once there are messages.
 std::uint64_t connection_bytes(int ranks);

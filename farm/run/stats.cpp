@@ -8,6 +8,7 @@
 #include <set>
 
 #include "film/renderer_version.h"
+#include "scene/system/resource_usage.h"
 #include "tracer/photons/photon_map.h"
 
 namespace vitrail {
@@ -61,6 +62,15 @@ void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>&
   s.setup_peak_rss_bytes = static_cast<std::uint64_t>(memory[2]);
   s.photons_kept = static_cast<std::uint64_t>(memory[3]);
   s.traced.widest_wedge_nrad = static_cast<std::uint64_t>(memory[4]);
+}
+
+void gather_peaks(Transport& transport, RenderStats& s) {
+  std::vector<std::int64_t> peaks(static_cast<std::size_t>(transport.size()));
+  peaks[static_cast<std::size_t>(transport.rank())] = static_cast<std::int64_t>(peak_resident_bytes());
+  transport.max_to_root(peaks);
+  s.peak_rss_bytes = static_cast<std::uint64_t>(std::ranges::max(peaks));
+  for (std::size_t i = 0; i < s.by_rank.size(); ++i)
+    s.by_rank[i].peak_rss_bytes = static_cast<std::uint64_t>(peaks[i]);
 }
 
 std::string to_json(const RenderStats& s) {

@@ -50,6 +50,8 @@ struct RenderStats {
 
 // All ranks together; the job's on rank 0. `touched`: a bit a domain, of this rank.
 void gather_stats(Transport& transport, RenderStats& stats, const std::vector<bool>& touched);
+// All ranks together, when no more memory will be used: peak_rss_bytes anew, the job's and each rank's.
+void gather_peaks(Transport& transport, RenderStats& stats);
 
 // One JSON object with the keys of the stats contract; flat but for "hosts" and "by_rank".
 std::string to_json(const RenderStats& stats);

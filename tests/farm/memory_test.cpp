@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/plan/memory.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "farm/conclude/job_report.h"
 #include "farm/rays/queues.h"
 #include "farm/rays/waiting_batches.h"
 
@@ -70,6 +72,23 @@ TEST(WaitingBatches, HoldTheirBoundAndLoseNothing) {
     }
     EXPECT_EQ(asked, std::vector(asked.size(), 1u));
     EXPECT_EQ(waiting.held_bytes(), 0u);
+  }
+}
+
+TEST(KeptMemory, NamesTheRankThatTookMore) {
+  RenderStats stats;
+  stats.by_rank.resize(3);
+  stats.by_rank[1].peak_rss_bytes = stats.peak_rss_bytes = 20 * mib;
+  for (const std::uint64_t budget : {std::uint64_t{0}, 20 * mib, 21 * mib}) {
+    stats.memory_budget_bytes = budget;
+    EXPECT_NO_THROW(require_kept_memory(stats)) << budget;
+  }
+  stats.memory_budget_bytes = 19 * mib;
+  try {
+    require_kept_memory(stats);
+    FAIL();
+  } catch (const MachineError& e) {
+    EXPECT_THAT(e.what(), ::testing::StartsWith("rank 1 took 20.0M of memory, and --memory allows 19.0M"));
   }
 }
 
