@@ -20,6 +20,12 @@ bool is_missing(const std::string& file) {
   return !std::filesystem::is_regular_file(whole_file(file), ignored);
 }
 
+// Whose density is in a file.
+const Grid* grid_of_file(const Medium& medium) {
+  const auto* density = std::get_if<Grid>(&medium.density);
+  return density && !density->filename.empty() ? density : nullptr;
+}
+
 class Replacer {
  public:
   explicit Replacer(ImportedScene& imported) : scene_(imported.scene), diagnostics_(imported.diagnostics) {}
@@ -49,6 +55,12 @@ class Replacer {
             RecordKind::material);
         material.model = DiffuseMaterial{};
       }
+  }
+
+  void media() {
+    for (const Medium& medium : scene_.media)
+      if (const Grid* density = grid_of_file(medium); density && is_missing(density->filename))
+        say(density->filename, "light passes the medium unchanged", medium.origin, RecordKind::medium);
   }
 
   void lights() {
@@ -93,6 +105,7 @@ void require_images(const Scene& scene) {
     look_at(std::get_if<EnvironmentLight>(&light.model), light.origin);
     look_at(std::get_if<GoniometricLight>(&light.model), light.origin);
   }
+  for (const Medium& medium : scene.media) look_at(grid_of_file(medium), medium.origin);
   if (missing.empty()) return;
   const auto& [file, origin] = missing.front();
   std::error_code ignored;
@@ -111,6 +124,7 @@ void replace_missing_images(ImportedScene& imported) {
   replacer.normal_maps();
   replacer.tables();
   replacer.lights();
+  replacer.media();
 }
 
 }  // namespace vitrail

@@ -15,7 +15,7 @@ inline constexpr const char* how_to_replace_missing = "; --missing=replace goes 
 void require_images(const Scene& scene);
 
 // Textures whose image is not there become 0.5, normal maps nothing, materials by a table diffuse, lights
-// around and goniometric ones the same in all directions; a diagnostic each.
+// around and goniometric ones the same in all directions, media by a grid nothing; a diagnostic each.
 void replace_missing_images(ImportedScene& imported);
 
 }  // namespace vitrail

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "images/nanovdb.h"
 #include "importers/writing/export_colors.h"
 #include "scene/system/diagnostics.h"
 
@@ -86,6 +87,13 @@ Grid with_values(const Grid& grid) {
   Grid result = grid;
   const std::size_t wanted = count_of(grid) * static_cast<std::size_t>(grid.channels);
   if (grid.values.size() == wanted && wanted > 0) return result;
+  if (wanted == 0) throw Error("the file " + grid.filename + " of a grid is not there");
+  if (!grid.field.empty()) {
+    result.values = read_nanovdb_values(grid);
+    result.filename.clear();
+    result.field.clear();
+    return result;
+  }
   if (!grid.filename.ends_with(".vol")) throw Error("a grid of a file that is no volume of Mitsuba's");
   std::ifstream file(grid.filename, std::ios::binary);
   file.seekg(volume_header_bytes);

@@ -8,8 +8,8 @@
 
 namespace vitrail {
 
-// With its values here: those of Mitsuba's volume files are read. Throws Error where the file is too short or
-// of another kind (NanoVDB).
+// With its values here: those of Mitsuba's volume files and of NanoVDB are read. Throws Error where the file
+// is too short, is not there, or is of another kind.
 Grid with_values(const Grid& grid);
 
 // f(a, b) in each cell of the finer of two, the other one linear in between; at least one is a grid. Three

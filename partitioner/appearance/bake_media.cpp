@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "images/nanovdb.h"
 #include "partitioner/appearance/reflectance_fitter.h"
 #include "scene/models/measured_media.h"
 #include "scene/spectra/color.h"
@@ -35,13 +36,17 @@ void read_values(Grid& grid) {
 // False where the grid cannot be read.
 bool bake_grid(Grid& grid, std::vector<std::string>& notes) {
   if (!grid.filename.empty()) {
-    if (!grid.field.empty() || grid.nx == 0) {
-      notes.push_back("its NanoVDB grid cannot be read");
+    if (grid.nx == 0) {
+      notes.push_back("its grid's file is not there");
       return false;
     }
-    read_values(grid);
+    if (grid.field.empty())
+      read_values(grid);
+    else
+      grid.values = read_nanovdb_values(grid);
   }
   grid.filename.clear();
+  grid.field.clear();
   for (const float v : grid.values)
     if (!std::isfinite(v) || v < 0) throw Error("a grid has a value that is negative or not finite");
   return true;

@@ -6,9 +6,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace vitrail;
   const std::filesystem::path file = fuzz::write("mesh.ply", data, size);
   return fuzz::run([&] {
-    Scene scene;
-    Diagnostics diagnostics;
-    scene.meshes.push_back(read_ply(file, &diagnostics));
-    fuzz::check(scene);
+    for (const PlyAttributes wanted : {PlyAttributes::read, PlyAttributes::look}) {
+      Scene scene;
+      Diagnostics diagnostics;
+      scene.meshes.push_back(read_ply(file, &diagnostics, wanted));
+      fuzz::check(scene);
+    }
   });
 }

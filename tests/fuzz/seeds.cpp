@@ -88,8 +88,22 @@ void add_meshes(Seeds& seeds) {
       "property float face_area\nelement face 1\nproperty list uint8 uint32 vertex_index\n"
       "property ushort face_id\nend_header\n0 0 0 0 0 1 0 0 .1\n1 0 0 0 0 1 1 0 .2\n0 1 0 0 0 1 0 1 .3\n3 0 "
       "1 2 7\n");
+  seeds.add(
+      "ply",
+      "\xef\xbb\xbfply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 4\nproperty float x\n"
+      "property float y\nproperty float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+      "property list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+      "3 0 1 2 6 0 0 .5 0 nan 1\n4 0 1 2 3 2 0 0\n");
+  seeds.add("obj",
+            "v 0 0 0 1 0 0\nv 1 0 0 .5 0 0 2\nv 0 1 0\nv 1 1 1\nvn 0 -1.#IND 1\ns 1\nf 1//1 2//1 3//1\ns "
+            "2\nf 2 3 4\n");
+  seeds.add("stl",
+            "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+            "endloop\nendfacet\nendsolid a\n");
   const std::string corners = bytes_of(0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F),
                     triangle = bytes_of(0, 1, 2);
+  seeds.add("stl", std::string(80, ' ') + bytes_of(std::uint32_t{1}, 0.F, 0.F, 1.F) + corners +
+                       bytes_of(std::uint16_t{0}));
   const std::string counts = bytes_of(std::uint64_t{3}, std::uint64_t{1});
   seeds.add("serialized", "\3" + bytes_of(0x1000) + counts + corners + triangle);
   seeds.add("serialized", "\4" + bytes_of(0x101B) + std::string("name\0", 5) + counts + corners + corners +

@@ -3,13 +3,25 @@
 #include "importers/writing/medium_grids.h"
 
 #include <gmock/gmock.h>
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#include <nanovdb/util/IO.h>
+#include <nanovdb/util/Primitives.h>
+#pragma GCC diagnostic pop
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <numeric>
 
 #include "importers/mitsuba/read/mitsuba.h"
 #include "importers/mitsuba/write/write_mitsuba.h"
 #include "importers/pbrt/read/pbrt.h"
 #include "importers/pbrt/write/write_pbrt.h"
+#include "scene/geometry/pi.h"
 #include "scene/system/diagnostics.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
@@ -108,6 +120,44 @@ TEST(MediumGrids, ColouredDensityForMitsuba) {
   ASSERT_EQ(sigma_t.channels, 3);
   const std::vector<float> expected{0.5f, 0.25f, 1, 1, 0.5f, 2};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(sigma_t.values.at(i), expected[i], 1e-4) << i;
+}
+
+// Voxels of 0.5 around (1, 0, 0), which is turned by 30° about z.
+void expect_fog_in_place(const Grid& grid, const Transform& to_world) {
+  const Vector3d size = grid.bounds.upper - grid.bounds.lower;
+  EXPECT_NEAR(length(transform_vector(to_world, {size.x / grid.nx, 0, 0})), 0.5, 1e-5);
+  const Point3d middle = transform_point(to_world, grid.bounds.lower + 0.5 * size);
+  EXPECT_NEAR(middle.x, std::cos(pi / 6), 1e-5);
+  EXPECT_NEAR(middle.y, std::sin(pi / 6), 1e-5);
+}
+
+// A turned fog: pbrt gets the file and the place that it had, Mitsuba the same values.
+TEST(MediumGrids, NanoVdbForBoth) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("fog.nvdb", "");
+  nanovdb::io::writeGrid(
+      file.string(), nanovdb::createFogVolumeSphere<float>(3.0f, {1, 0, 0}, 0.5, 3.0, {0, 0, 0}, "density"));
+  const Scene scene =
+      read_pbrt(
+          folder.write("in.pbrt",
+                       "Film \"rgb\" WorldBegin Rotate 30 0 0 1 MakeNamedMedium \"m\" \"string type\" "
+                       "\"nanovdb\" \"string filename\" \"fog.nvdb\" MediumInterface \"m\" \"\" Material "
+                       "\"interface\" Shape \"sphere\" \"float radius\" 9"))
+          .scene;
+  const Grid fog = with_values(std::get<Grid>(scene.media.at(0).density));
+  ASSERT_GT(std::ranges::count(fog.values, 1.0f), 100);
+  write_pbrt(scene, folder / "out.pbrt");
+  const Medium pbrt = read_pbrt(folder / "out.pbrt").scene.media.at(0);
+  EXPECT_EQ(with_values(std::get<Grid>(pbrt.density)), fog);
+  write_mitsuba(scene, folder / "out.xml");
+  const Medium mitsuba = read_mitsuba(folder / "out.xml").scene.media.at(0);
+  const Grid written = with_values(std::get<Grid>(std::get<ExtinctionAlbedo>(mitsuba.coefficients).sigma_t));
+  const auto sum = [](const Grid& grid) { return std::reduce(grid.values.begin(), grid.values.end(), 0.0); };
+  EXPECT_EQ(written.nx, fog.nx + 2) << "zeros around it";
+  EXPECT_NEAR(static_cast<double>(mitsuba.scale) * sum(written), 2 * sum(fog), 1e-4 * sum(fog))
+      << "σa + σs = 2";
+  expect_fog_in_place(fog, pbrt.medium_to_world);
+  expect_fog_in_place(written, mitsuba.medium_to_world);
 }
 
 }  // namespace

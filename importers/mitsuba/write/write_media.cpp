@@ -51,12 +51,13 @@ Grid with_zeros_around(const Grid& grid) {
   return wide;
 }
 
-// False where Mitsuba cannot read the grid.
+// False where the grid's file is not there.
 bool add_grid(Context& context, Element parent, const std::string& name, const Grid& given,
               const Transform& medium_to_world) {
-  const Grid grid = given.edge == GridEdge::zero && given.filename.empty() ? with_zeros_around(given) : given;
+  if (!given.filename.empty() && given.nx == 0) return false;
+  Grid grid = given.field.empty() ? given : with_values(given);
+  if (grid.edge == GridEdge::zero && grid.filename.empty()) grid = with_zeros_around(grid);
   std::string filename = grid.filename.empty() ? "" : context.relative(grid.filename);
-  if (grid.filename.ends_with(".nvdb")) return false;
   if (filename.empty()) {
     filename = context.new_file("volumes", "vol", context.derived_volumes);
     write_volume_file(context.file.parent_path() / filename, grid);
@@ -75,7 +76,7 @@ void add_volume(Context& context, Element parent, const std::string& name, const
   if (const auto* spectrum = std::get_if<Spectrum>(&value))
     return add_spectrum(parent, name, *spectrum, Meaning::unbounded);
   if (!add_grid(context, parent, name, std::get<Grid>(value), medium_to_world)) {
-    context.dropped("Mitsuba cannot read NanoVDB files: a constant 1 stands for the grid");
+    context.dropped("a grid whose file is not there: a constant 1 stands for it");
     add_spectrum(parent, name, ConstantSpectrum{1}, Meaning::unbounded);
   }
 }
@@ -165,7 +166,7 @@ DensityGrid density_grid(Context& context, const Grid& density, const VolumePara
                                ? "the extinction beside a density becomes its colour"
                                : "a density and the colour of its extinction become one grid of colours");
       return {std::move(product)};
-    } catch (const Error&) {  // NanoVDB
+    } catch (const Error&) {  // a file that is not there
     }
   const Spectrum one = spectrum_of(context, sigma_t, "extinction");
   return {density, number_of(context, one, "the extinction of a medium with a density")};
@@ -179,7 +180,7 @@ bool write_density(Context& context, Element root, const Medium& medium, const E
   const DensityGrid sigma_t = density_grid(context, *density, coefficients.sigma_t);
   if (!add_grid(context, element, "sigma_t", sigma_t.grid, medium.medium_to_world)) {
     root.remove_child(element);
-    context.dropped("Mitsuba cannot read NanoVDB files: the medium is homogeneous");
+    context.dropped("a density whose file is not there: the medium is homogeneous");
     return false;
   }
   add_volume(context, element, "albedo", coefficients.albedo, medium.medium_to_world);

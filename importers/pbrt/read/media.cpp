@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
+#include "images/nanovdb.h"
 #include "importers/pbrt/read/measured_name.h"
 #include "importers/reading/suggestion.h"
 #include "scene/models/measured_media.h"
@@ -144,15 +146,39 @@ void cloud(const Maker& m, Medium& medium) {
       CloudDensity{m.bounds(), m.number("density", 1), m.number("wispiness", 1), m.number("frequency", 5)};
 }
 
+// Both grids have one frame: the density's.
+void nanovdb_grids(const std::string& path, const Parameter& file, const Maker& m, Medium& medium) {
+  try {
+    const auto density = read_nanovdb_header(path, "density"),
+               heat = read_nanovdb_header(path, "temperature");
+    if (!density) fail(fmt::format("\"{}\" has no grid \"density\"", path), file.place);
+    medium.density = density->grid;
+    medium.medium_to_world = medium.medium_to_world * density->frame;
+    if (heat && heat->frame == density->frame)
+      medium.temperature = heat->grid;
+    else if (heat)
+      m.scope.context.report.dropped("a temperature that is turned against its density", file.place);
+  } catch (const Error& error) {
+    if (error.location.line > 0) throw;
+    fail(fmt::format("\"{}\": {}", path, error.what()), file.place);
+  }
+}
+
 void nanovdb(const Maker& m, Medium& medium) {
   medium.coefficients = coefficients(m, ConstantSpectrum{1}, ConstantSpectrum{1});
   const Parameter* file = m.parameters.find("filename", {ParameterType::text});
   if (!file || file->strings.size() != 1)
     fail("a nanovdb medium needs a \"string filename\"", m.parameters.place());
-  Grid density;
-  density.filename = find_file(*file, m.scope.context);
-  density.field = "density";
-  medium.density = density;
+  const std::string path = find_file(*file, m.scope.context);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {  // said where all files that are not there are
+    Grid density;
+    density.filename = path;
+    density.field = "density";
+    medium.density = density;
+  } else {
+    nanovdb_grids(path, *file, m, medium);
+  }
   medium.emission_factor = m.number("Lescale", 1);
   read_temperature(m, medium);
 }

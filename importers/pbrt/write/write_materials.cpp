@@ -41,13 +41,13 @@ class MaterialWriter {
   const char* operator()(const DielectricMaterial& m) {
     relative_index(m.eta, m.exterior_eta);
     roughness(m.roughness);
-    factors(m.reflectance_factor, m.transmittance_factor);
+    factors(m.reflectance_factor, m.transmittance_factor, 2);
     if (m.priority != 0) p_.dropped("its priority among overlapping interiors: pbrt has none");
     return "dielectric";
   }
   const char* operator()(const ThinDielectricMaterial& m) {
     relative_index(m.eta, m.exterior_eta);
-    factors(m.reflectance_factor, m.transmittance_factor);
+    factors(m.reflectance_factor, m.transmittance_factor, 1);
     return "thindielectric";
   }
   const char* operator()(const ConductorMaterial& m) {
@@ -233,9 +233,16 @@ class MaterialWriter {
       ratio.values.push_back(static_cast<float>(evaluate(inside, l) / std::max(1e-3, evaluate(outside, l))));
     p_.spectrum("eta", Spectrum{ratio});
   }
-  void factors(const SpectrumParameter& reflectance, const SpectrumParameter& transmittance) {
-    if (!is_one(reflectance) || !is_one(transmittance))
-      p_.approximated("the factors of reflection and transmission become 1: pbrt has none");
+  // `faces`: through how many of them light goes that gets through.
+  void factors(const SpectrumParameter& reflectance, const SpectrumParameter& transmittance, int faces) {
+    if (!is_one(reflectance)) p_.approximated("the factor of its reflection becomes 1: pbrt has none");
+    if (is_one(transmittance) || p_.writer().tinted.contains(static_cast<std::uint32_t>(index_))) return;
+    const auto* tint = std::get_if<Spectrum>(&transmittance);
+    const double left = tint ? std::pow(luminance(*tint), faces) : 0;
+    p_.approximated(
+        "the factor of its transmission becomes 1: pbrt has none" +
+        (left > 0 ? fmt::format("; what goes through is brighter by about {:.0f} %", 100 * (1 / left - 1))
+                  : std::string()));
   }
   void metal(const Metal& metal, const std::string& prefix = "") {
     if (const auto* index = std::get_if<ComplexIndex>(&metal)) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 
+#include "images/nanovdb.h"
 #include "importers/pbrt/read/media.h"
 #include "importers/pbrt/write/writer.h"
 #include "importers/writing/export_colors.h"
@@ -233,6 +234,14 @@ const char* medium_type(Parameters& p, const Medium& m) {
   return "homogeneous";
 }
 
+// pbrt places NanoVDB's file, which places its grid.
+Transform file_to_world(const Medium& medium) {
+  const auto* density = std::get_if<Grid>(&medium.density);
+  if (!density || density->field.empty() || density->nx == 0) return medium.medium_to_world;
+  const auto grid = read_nanovdb_header(density->filename, density->field);
+  return grid ? medium.medium_to_world * inverse(grid->frame) : medium.medium_to_world;
+}
+
 }  // namespace
 
 void write_media(Writer& w) {
@@ -240,9 +249,10 @@ void write_media(Writer& w) {
     const Medium& medium = w.scene.media[i];
     Parameters p(w, fmt::format("medium \"{}\"", w.media[i]), medium.origin, RecordKind::medium);
     const char* type = medium_type(p, medium);
-    w.transform(medium.medium_to_world);
+    const Transform to_world = file_to_world(medium);
+    w.transform(to_world);
     w.line(fmt::format("MakeNamedMedium {} \"string type\" \"{}\"{}", in_quotes(w.media[i]), type, p.list()));
-    if (medium.medium_to_world != Transform{}) w.line("Identity");
+    if (to_world != Transform{}) w.line("Identity");
   }
 }
 

@@ -11,6 +11,7 @@ namespace vitrail {
 Diagnostics write_pbrt(const Scene& scene, const std::filesystem::path& out) {
   pbrt::Writer writer(scene, out);
   writer.line("# pbrt-v4, written by Vitrail");
+  pbrt::write_tints(writer);
   pbrt::write_view(writer);
   pbrt::write_media(writer);
   writer.line("\nWorldBegin\n");

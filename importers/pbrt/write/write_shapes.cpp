@@ -146,8 +146,10 @@ class ShapeWriter {
     Parameters p(w_, "shape", shape.origin, RecordKind::shape);
     w_.begin("AttributeBegin");
     w_.line("NamedMaterial " + in_quotes(surface.material));
-    if (shape.interior || shape.exterior)
-      w_.line(fmt::format("MediumInterface {} {}", medium(shape.interior), medium(shape.exterior)));
+    const auto tint = w_.tints.find(&shape);
+    const std::string inside = tint == w_.tints.end() ? medium(shape.interior) : in_quotes(tint->second);
+    if (inside != in_quotes("") || shape.exterior)
+      w_.line(fmt::format("MediumInterface {} {}", inside, medium(shape.exterior)));
     if (shape.area_light) w_.line(area_light(*shape.area_light));
     const bool curves = is_of_curves(w_.scene, shape) && !shape.area_light;
     const Written as = curves ? Written{{}, shape.object_to_world} : surface_written(shape, p);

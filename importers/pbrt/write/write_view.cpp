@@ -189,7 +189,9 @@ void write_photons(Writer& w, const PhotonSettings& photons, int depth) {
 }
 
 // pbrt-v4's "path" ignores media, and light that scatters below a surface.
-bool needs_volpath(const Writer& w) { return !w.scene.media.empty() || has_subsurface(w.scene); }
+bool needs_volpath(const Writer& w) {
+  return !w.scene.media.empty() || !w.tints.empty() || has_subsurface(w.scene);
+}
 
 }  // namespace
 

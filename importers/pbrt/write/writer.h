@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,10 @@ struct Writer : ConversionNotes {
   // Of materials, as write_coverage finds it: which share of a surface is there, and of a blend the weight of
   // its second material in that share. Textures may be new ones, which only `textures` knows.
   std::vector<FloatParameter> coverage, amounts;
+  // Media that stand for the colour of glass, by the shapes of the scene that have it; materials of which all
+  // shapes have one.
+  std::map<const Shape*, std::string> tints;
+  std::set<std::uint32_t> tinted;
   // What has been written already: names of materials, and the product of two opacities.
   std::string sheer, nothing, black;
   std::map<std::uint32_t, std::string> shining;  // by the material of a shape
@@ -105,6 +110,7 @@ class Parameters {
 };
 
 // ---- The parts, in the order of the file
+void write_tints(Writer& writer);  // media that stand for the colour of glass: they decide the integrator
 void write_view(Writer& writer);
 void write_media(Writer& writer);
 void write_textures(Writer& writer);

@@ -54,6 +54,51 @@ TEST(WritePbrt, MetalsTimesAFactor) {
   EXPECT_TRUE(mentions(write_pbrt(scene, folder / "out.pbrt"), "becomes grey"));
 }
 
+// e^{−σ · way} is what two faces leave, for the mean way of diffuse light through a ball, or across a plate.
+// A single triangle encloses nothing.
+TEST(WritePbrt, ColouredGlassAbsorbs) {
+  const TemporaryFolder folder;
+  const auto written = [&](const std::string& shape, const Spectrum& tint) {
+    Scene scene = read_pbrt(folder.write("scene.pbrt", "Film \"rgb\"\nWorldBegin\n" + shape)).scene;
+    scene.materials = {{DielectricMaterial{.transmittance_factor = tint}}};
+    scene.materials[0].name = "glass";
+    Diagnostics said = write_pbrt(scene, folder / "out.pbrt");
+    EXPECT_THAT(test::pbrt_complaints(folder / "out.pbrt"), testing::IsEmpty());
+    return std::pair{std::move(said), read_pbrt(folder / "out.pbrt").scene};
+  };
+  // From −1 to 1.
+  const std::string cube =
+      "Shape \"trianglemesh\" \"point3 P\" [-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1] "
+      "\"integer indices\" [0 2 1 1 2 3 4 5 6 5 7 6 0 1 4 1 5 4 2 6 3 3 6 7 0 4 2 2 4 6 1 3 5 3 7 5]";
+  const std::string ball = "Shape \"sphere\" \"float radius\" 3";
+  const Spectrum half = ConstantSpectrum{0.5f};
+  const auto [said, scene] = written(ball, half);
+  ASSERT_TRUE(scene.shapes.at(0).interior);
+  const Medium& medium = scene.media.at(scene.shapes[0].interior->value);
+  const auto& both = std::get<AbsorptionScattering>(medium.coefficients);
+  double ball_way = 0, plate_way = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double cosine = std::sqrt(1 - (i + 0.5) / 1000 / (1.5 * 1.5));  // behind the surface
+    ball_way += 2 * 3 * cosine / 1000;
+    plate_way += 0.02 / cosine / 1000;
+  }
+  EXPECT_NEAR(std::exp(-ball_way * evaluate(std::get<Spectrum>(both.sigma_a), 550)), 0.25, 0.005);
+  EXPECT_EQ(evaluate(std::get<Spectrum>(both.sigma_s), 550), 0);
+  EXPECT_TRUE(mentions(said, "becomes absorption"));
+  EXPECT_FALSE(mentions(said, "brighter"));
+  const Scene plate = written("Scale 1 1 .01 " + cube, half).second;
+  const Medium& thin = plate.media.at(plate.shapes.at(0).interior->value);
+  const double sigma =
+      evaluate(std::get<Spectrum>(std::get<AbsorptionScattering>(thin.coefficients).sigma_a), 550);
+  EXPECT_NEAR(std::exp(-plate_way * sigma), 0.25, 0.01) << "but for its rim";
+  const Scene inwards = written("ReverseOrientation Scale 1 1 .01 " + cube, half).second;
+  EXPECT_FALSE(inwards.shapes.at(0).interior);
+  const auto [open, plain] = written(triangle, half);
+  EXPECT_FALSE(plain.shapes.at(0).interior);
+  EXPECT_TRUE(mentions(open, "brighter by about 300 %"));
+  EXPECT_THAT(written(ball, ConstantSpectrum{1}).first, testing::IsEmpty());
+}
+
 // Mitsuba's facets are darker.
 TEST(WritePbrt, MaskingThatPbrtDoesNotHaveIsSaid) {
   const TemporaryFolder folder;

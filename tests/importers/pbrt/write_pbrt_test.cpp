@@ -202,7 +202,7 @@ TEST(WritePbrt, WhatV4CannotSayIsReported) {
                                     "Material \"glass\" \"rgb Kt\" [.5 1 1] " + triangle + "WorldEnd");
   EXPECT_TRUE(mentions(trip.written, "sigma"));
   EXPECT_TRUE(mentions(trip.written, "mirror"));
-  EXPECT_TRUE(mentions(trip.written, "factors of reflection"));
+  EXPECT_TRUE(mentions(trip.written, "factor of its transmission"));
   for (const Diagnostic& d : trip.written) EXPECT_GT(d.location.line, 0) << d.message;
 }
 

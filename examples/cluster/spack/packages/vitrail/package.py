@@ -37,6 +37,7 @@ class Vitrail(CMakePackage):
     depends_on("cli11", type="build")
     depends_on("fast-float", type="build")
     depends_on("tinygltf", type="build")
+    depends_on("nanovdb", type="build")
     depends_on("cgal", type=("build", "link"))
     depends_on("googletest+gmock", type=("build", "test"), when="+tests")
 
