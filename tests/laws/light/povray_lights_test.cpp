@@ -301,5 +301,23 @@ TEST(PovrayLights, FogIsAVeil) {
     }
 }
 
+// A grid that shines and lets all through: as bright as its emission is long, with little chance in it.
+TEST(PovrayLights, ThinGridsShine) {
+  constexpr float thin = 1e-5f, emission = 0.3f;
+  Scene scene = floor_seen(black);
+  Medium medium;
+  medium.coefficients = AbsorptionScattering{ConstantSpectrum{thin}, ConstantSpectrum{0}};
+  medium.emission = ConstantSpectrum{emission / thin};
+  Grid ones;
+  ones.nx = ones.ny = ones.nz = 2;
+  ones.values.assign(8, 1.0f);
+  ones.bounds = {{-1, -1, -1}, {1, 1, 1}};
+  medium.density = ones;
+  scene.media.push_back(medium);
+  scene.camera_medium = Id<Medium>{0};
+  for (const Integrator integrator : {Integrator::direct, Integrator::path})
+    expect_mean("a thin grid", scene, integrator, static_cast<double>(emission), 16);
+}
+
 }  // namespace
 }  // namespace vitrail::test
