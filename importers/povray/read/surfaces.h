@@ -16,7 +16,8 @@ struct Look {
   Shared<Texture> texture;
   Transform to_world;
   Shared<Interior> interior;
-  bool by_uv = false;  // images lie by (u,v)
+  bool by_uv = false;                // images lie by (u,v)
+  std::optional<Id<Medium>> medium;  // in its interior
 };
 
 // What a Shape takes of it.
