@@ -179,6 +179,17 @@ Inside inside(const PreparedMedium& m, const Flight& f) {
   return in;
 }
 
+// Collisions per unit of length at least, so that a grid that shines is met however thin it is: the more of
+// them are null, the less chance is in what it adds.
+double least_majorant(const PreparedMedium& m, const SampledSpectrum& glow) {
+  constexpr double least_collisions = 8;  // along the diagonal
+  if (is_black(glow)) return 0;
+  const Bounds3d& box =
+      m.bounds.empty() && m.medium->emission_scale ? m.medium->emission_scale->bounds : m.bounds;
+  if (box.empty()) return 0;
+  return least_collisions / length(transform_vector(m.medium->medium_to_world, extent(box)));
+}
+
 SampledSpectrum glow_of(const PreparedMedium& m, const SampledWavelengths& w) {
   SampledSpectrum glow;
   if (!m.medium->emission) return glow;
@@ -228,7 +239,7 @@ FlightSample sample_flight(const PreparedMedium& m, const Flight& flight,
   if (m.homogeneous) return sample_homogeneous(coefficients, flight.t_max, active, glow, throughput, random);
 
   FlightSample s{std::nullopt, filled(1), {}};
-  const double majorant = coefficients.majorant();
+  const double majorant = std::max(coefficients.majorant(), least_majorant(m, glow));
   if (!(majorant > 0)) return s;
   const Inside in = inside(m, flight);
   double t = in.t0;

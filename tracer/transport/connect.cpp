@@ -38,6 +38,8 @@ void send_connection(Tracing& tracing, const CameraPath& path, const Departure& 
   c.wavelengths = path.wavelengths;
   c.film = path.film;
   c.walks = walks;
+  c.passes_veils = light.light.kind == LightKind::emitter &&
+                   tracing.scene.lights.emitters[light.light.index].fading.has_value();
   c.light_group = tracing.scene.groups.of(tracing.scene.lights, light.light);
   const Aimed aimed = aim(from, light);
   depart(c, from, light.to_light);

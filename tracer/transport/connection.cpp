@@ -11,6 +11,20 @@ namespace vitrail {
 
 namespace {
 
+// Whether it is fog as POV-Ray's: it absorbs and shines, everywhere alike, and scatters nothing. It does not
+// weaken what a lamp that fades as POV-Ray's sends straight to a point: there it is a veil before the eye.
+bool is_veil(const Medium& medium) {
+  const auto* k = std::get_if<AbsorptionScattering>(&medium.coefficients);
+  const auto* scattering = k ? std::get_if<Spectrum>(&k->sigma_s) : nullptr;
+  const auto* constant = scattering ? std::get_if<ConstantSpectrum>(scattering) : nullptr;
+  return medium.emission && !medium.emission_scale && !medium.temperature && constant &&
+         constant->value == 0 && std::holds_alternative<Spectrum>(k->sigma_a) &&
+         std::holds_alternative<std::monostate>(medium.density);
+}
+
+// Of connections, which have no other use for the flag.
+constexpr std::uint8_t ray_passes_veils = ray_passed;
+
 // One that has walked through panes has come to its light if that is where it goes now.
 void reach_light(Tracing& tracing, const Connection& c) {
   const auto is_direction = [&](Vector3d to_light) { return encode_direction(to_light) == c.direction; };
@@ -84,7 +98,8 @@ bool connect_at_surface(Tracing& tracing, Connection& c) {
 // False where it ends.
 bool connect_onwards(Tracing& tracing, Connection& c) {
   find_wavelengths(tracing, c, c.film);
-  if (const PreparedMedium* medium = medium_of(tracing, c)) {
+  const PreparedMedium* const medium = medium_of(tracing, c);
+  if (medium && !(c.passes_veils && is_veil(*medium->medium))) {
     RandomStream random(stream_of(c, RayRandom::flight));
     fade(c, transmittance(*medium, flight_of(tracing, c, true), c.wavelengths, random));
     if (is_black(c.throughput)) return false;
@@ -122,6 +137,7 @@ void resume(Tracing& tracing, const ConnectionRecord& record, const Arrival& at)
   c.set_numbered_depth(record.sample.all_depth());
   unpack_head(record, c);
   c.walks = record.is(ray_in_pane);
+  c.passes_veils = record.is(ray_passes_veils);
   c.light_group = record.light_group;
   if (c.walks) {
     const ConnectionRecord::Walking& w = record.walking;
@@ -142,6 +158,7 @@ void pack(const Tracing&, const Connection& c, bool resolved, RayRecord& record)
   static_cast<RayRecordHead&>(r) = head_of(c, RayRecordKind::connection, resolved);
   r.sample = SampleRecord::of(c.film.pixel, c.film.sample, c.numbered_depth());
   r.light_group = c.light_group;
+  if (c.passes_veils) r.kind_and_flags |= ray_passes_veils;
   if (c.walks) {
     r.kind_and_flags |= ray_in_pane;
     r.walking.light_and_doubt = c.refracted.bits();

@@ -16,6 +16,7 @@ namespace vitrail {
 struct Connection : Traveller {
   FilmSample film;
   bool walks = false;            // through panes, to a distant light
+  bool passes_veils = false;     // to a lamp that fades as POV-Ray's: fog does not weaken it
   std::uint8_t light_group = 0;  // as GroupedLights says
   // One that goes straight:
   StraightAim straight;

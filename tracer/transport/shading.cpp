@@ -199,7 +199,8 @@ bool shade(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
     RandomStream random(stream_of(path, RayRandom::flight));
     const FlightSample flown =
         sample_flight(*medium, flight, path.wavelengths, path.active_wavelengths(), path.throughput, random);
-    if (!is_black(flown.emitted))
+    // As unsampled lamps (add_emission): with direct light alone what glows is seen and lights nothing.
+    if (!is_black(flown.emitted) && !(path.connected && tracing.settings().direct_only))
       deposit(tracing, path.film, path.throughput * flown.emitted, {group_of(tracing.scene, *medium)});
     path.throughput = path.throughput * flown.weight;
     if (is_black(path.throughput)) return false;

@@ -55,8 +55,12 @@ bool read_light_part(Reader& reader, LightShape& light, Object& object, const To
     case Word::shadowless_:
       light.shadowless = true;
       return true;
-    case Word::adaptive_:
     case Word::media_interaction_:
+      if (!reader.flag())
+        reader.notes.approximated("media_interaction off: media show the light",
+                                  reader.location(token.place));
+      return true;
+    case Word::adaptive_:
     case Word::media_attenuation_:
       if (reader.number_follows()) reader.numbers();
       return true;

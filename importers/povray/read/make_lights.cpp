@@ -106,7 +106,9 @@ void SceneMaker::add_surroundings() {
       reader_.notes.approximated("sky_sphere: of its pigments the first alone", reader_.location(place));
     radiance = surfaces_.radiance_of(*world_.sky->pigments.front(), sphere);
   }
-  if (is_black()) return;
+  // Fog without end hides it.
+  const bool hidden = !fogs_.empty() && std::ranges::none_of(fogs_, &Fog::ground);
+  if (is_black() || (hidden && !world_.radiosity)) return;
   const auto* const constant = std::get_if<Spectrum>(&radiance);
   if (world_.radiosity && constant) {
     scene_.lights.push_back({InfiniteLight{*constant}, origin(place)});

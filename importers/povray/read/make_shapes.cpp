@@ -61,6 +61,16 @@ Transform turned_to_image(const Transform& image_to_sphere) {
   return turn * pole;
 }
 
+// A sheet that lets all light through.
+bool is_clear(const Material& material) {
+  const auto* sheet = std::get_if<ThinDielectricMaterial>(&material.model);
+  const auto* through = sheet ? std::get_if<Spectrum>(&sheet->transmittance_factor) : nullptr;
+  if (!through || sheet->eta != Spectrum{ConstantSpectrum{1}}) return false;
+  for (const double lambda_nm : {450.0, 550.0, 650.0})
+    if (std::abs(evaluate(*through, lambda_nm) - 1) > 1e-3) return false;
+  return true;
+}
+
 Numbers ambient_of(const World& world) {
   if (world.radiosity) return Finish::grey(0);
   return world.ambient_light.value_or(Finish::grey(1));
@@ -80,9 +90,12 @@ Scene SceneMaker::make() {
   extend(box, world_.camera ? Point3d{} + world_.camera->location : Point3d{});
   reach_ = 1000 * std::max(length(extent(box)), 1e-3);
   set_view();
+  add_fog();
+  add_atmosphere();
   const Target target{scene_.shapes, scene_.instances};
   for (const auto& object : world_.objects) add(*object, {}, {reader_.defaults.texture, {}, nullptr}, target);
   add_surroundings();
+  if (eye_medium_) scene_.camera_medium = eye_medium_;
   return std::move(scene_);
 }
 
@@ -101,7 +114,8 @@ Id<TriangleMesh> SceneMaker::quadric_mesh(const Quadric& quadric) {
 
 void SceneMaker::add(const Object& object, const Transform& parent_to_world, Look look, Target target) {
   if (object.texture) look.texture = object.texture, look.to_world = parent_to_world;
-  if (object.interior) look.interior = object.interior;
+  if (object.interior)
+    look.interior = object.interior, look.medium = media_of(object, *object.interior, parent_to_world);
   look.by_uv = look.by_uv || object.uv_mapping;
   const Transform to_world = parent_to_world * object.to_parent;
   if (const auto* light = std::get_if<LightShape>(&object.shape)) {
@@ -124,8 +138,12 @@ void SceneMaker::add(const Object& object, const Transform& parent_to_world, Loo
     return;
   }
   if (const auto* group = std::get_if<GroupShape>(&object.shape);
-      group && (group->kind == Word::union_ || group->kind == Word::light_group_))
+      group && (group->kind == Word::union_ || group->kind == Word::light_group_)) {
+    if (group->kind == Word::light_group_)
+      reader_.notes.approximated("light_group: its lights light all that is there",
+                                 reader_.location(object.place));
     return add_group(object, to_world, look, target);
+  }
   if (const auto* plane = std::get_if<PlaneShape>(&object.shape))
     return add_plane(object, *plane, to_world, look, target);
   const Object* const key = object.original ? object.original.get() : &object;
@@ -151,7 +169,8 @@ bool SceneMaker::is_plain(const Object& object) {
   if (const auto known = plain_.find(&object); known != plain_.end()) return known->second;
   bool plain = !std::holds_alternative<LightShape>(object.shape) &&
                !std::holds_alternative<PlaneShape>(object.shape) &&
-               (!object.texture || pov::is_plain(*object.texture));
+               (!object.texture || pov::is_plain(*object.texture)) &&
+               (!object.interior || object.interior->media.empty());
   if (const auto* mesh = std::get_if<MeshShape>(&object.shape))
     for (const auto& part : mesh->parts) plain = plain && (!part.texture || pov::is_plain(*part.texture));
   for (const auto& child : object.children) plain = plain && is_plain(*child);
@@ -210,6 +229,7 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
         turned_to_image(inverse(to_world) * own.to_world * own.texture->to_object * image->to_object);
   shape.flip_orientation = !piece.faces_out != object.inverse;
   shape.origin = origin(object.place);
+  if (own.medium) fill(shape, *own.medium);
   if (is_invertible(shape.object_to_world)) target.shapes.push_back(std::move(shape));
 }
 
@@ -239,6 +259,27 @@ Surface SceneMaker::without_shadow(Surface surface, bool of_lamp, const Object& 
     surface.glow = Id<AreaLight>{static_cast<std::uint32_t>(scene_.area_lights.size() - 1)};
   }
   return surface;
+}
+
+void SceneMaker::fill(Shape& shape, Id<Medium> medium) {
+  shape.interior = medium, shape.exterior = scene_.camera_medium;
+  if (is_clear(scene_.materials[shape.material.value])) shape.opacity = 0.0f;  // `rgbf 1`
+  if (shape.opacity == FloatParameter{1.0f}) return;
+  const auto added = [&](MaterialModel model) {
+    Material material;
+    material.model = std::move(model);
+    material.origin = shape.origin;
+    scene_.materials.push_back(std::move(material));
+    return Id<Material>{static_cast<std::uint32_t>(scene_.materials.size() - 1)};
+  };
+  const Id<Material> nothing = added(InterfaceMaterial{});
+  if (shape.opacity == FloatParameter{0.0f}) {
+    shape.material = nothing;
+    shape.area_light.reset();
+  } else {
+    shape.material = added(BlendMaterial{nothing, shape.material, shape.opacity});
+  }
+  shape.opacity = 1.0f;
 }
 
 std::vector<SceneMaker::Piece> SceneMaker::pieces_of(const Object& object) {

@@ -87,6 +87,7 @@ void move(Object& object, const Transform& by) {
   object.to_parent = by * object.to_parent;
   if (object.texture) object.texture = moved(object.texture, by);
   if (object.interior_texture) object.interior_texture = moved(object.interior_texture, by);
+  if (object.interior) object.interior = moved(object.interior, by);
   for (Shared<Object>& clip : object.clipped_by) {
     auto copy = std::make_shared<Object>(*clip);
     copy->to_parent = by * copy->to_parent;
@@ -191,6 +192,9 @@ bool read_object_modifier(Reader& reader, Object& object, int& layers) {
       object.uv_mapping = true;
       return true;
     case Word::no_reflection_:
+      if (reader.flag())
+        reader.notes.approximated("no_reflection: mirrors show the object", reader.location(token.place));
+      return true;
     case Word::no_radiosity_:
     case Word::double_illuminate_:
     case Word::sturm_:

@@ -35,6 +35,8 @@ class SceneMaker {
 
   // Shapes (make_shapes.cpp).
   void add(const Object& object, const Transform& parent_to_world, Look look, Target target);
+  // The surface of a container: light goes through what is not there of it, and meets what is within.
+  void fill(Shape& shape, Id<Medium> medium);
   void add_group(const Object& object, const Transform& to_world, const Look& look, Target target);
   void add_plane(const Object& object, const PlaneShape& plane, const Transform& to_world, const Look& look,
                  Target target);
@@ -59,6 +61,17 @@ class SceneMaker {
   // Lights and surroundings (make_lights.cpp).
   void add_light(const Object& object, const LightShape& light, const Transform& to_world);
   void add_surroundings();
+  // Fog (make_fog.cpp).
+  void add_fog();
+  std::optional<Id<Medium>> fog_between(double low, double high);
+  void add_fog_face(const Fog& fog, double height, std::optional<Id<Medium>> below,
+                    std::optional<Id<Medium>> above);
+  // media {} (make_media.cpp), of an object under this transform, and of what is around.
+  std::optional<Id<Medium>> media_of(const Object& object, const Interior& interior,
+                                     const Transform& to_world);
+  std::optional<Id<Medium>> medium_of(const std::vector<Shared<MediaBlock>>& blocks,
+                                      const Transform& to_world, const Bounds3d& box);
+  void add_atmosphere();
   // The view (make_view.cpp).
   void set_view();
 
@@ -75,7 +88,9 @@ class SceneMaker {
   std::vector<std::pair<Quadric, Id<TriangleMesh>>> quadrics_;
   std::vector<Shared<Object>> kept_;  // what the maps' keys point to
   std::optional<Id<Material>> clear_sheet_;
-  double reach_ = 1;  // beyond all that is finite
+  std::vector<Shared<Fog>> fogs_;         // that are there
+  std::optional<Id<Medium>> eye_medium_;  // of an object that the eye is in
+  double reach_ = 1;                      // beyond all that is finite
 };
 
 }  // namespace vitrail::pov

@@ -138,12 +138,22 @@ struct Texture {
   Transform to_object;  // of all of it
 };
 
+// media {}: coefficients per unit of length, times the product of the densities.
+struct MediaBlock {
+  Place place;
+  Numbers absorption = Finish::grey(0), emission = Finish::grey(0), scattering = Finish::grey(0);
+  int scattering_type = 1;  // 1 isotropic, 2 and 3 Mie, 4 Rayleigh, 5 Henyey and Greenstein
+  double eccentricity = 0, extinction = 1;
+  std::vector<Shared<Pigment>> densities;
+  Transform to_object;
+};
+
 struct Interior {
   Place place;
   double ior = 1, fade_distance = 0, fade_power = 0;
   Numbers fade_color = Finish::grey(0);
   double dispersion = 1, caustics = 0;
-  bool has_media = false;
+  std::vector<Shared<MediaBlock>> media;
 };
 
 // Of `material {}`.
@@ -159,11 +169,13 @@ Shared<Bump> read_normal_block(Reader& reader);
 Shared<Finish> read_finish_block(Reader& reader, Shared<Finish> from = {});
 Shared<Texture> read_texture_block(Reader& reader);
 Shared<Interior> read_interior_block(Reader& reader);
+Shared<MediaBlock> read_media_block(Reader& reader);
 Shared<MaterialParts> read_material_block(Reader& reader);
 Shared<BlendMap> read_map_block(Reader& reader, Word kind);
 
-// The texture under a transform of the object that has it.
+// The texture, and the media of the interior, under a transform of the object that has them.
 Shared<Texture> moved(const Shared<Texture>& texture, const Transform& by);
+Shared<Interior> moved(const Shared<Interior>& interior, const Transform& by);
 
 // The mean of the colours that it may have: of a map weighted by the length of its pieces.
 Numbers mean_color(const Pigment& pigment);

@@ -18,7 +18,8 @@ struct Look {
   Shared<Interior> interior;
   bool by_uv = false;  // images lie by (u,v)
   bool no_shadow = false;
-  bool of_lamp = false;  // it stands around a light, as what that looks like
+  bool of_lamp = false;              // it stands around a light, as what that looks like
+  std::optional<Id<Medium>> medium;  // in its interior
 };
 
 // What a Shape takes of it.

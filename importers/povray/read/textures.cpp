@@ -269,11 +269,7 @@ Shared<Interior> read_interior_block(Reader& reader) {
     else if (token.is(Word::caustics_))
       interior.caustics = reader.number("caustics");
     else if (token.is(Word::media_)) {
-      interior.has_media = true;
-      if (!reader.identifier<Dropped>()) skip_block(reader);
-      reader.notes.dropped("media", reader.location(token.place));
-    } else if (const auto named = (reader.put_back(token), reader.identifier<Dropped>())) {
-      interior.has_media = true;
+      interior.media.push_back(read_media_block(reader));
     } else {
       reader.unexpected(token, "a part of interior");
     }
@@ -303,6 +299,7 @@ Shared<MaterialParts> read_material_block(Reader& reader) {
       if (!read_transform(reader, step)) reader.unexpected(reader.next(), "a part of material");
       if (material.texture) material.texture = moved(material.texture, step);
       if (material.interior_texture) material.interior_texture = moved(material.interior_texture, step);
+      if (material.interior) material.interior = moved(material.interior, step);
     }
   }
   return std::make_shared<MaterialParts>(std::move(material));

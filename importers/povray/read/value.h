@@ -49,6 +49,8 @@ struct Interior;
 struct MaterialParts;
 struct CameraView;
 struct SkySphere;
+struct Fog;
+struct MediaBlock;
 struct BlendMap;
 struct OpenFile;
 struct Placement;
@@ -65,7 +67,8 @@ using Value =
     std::variant<std::monostate, Numbers, std::string, std::shared_ptr<Array>, Shared<Macro>,
                  Shared<Function>, std::shared_ptr<Spline>, Shared<Object>, Shared<Pigment>, Shared<Bump>,
                  Shared<Finish>, Shared<Texture>, Shared<Interior>, Shared<MaterialParts>, Shared<CameraView>,
-                 Shared<SkySphere>, Shared<BlendMap>, std::shared_ptr<OpenFile>, Shared<Placement>, Dropped>;
+                 Shared<SkySphere>, Shared<Fog>, Shared<MediaBlock>, Shared<BlendMap>,
+                 std::shared_ptr<OpenFile>, Shared<Placement>, Dropped>;
 
 // "a number", "a texture": how messages call it.
 const char* kind_of(const Value& value);

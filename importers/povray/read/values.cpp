@@ -2,6 +2,7 @@
 // What #declare and the arguments of macros take.
 #include <fmt/format.h>
 
+#include "importers/povray/read/fog.h"
 #include "importers/povray/read/function.h"
 #include "importers/povray/read/objects.h"
 #include "importers/povray/read/patterns.h"
@@ -165,8 +166,12 @@ Value read_value(Reader& reader) {
       if (auto named = reader.identifier<Shared<Pigment>>()) return *named;
       return read_pigment_block(reader);
     case Word::fog_:
-    case Word::rainbow_:
+      read();
+      return read_fog_block(reader);
     case Word::media_:
+      read();
+      return read_media_block(reader);
+    case Word::rainbow_:
       read();
       if (auto named = reader.identifier<Dropped>()) return *named;
       skip_block(reader);

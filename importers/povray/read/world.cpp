@@ -105,8 +105,12 @@ bool read_statement(Reader& reader, World& world) {
       world.sky = read_sky_sphere_block(reader);
       return true;
     case Word::fog_:
-    case Word::rainbow_:
+      world.fogs.push_back(read_fog_block(reader));
+      return true;
     case Word::media_:
+      world.media.push_back(read_media_block(reader));
+      return true;
+    case Word::rainbow_:
       drop(reader, token);
       return true;
     case Word::default_:  // without its #

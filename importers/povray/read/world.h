@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "importers/povray/read/fog.h"
 #include "importers/povray/read/object.h"
 #include "importers/povray/read/view.h"
 
@@ -16,6 +17,8 @@ struct World {
   std::vector<Shared<Object>> objects;
   Shared<CameraView> camera;
   Shared<SkySphere> sky;
+  std::vector<Shared<Fog>> fogs;
+  std::vector<Shared<MediaBlock>> media;  // around everything
   std::optional<Numbers> background;
   std::optional<Numbers> ambient_light;
   bool radiosity = false;

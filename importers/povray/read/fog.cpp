@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/povray/read/fog.h"
+
+#include <cmath>
+
+#include "importers/povray/read/reader.h"
+
+namespace vitrail::pov {
+
+namespace {
+
+// Whether a part of fog was read.
+bool read_fog_part(Reader& reader, Fog& fog, Word word) {
+  switch (word) {
+    case Word::fog_type_:
+      fog.ground = reader.integer("fog_type") == 2;
+      return true;
+    case Word::distance_:
+      fog.distance = std::abs(reader.number("distance"));
+      return true;
+    case Word::fog_offset_:
+      fog.offset = reader.number("fog_offset");
+      return true;
+    case Word::fog_alt_:
+      fog.alt = std::abs(reader.number("fog_alt"));
+      return true;
+    case Word::up_:
+      fog.up = reader.vector("up");
+      return true;
+    case Word::turbulence_:
+      fog.turbulent = length(reader.vector("turbulence")) > 0;
+      return true;
+    case Word::turb_depth_:
+    case Word::octaves_:
+    case Word::omega_:
+    case Word::lambda_:
+      reader.number("a part of turbulence");
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+Shared<Fog> read_fog_block(Reader& reader) {
+  if (const auto named = reader.identifier<Shared<Fog>>()) return *named;
+  reader.expect('{', "behind fog");
+  Fog fog;
+  fog.place = reader.here();
+  for (;;) {
+    reader.comma();
+    if (const auto named = reader.identifier<Shared<Fog>>()) {
+      fog = **named;
+      continue;
+    }
+    Transform step;
+    if (read_transform(reader, step)) {
+      fog.up = transform_vector(step, fog.up);
+      continue;
+    }
+    if (reader.accept('}')) break;
+    const Token token = reader.next();
+    if (token.kind == TokenKind::word && read_fog_part(reader, fog, token.symbol->word)) continue;
+    reader.put_back(token);
+    if (!reader.number_follows()) reader.unexpected(reader.next(), "a part of fog");
+    fog.color = reader.color();
+  }
+  if (!(length(fog.up) > 0)) reader.fail("the up of a fog is 0", fog.place);
+  fog.up = normalize(fog.up);
+  return std::make_shared<Fog>(fog);
+}
+
+double mean_density(const Fog& fog, double low, double high) {
+  if (!fog.ground || !std::isfinite(low)) return 1;
+  // ∫ of the density from the offset to a height: that height below it, alt·u/(1 + u) above it.
+  const auto integral = [&](double y) {
+    const double above = y - fog.offset;
+    if (above <= 0) return above;
+    return fog.alt > 0 ? fog.alt * above / (fog.alt + above) : 0;
+  };
+  return (integral(high) - integral(low)) / (high - low);
+}
+
+}  // namespace vitrail::pov

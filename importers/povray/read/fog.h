@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// fog {}.
+#pragma once
+
+#include "importers/povray/read/surface.h"
+
+namespace vitrail::pov {
+
+// Over a distance d, what is seen becomes T·seen + (1 − T)·color with T = e^(−d/distance). Ground fog is as
+// dense up to the height `offset` along `up`, and (1 + (y − offset)/alt)⁻² of that at a height y above it.
+struct Fog {
+  Place place;
+  bool ground = false;
+  double distance = 0;  // 0: there is none
+  Numbers color = Finish::grey(0);
+  double offset = 0, alt = 0;
+  Vector3d up{0, 1, 0};
+  bool turbulent = false;
+};
+
+Shared<Fog> read_fog_block(Reader& reader);
+
+// The mean density between two heights, low < high; 1 where one of them is −∞.
+double mean_density(const Fog& fog, double low, double high);
+
+}  // namespace vitrail::pov

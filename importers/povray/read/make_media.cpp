@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// media {} as POV-Ray's pictures show them. Over a distance d, absorption a leaves e^(−a·d), emission e adds
+// e·d. Scattering s takes s·extinction·d away, and under a lamp of colour c that does not fade shows c·s·d
+// where it is isotropic: four times what σ_s = s does here, as such a lamp has the intensity π·c.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "importers/povray/read/extents.h"
+#include "importers/povray/read/object_hits.h"
+#include "importers/povray/read/pattern_field.h"
+#include "importers/povray/read/reader.h"
+#include "importers/povray/read/scene_maker.h"
+#include "scene/spectra/rgb_to_spectrum.h"
+
+namespace vitrail::pov {
+
+namespace {
+
+using Three = std::array<double, 3>;
+
+constexpr int cells = 48;          // of a grid of densities, along each axis
+constexpr double nothing = 1e-4;   // an optical thickness that nobody sees
+constexpr double boundless = 1e6;  // the size of what has no end
+
+double mean(const Three& c) { return (c[0] + c[1] + c[2]) / 3; }
+double greatest(const Three& c) { return std::max({c[0], c[1], c[2]}); }
+
+// g of Henyey and Greenstein's phase function; of Mie's, as bright as POV-Ray's from behind.
+double asymmetry(const MediaBlock& media) {
+  constexpr double hazy = 0.19, murky = 0.24;
+  switch (media.scattering_type) {
+    case 2:
+      return hazy;
+    case 3:
+      return murky;
+    case 5:
+      return std::clamp(media.eccentricity, -0.99, 0.99);
+    default:
+      return 0;
+  }
+}
+
+// Of all blocks: coefficients where each density is 1.
+struct Sums {
+  Three absorption{}, emission{}, scattering{}, extinction{};
+  double g = 0;
+};
+
+Sums sums_of(const std::vector<Shared<MediaBlock>>& blocks, const Reader& reader) {
+  Sums sums;
+  double weights = 0;
+  for (const Shared<MediaBlock>& block : blocks) {
+    double scattered = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double s = reader.linear(block->scattering.v[i]);
+      sums.absorption[i] += reader.linear(block->absorption.v[i]);
+      sums.emission[i] += reader.linear(block->emission.v[i]);
+      sums.scattering[i] += s;
+      sums.extinction[i] += s * block->extinction;
+      scattered += s;
+    }
+    sums.g += scattered * asymmetry(*block);
+    weights += scattered;
+  }
+  if (weights > 0) sums.g /= weights;
+  return sums;
+}
+
+bool has_file(const Shared<MediaBlock>& block) {
+  return std::ranges::any_of(block->densities, [](const Shared<Pigment>& density) {
+    return density->pattern.kind == Word::density_file_;
+  });
+}
+
+// The densities of each block at points of the space that has the media.
+class Densities {
+ public:
+  Densities(Reader& reader, const std::vector<Shared<MediaBlock>>& blocks) : reader_(reader) {
+    for (const Shared<MediaBlock>& block : blocks) {
+      blocks_.push_back(block.get());
+      from_object_.push_back(inverse(block->to_object));
+      fields_.emplace_back();
+      for (const Shared<Pigment>& density : block->densities) fields_.back().emplace_back(reader, *density);
+    }
+  }
+  Three at(std::size_t block, Point3d p) const {
+    Three all{1, 1, 1};
+    const Point3d q = transform_point(from_object_[block], p);
+    for (const PatternField& field : fields_[block]) {
+      const Numbers color = field.color(q);
+      for (std::size_t i = 0; i < 3; ++i) all[i] *= std::max(reader_.linear(color.v[i]), 0.0);
+    }
+    return all;
+  }
+  // What shines at a point.
+  Three emission(Point3d p) const {
+    Three sum{};
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      const Three density = at(k, p);
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += density[i] * reader_.linear(blocks_[k]->emission.v[i]);
+    }
+    return sum;
+  }
+  // Of what is there where each density is 1, this share is.
+  double share(Point3d p) const {
+    double sum = 0, all = 0;
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      const MediaBlock& block = *blocks_[k];
+      double weight = 0;
+      for (std::size_t i = 0; i < 3; ++i)
+        weight += block.absorption.v[i] + block.emission.v[i] + block.scattering.v[i];
+      sum += weight * mean(at(k, p)), all += weight;
+    }
+    return all > 0 ? sum / all : 0;
+  }
+
+ private:
+  Reader& reader_;
+  std::vector<const MediaBlock*> blocks_;
+  std::vector<Transform> from_object_;
+  std::vector<std::vector<PatternField>> fields_;
+};
+
+Grid grid_over(const Bounds3d& box, int channels) {
+  Grid grid;
+  grid.nx = grid.ny = grid.nz = cells;
+  grid.channels = channels;
+  grid.bounds = box;
+  grid.values.reserve(static_cast<std::size_t>(cells) * cells * cells * static_cast<std::size_t>(channels));
+  return grid;
+}
+
+template <class AtPoint>
+void sample(Grid& grid, const AtPoint& at) {
+  const Vector3d step = (grid.bounds.upper - grid.bounds.lower) * (1.0 / cells);
+  for (int k = 0; k < cells; ++k)
+    for (int j = 0; j < cells; ++j)
+      for (int i = 0; i < cells; ++i)
+        at(grid.bounds.lower + Vector3d{(i + 0.5) * step.x, (j + 0.5) * step.y, (k + 0.5) * step.z});
+}
+
+}  // namespace
+
+std::optional<Id<Medium>> SceneMaker::medium_of(const std::vector<Shared<MediaBlock>>& blocks,
+                                                const Transform& to_world, const Bounds3d& box) {
+  const SourceLocation place = reader_.location(blocks.front()->place);
+  Sums sums = sums_of(blocks, reader_);
+  const bool shines = greatest(sums.emission) > 0, scatters = greatest(sums.scattering) > 0,
+             fades = greatest(sums.absorption) > 0 || greatest(sums.extinction) > 0;
+  if (!shines && !scatters && !fades) return std::nullopt;
+  if (std::ranges::any_of(blocks, has_file)) {
+    reader_.notes.dropped("media with a density_file", place);
+    return std::nullopt;
+  }
+  const bool bounded = !box.empty() && length(extent(box)) < boundless;
+  const double size = bounded ? length(transform_vector(to_world, extent(box))) : reach_;
+  const bool has_densities = std::ranges::any_of(blocks, [](const auto& b) { return !b->densities.empty(); });
+  Medium medium;
+  medium.name = "media";
+  medium.origin = origin(blocks.front()->place);
+  medium.medium_to_world = to_world;
+  medium.g = static_cast<float>(sums.g);
+  Three shown = sums.emission;
+  if (has_densities && bounded) {
+    const Densities densities(reader_, blocks);
+    if (shines && !scatters && !fades) {
+      Grid grid = grid_over(box, 3);
+      sample(grid, [&](Point3d p) {
+        for (const double x : densities.emission(p)) grid.values.push_back(static_cast<float>(x));
+      });
+      medium.emission_scale = std::move(grid);
+      shown = {1, 1, 1};
+    } else {
+      Grid grid = grid_over(box, 1);
+      sample(grid, [&](Point3d p) { grid.values.push_back(static_cast<float>(densities.share(p))); });
+      medium.density = std::move(grid);
+    }
+    reader_.notes.approximated("densities of media: a grid of 48 cells along each axis", place);
+  } else if (has_densities) {
+    reader_.notes.dropped("densities of media that have no end", place);
+  }
+  for (double& a : sums.absorption) a = std::max(a, shines ? nothing / size : 0.0);
+  const bool around = box.empty();
+  const auto spectrum = [](const Three& c) { return unbounded_from_rgb({c[0], c[1], c[2]}); };
+  if (around && !scatters) {  // as fog, it weakens no lamp
+    medium.coefficients = AbsorptionScattering{spectrum(sums.absorption), Spectrum{ConstantSpectrum{0}}};
+    medium.emission = Spectrum{ConstantSpectrum{0}};
+  } else {
+    // Where it shines as well, σ_a has to be what POV-Ray's is; and paths scatter more than once. Else σ_t is
+    // POV-Ray's, and what is scattered once is as bright.
+    const bool dense = scatters && (shines || world_.radiosity);
+    if (dense)
+      reader_.notes.approximated(
+          "scattering with emission or radiosity: four times as dense, to be as bright", place);
+    if (around) reader_.notes.approximated("scattering media around everything: they weaken lamps", place);
+    Three extinction = sums.absorption, albedo{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      extinction[i] += dense ? 4 * sums.scattering[i] : sums.extinction[i];
+      extinction[i] = std::max(extinction[i], nothing / size);
+      albedo[i] = 4 * sums.scattering[i] / extinction[i];
+    }
+    medium.coefficients = ExtinctionAlbedo{spectrum(extinction), spectrum(albedo)};
+  }
+  if (shines) {  // the record has the radiance of what is thick: e/σ_a
+    for (std::size_t i = 0; i < 3; ++i) shown[i] /= sums.absorption[i];
+    medium.emission = emission_from_rgb({shown[0], shown[1], shown[2]});
+  }
+  scene_.media.push_back(std::move(medium));
+  return Id<Medium>{static_cast<std::uint32_t>(scene_.media.size() - 1)};
+}
+
+std::optional<Id<Medium>> SceneMaker::media_of(const Object& object, const Interior& interior,
+                                               const Transform& to_world) {
+  if (interior.media.empty()) return std::nullopt;
+  if (!object.hollow) {
+    reader_.notes.approximated("media of an object without hollow: there are none",
+                               reader_.location(interior.place));
+    return std::nullopt;
+  }
+  const auto medium = medium_of(interior.media, to_world, extents_of(object));
+  const Point3d eye = world_.camera ? Point3d{} + world_.camera->location : Point3d{};
+  if (medium && is_inside(object, transform_point(inverse(to_world), eye))) eye_medium_ = medium;
+  return medium;
+}
+
+void SceneMaker::add_atmosphere() {
+  if (world_.media.empty()) return;
+  if (scene_.camera_medium)
+    return reader_.notes.dropped("media around everything, beside fog",
+                                 reader_.location(world_.media.front()->place));
+  scene_.camera_medium = medium_of(world_.media, {}, {});
+}
+
+}  // namespace vitrail::pov
