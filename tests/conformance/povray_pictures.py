@@ -100,11 +100,12 @@ def first_channel(path):
 
 
 def nearer_share(depth, radius):
-    """What of each pixel is nearer than the surroundings, whose depth is greatest next to it: it falls to the edges."""
+    """What of each pixel is nearer than the surroundings, whose depth is greatest beside it: it falls to the edges."""
     rows, columns = depth.shape
-    padded = np.pad(depth, 1, mode="edge")
-    around = [padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
-    greatest = np.max(around, axis=0)
+    greatest = depth
+    for _ in range(4):
+        padded = np.pad(greatest, 1, mode="edge")
+        greatest = np.max([padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)], axis=0)
     share = 1 - depth / np.maximum(greatest, 1e-9)
     share[share < 0.02] = 0
     return np.where(greatest > 0.4 * radius, share, 1)
