@@ -28,13 +28,14 @@ double square(const Number& h) { return h[0] * h[0] + h[1] * h[1] + h[2] * h[2] 
 // that is left multiplies its logarithm by the function's power.
 double field(const JuliaFractal& f, Number h) {
   const int power = f.function == JuliaFractal::Function::cube ? 3 : 2;
+  const int steps = f.hypercomplex ? f.max_iteration - 1 : f.max_iteration;
   constexpr double large = 1e16;
-  for (int i = 0; i < f.max_iteration; ++i) {
+  for (int i = 0; i < steps; ++i) {
     Number next = product(h, h, f.hypercomplex);
     if (power == 3) next = product(next, h, f.hypercomplex);
     for (std::size_t k = 0; k < 4; ++k) h[k] = next[k] + f.parameter[k];
     if (const double size = square(h); size > large)
-      return portable_log(size / 16) / 2 * portable_pow(power, f.max_iteration - 1 - i);
+      return portable_log(size / 16) / 2 * portable_pow(power, steps - 1 - i);
   }
   const double size = square(h);
   return size > 0 ? portable_log(size / 16) / 2 : -1e3;

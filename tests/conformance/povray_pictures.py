@@ -99,6 +99,18 @@ def first_channel(path):
     return image[:, 0] * 2.0 ** (image[:, 3] - 136)
 
 
+def nearer_share(depth, radius):
+    """What of each pixel is nearer than the surroundings, whose depth is greatest beside it: it falls to the edges."""
+    rows, columns = depth.shape
+    greatest = depth
+    for _ in range(4):
+        padded = np.pad(greatest, 1, mode="edge")
+        greatest = np.max([padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)], axis=0)
+    share = 1 - depth / np.maximum(greatest, 1e-9)
+    share[share < 0.02] = 0
+    return np.where(greatest > 0.4 * radius, share, 1)
+
+
 def silhouettes(scene, folder, options):
     report = report_of(scene, options)
     bare = folder / "bare.pov"
@@ -113,7 +125,7 @@ def silhouettes(scene, folder, options):
              "depth"], options.seconds)
         radius = (report["bounds_upper"][0] - report["bounds_lower"][0]) / 2
         depth = first_channel(folder / "depth.hdr")
-        b = b * (1 - np.clip(depth / radius, 0, 1))
+        b = b * nearer_share(depth, radius)
     union = np.maximum(a, b).sum()
     if union == 0:
         raise Skipped("nothing is seen")

@@ -178,5 +178,12 @@ TEST(JuliaFractal, ZeroIsABall) {
   EXPECT_THROW(julia_fractal({.slice_normal = {1, 0, 0, 0}}), Error);
 }
 
+// Of h ← h² from (x,0,0,0), |h| is x⁴ after two steps. povray 3.7 shows this one 1.41 wide at
+// max_iteration 3.
+TEST(JuliaFractal, HypercomplexNumbersTakeOneStepLess) {
+  const Solid made = julia_fractal({.hypercomplex = true, .max_iteration = 3});
+  EXPECT_NEAR(bounds_of(made).upper.x, std::sqrt(2.0), 5e-3);
+}
+
 }  // namespace
 }  // namespace vitrail::solids
