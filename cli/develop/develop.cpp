@@ -89,7 +89,8 @@ Picture measured_picture(const Exposed& sum, const DevelopArguments& a) {
   for (const Layer layer : {Layer::crypto_object, Layer::crypto_material})
     if (sum.film.layers().has(layer) && !a.quiet)
       if (const double share = share_without_matte(sum.film, layer); share > 0)
-        say("vitrail: pixels with more than {} masks of {} leave {:.2g} % of what is seen in none\n",
+        say("vitrail: pixels with more than {} masks of {} leave {:.2g} % of the visible surfaces without a "
+            "mask\n",
             most_mattes, kind_of(layer).name, 100 * share);
   Picture picture = picture_of(sum);
   if (a.groups.empty()) return picture;

@@ -50,7 +50,7 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 
 int main(int argc, char** argv) {
   using namespace vitrail;
-  CLI::App app("says what a scene, a bundle, one of its files or a film holds, and verifies it",
+  CLI::App app("prints the contents of a scene, a bundle, one of its files or a film, and verifies them",
                "vitrail inspect");
   std::filesystem::path file;
   ImportArguments imports;

@@ -283,11 +283,12 @@ void require_renderable(const RenderArguments& a) {
     throw UsageError("the meshes of a bundle stay as they are: give " + arguments_of(a.meshes)[0] +
                      " to partition");
   if (const auto words = arguments_of(a.imports); !words.empty() && a.is_bundle())
-    throw UsageError("what a bundle was made of is not read again: give " + words[0] + " to partition");
+    throw UsageError("a bundle is made already, and its scene is not read again: give " + words[0] +
+                     " to partition");
   if (a.rgb != usual_rgb && a.is_bundle())
-    throw UsageError("what a bundle was made of is not read again: give --rgb to partition");
+    throw UsageError("a bundle is made already, and its scene is not read again: give --rgb to partition");
   if (a.strict && a.is_bundle())
-    throw UsageError("what a bundle was made of is not read again: give --strict to partition");
+    throw UsageError("a bundle is made already, and its scene is not read again: give --strict to partition");
 }
 
 void prepare_dry_run(RenderOptions& o) {
@@ -355,11 +356,11 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   constexpr const char* known[] = {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".film"};
   const bool is_table = extension == ".csv" && !a.options.picture.sensors.empty();
   if (!a.options.picture.sensors.empty() && !is_table && extension != ".film")
-    throw UsageError("what sensors measure is written as .csv or kept as .film: " + a.output.string());
+    throw UsageError("the output of --sensors must end in .csv or .film: " + a.output.string());
   if (!is_table && std::ranges::find(known, extension) == std::end(known))
     throw UsageError("the output must end in .exr, .png, .jpg, .tif or .film: " + a.output.string());
   if (a.denoised && (is_table || extension == ".film"))
-    throw UsageError("--denoise is of pictures, not of what sensors or films measure: " + a.output.string());
+    throw UsageError("--denoise is for pictures, not for .csv and .film: " + a.output.string());
   if (!a.film.empty() && (extension == ".film" || a.film.extension() != ".film"))
     throw UsageError("--film NAME.film keeps the film beside a picture that --output names");
   RenderOptions& o = a.options;

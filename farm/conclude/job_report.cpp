@@ -61,13 +61,13 @@ void say_what_is_wrong(const Film& film, const Goal& goal, const RenderOptions& 
   if (stats.refused.nonfinite > 0)
     say("vitrail: {} samples were not finite and count as black\n", stats.refused.nonfinite);
   if (options.picture.clamp > 0 && !options.outputs.quiet)
-    say("vitrail: --clamp {} took {:.3g} % of the light: so much darker is the picture\n",
+    say("vitrail: --clamp {} removed {:.3g} % of the light: the picture is darker by as much\n",
         options.picture.clamp, 100 * stats.clamped_share);
 }
 
 void write_profile(const std::filesystem::path& file, const RayProfile& profile, bool whole) {
   if (whole) return write_ray_profile(file, profile);
-  say("vitrail: {} is not written: a profile counts the rays of a whole picture, rendered without a stop\n",
+  say("vitrail: {} is not written: a profile needs a whole picture, rendered without a stop\n",
       file.string());
 }
 

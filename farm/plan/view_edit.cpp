@@ -19,9 +19,8 @@ namespace vitrail {
 namespace {
 
 constexpr const char* look_at_takes =
-    "--look-at takes x,y,z of the eye, x,y,z of what it looks at, and may have x,y,z of the direction that "
-    "is "
-    "up: ";
+    "--look-at takes x,y,z of the eye, x,y,z of the point that it looks at, and may have x,y,z of the "
+    "direction up: ";
 
 // Left and right stay where they are: files of pbrt and of Mitsuba mean opposite hands.
 Transform look_from(const ViewEdit::LookAt& view, const Transform& before) {
@@ -87,7 +86,7 @@ void edit_view(const ViewEdit& edit, Manifest& m) {
   }
   if (edit.fov_deg) {
     auto* const perspective = std::get_if<PerspectiveCamera>(&m.camera);
-    if (!perspective) throw UsageError("--fov is of perspective cameras, and the scene's is none");
+    if (!perspective) throw UsageError("--fov is for perspective cameras, and the scene has another one");
     perspective->screen = screen_under(*edit.fov_deg, m.film);
   }
   std::string camera = camera_to_json(m.camera).dump();

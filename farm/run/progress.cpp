@@ -127,8 +127,8 @@ void print_start(const RenderOptions& options, const Manifest& m, const Goal& go
   const auto now = std::chrono::steady_clock::now();
   if (options.resources.time_limit_s > 0 && !options.outputs.quiet &&
       limit_start(options, now) > options.resources.start)
-    say("vitrail: {} of --time {} went by before tracing began: tracing has half of it all the same; "
-        "partition once, and render the bundle, to spare that time\n",
+    say("vitrail: {} of --time {} went by before tracing began; tracing still gets half of it. Partition "
+        "once and render the bundle to save that time\n",
         duration_in_words(std::chrono::duration<double>(now - options.resources.start).count()),
         options.resources.time_limit_s);
   if (options.outputs.progress != ProgressMode::lines) return;
@@ -159,7 +159,7 @@ void print_end(const RenderOptions& options, const RenderStats& s) {
   if (!writes_film(s.ending)) return;
   const std::string name = (o.picture.empty() ? o.film : o.picture).string();
   if (options.picture.target_error && !s.finished_before)
-    say("vitrail: error {:.3g}, in all likelihood below {:.3g}, where {} was asked for\n", s.reached.estimate,
+    say("vitrail: error {:.3g}, in all likelihood below {:.3g}; --target-error is {}\n", s.reached.estimate,
         s.reached.upper, text_of(*options.picture.target_error));
   if (s.finished_before && o.picture.empty()) return;  // read_earlier_work has said so
   if (s.finished_before)
@@ -168,7 +168,7 @@ void print_end(const RenderOptions& options, const RenderStats& s) {
     say("vitrail: {}: {:.4g} of {} samples a pixel after {}, {:.2f} Mray/s, {:.0f} MiB a rank{}\n", name,
         samples, s.spp, duration_in_words(s.wall_s), static_cast<double>(rays) / s.wall_s * 1e-6,
         static_cast<double>(s.peak_rss_bytes) / 0x1p20,
-        s.ending == Ending::time_is_up ? "; the same command goes on" : "");
+        s.ending == Ending::time_is_up ? "; the same command continues" : "");
 }
 
 void print_wedges(const RenderOptions& options, const TraceCounters& traced) {

@@ -100,7 +100,7 @@ TEST(Progress, TheLastEventSaysThatTheRenderWasStopped) {
                       vitrail("render"), VITRAIL_SOURCE_DIR, (directory / "x.png").string()));
   EXPECT_THAT(stopped.output, AllOf(HasSubstr("\"event\":\"end\""), HasSubstr("\"ending\":\"interrupted\"")));
   EXPECT_THAT(stopped.output,
-              AllOf(HasSubstr("x.png.partial holds what was done"), HasSubstr("x.png shows it")));
+              AllOf(HasSubstr("x.png.partial holds the samples so far"), HasSubstr("x.png shows it")));
 }
 
 TEST(Progress, ALogHasALineSoon) {

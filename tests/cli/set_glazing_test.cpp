@@ -104,7 +104,7 @@ TEST_F(SetGlazing, AnotherStateIsAnotherPicture) {
   ASSERT_EQ(render("clear.vit", "a.film", "--set window.state=0.6").status, 0);
   const CommandResult other = render("clear.vit", "a.film", "--spp 8 --set window.state=0.7");
   EXPECT_EQ(other.status, 3);
-  EXPECT_THAT(other.output, HasSubstr("window.state=0.6, asked for is window.state=0.7"));
+  EXPECT_THAT(other.output, HasSubstr("window.state=0.6, this command has window.state=0.7"));
   EXPECT_EQ(render("clear.vit", "a.film", "--spp 8").status, 3);
   EXPECT_EQ(render("clear.vit", "a.film", "--spp 8 --set window.state=0.6").status, 0);
   const CommandResult shown = run(fmt::format("{} '{}'", vitrail("inspect"), path("a.film")));
@@ -129,9 +129,9 @@ TEST_F(SetGlazing, SaysWhatCanBeSet) {
   EXPECT_THAT(refused("--set window.state=dark"), HasSubstr("number"));
   EXPECT_THAT(refused("--set window.state=nan"), HasSubstr("number"));
   EXPECT_THAT(refused("--set window=0.5"), HasSubstr("NAME.QUANTITY=VALUE"));
-  EXPECT_THAT(refused("--set window.tint=0.5"), HasSubstr("what can be set"));
+  EXPECT_THAT(refused("--set window.tint=0.5"), HasSubstr("can be set"));
   EXPECT_THAT(refused("--set sunny.temperature=-300"), HasSubstr("-273.15"));
-  EXPECT_THAT(refused("--set window.state=0 --set window.state=1"), HasSubstr("already"));
+  EXPECT_THAT(refused("--set window.state=0 --set window.state=1"), HasSubstr("set twice"));
   for (const char* computed : {"uv=5", "seconds=60", "temperature=40"}) {
     EXPECT_THAT(refused(fmt::format("--set sunny.state=0.5 --set sunny.{}", computed)),
                 HasSubstr("given, or computed"));
