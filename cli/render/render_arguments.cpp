@@ -80,9 +80,11 @@ void declare_picture(CLI::App& app, RenderArguments& a) {
                  "photon mapping, for caustics; default: the scene's")
       ->check(CLI::IsMember({"path", "direct", "photon"}));
   declare_sample_options(app, a.samples);
-  app.add_option("--look-at", a.look_at,
-                 "move the camera without partitioning again: x,y,z of the eye, x,y,z of the point that it "
-                 "looks at and, if it changes, x,y,z of the direction up. The camera then stands still");
+  app.add_option(
+      "--look-at", a.look_at,
+      "move the camera without partitioning again: x,y,z of the eye, x,y,z of the point that it "
+      "looks at and, where wanted, x,y,z of the direction up. Without it a level camera stays level. The "
+      "camera then stands still");
   app.add_option("--fov", o.picture.view.fov_deg,
                  "field of view of a perspective camera along the shorter side of the picture")
       ->check(CLI::Range(0.001, 179.999));
