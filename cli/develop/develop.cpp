@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/rectangle.h"
 #include "cli/develop/chosen_layers.h"
@@ -147,6 +148,7 @@ void say_what_is_written(const Picture& picture, const DevelopArguments& a, doub
 }
 
 int develop_all(const DevelopArguments& a) {
+  for (const std::string& file : a.films) require_input(file, {InputKind::film, InputKind::picture});
   std::optional<Denoiser> denoiser;
   if (a.denoised) denoiser.emplace();
   std::optional<Exposed> sum;
