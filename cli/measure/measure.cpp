@@ -114,9 +114,11 @@ int main(int argc, char** argv) {
   app.add_option("--first-seed", options.first_seed, "of the pictures; of the reference: a million more")
       ->group("");
   app.add_option("--spp", options.spp, "samples of a measured picture; default: as --budget allows")
+      ->transform(plain_count)
       ->check(more_than_0);
   app.add_option("--reference-spp", options.reference_spp,
                  "samples of each half of the reference; default: 16 times the samples of a picture")
+      ->transform(plain_count)
       ->check(more_than_0);
   app.add_flag("--every-combination", options.every_combination,
                "measure all combinations of the axes, not only the promising ones; takes long");

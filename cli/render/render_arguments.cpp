@@ -36,6 +36,7 @@ void declare_files(CLI::App& app, RenderArguments& a) {
 void declare_samples(CLI::App& app, RenderArguments& a) {
   RenderOptions& o = a.options;
   app.add_option("--spp", o.picture.samples_per_pixel, "samples a pixel; default: the scene's")
+      ->transform(plain_count)
       ->check(more_than_0);
   app.add_flag("--adaptive,!--no-adaptive", o.picture.adaptive,
                "more samples where the picture is noisy, fewer elsewhere; --spp is then the mean");
@@ -103,8 +104,9 @@ void declare_picture(CLI::App& app, RenderArguments& a) {
 
 void declare_photons(CLI::App& app, RenderOptions& o) {
   app.add_option("--photons", o.picture.photons.photons,
-                 "photons of an iteration; an iteration is one sample of every pixel; default: the scene's, "
-                 "else as many as pixels, at least 65536")
+                 "photons of an iteration, e.g. 500k or 2M; an iteration is one sample of every pixel; "
+                 "default: the scene's, else as many as pixels, at least 65536")
+      ->transform(plain_count)
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31));
   app.add_option("--photon-radius", o.picture.photons.first_radius,
                  "radius in which the first iteration gathers photons, in scene units; default: the scene's, "

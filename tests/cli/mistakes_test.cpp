@@ -78,6 +78,17 @@ TEST_F(Mistakes, AFileOfAnotherKindIsNamed) {
   EXPECT_THAT(verb("inspect", bundle).output, HasSubstr("in.pbrt")) << "the advice leads somewhere";
 }
 
+TEST_F(Mistakes, CountsHaveSuffixes) {
+  const auto photons = [&](const std::string& count) {
+    EXPECT_EQ(render("--integrator photon --photons " + count).status, 0) << count;
+    return verb("inspect", "--json " + path("a.film")).output;
+  };
+  EXPECT_THAT(photons("70k"), HasSubstr("\"photons\": 70000,"));
+  EXPECT_THAT(photons("0.07M"), HasSubstr("\"photons\": 70000,"));
+  for (const char* wrong : {"5G", "k", "70kk", "-1k", "1T"})
+    EXPECT_EQ(render(std::string("--integrator photon --photons ") + wrong).status, 2) << wrong;
+}
+
 TEST_F(Mistakes, WaysToSampleThatAreNotThere) {
   for (const auto& [option, hint] : {std::pair("--filter box:", "number of pixels"),
                                      {"--filter box:0", "number of pixels"},
