@@ -29,12 +29,13 @@ void print_estimate(const RenderStats& s, const Job& job, std::uint64_t samples_
   constexpr double mib = 1 << 20;
   const std::uint64_t in_memory = job.plan.memory.domains_bytes, all_domains = job.plan.all_domains;
   const std::uint64_t samples_in_all = std::uint64_t{job.plan.goal.samples} * job.film.pixels();
-  show("memory of a rank: {:.0f} MiB of program, film and textures, {:.0f} MiB of domains{}\n",
-       static_cast<double>(s.base_rss_bytes) / mib,
+  show("memory of a rank: {:.0f} MiB of program, {}film and textures, {:.0f} MiB of domains{}{}\n",
+       static_cast<double>(s.base_rss_bytes) / mib, s.ranks > 1 ? "MPI, " : "",
        static_cast<double>(std::min(in_memory, all_domains)) / mib,
        in_memory < all_domains
            ? fmt::format(" of {:.0f}: they come and go", static_cast<double>(all_domains) / mib)
-           : "");
+           : "",
+       s.ranks > 1 ? "" : "; under mpirun MPI takes 10 to 20 MiB more");
   const double here = static_cast<double>(s.samples - samples_before),
                left = static_cast<double>(samples_in_all - s.samples) + here;
   if (left > 0 && here > 0)

@@ -89,6 +89,19 @@ TEST_F(Mistakes, CountsHaveSuffixes) {
     EXPECT_EQ(render(std::string("--integrator photon --photons ") + wrong).status, 2) << wrong;
 }
 
+TEST_F(Mistakes, AShallowDepthOfSensorsIsWarnedOf) {
+  write("sensors.txt", "0 0 0  0 0 1\n");
+  const auto measured = [&](const std::string& options) {
+    const CommandResult result = verb("render", path("in.pbrt") + " --sensors " + path("sensors.txt") +
+                                                    " -o " + path("out.csv") + " --spp 1 --force " + options);
+    EXPECT_EQ(result.status, 0) << result.output;
+    return result.output;
+  };
+  EXPECT_THAT(measured(""), HasSubstr("after 5 scattering events"));
+  for (const char* option : {"--max-depth -1", "--max-depth 5", "--integrator direct", "--quiet"})
+    EXPECT_THAT(measured(option), Not(HasSubstr("scattering events"))) << option;
+}
+
 TEST_F(Mistakes, WaysToSampleThatAreNotThere) {
   for (const auto& [option, hint] : {std::pair("--filter box:", "number of pixels"),
                                      {"--filter box:0", "number of pixels"},

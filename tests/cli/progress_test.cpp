@@ -111,6 +111,7 @@ TEST(Progress, ALogHasALineSoon) {
   EXPECT_EQ(done.status, 0) << done.output;
   EXPECT_THAT(done.output,
               AllOf(HasSubstr("vitrail: rendering "), HasSubstr("vitrail: render "), HasSubstr(" left, ")));
+  EXPECT_THAT(done.output, ::testing::ContainsRegex(" left, [0-9]+ of 65536 samples a pixel"));
   EXPECT_THAT(done.output, Not(HasSubstr("\033")));
 }
 
