@@ -116,6 +116,23 @@ TEST_F(SetGlazing, AnotherStateIsAnotherPicture) {
   EXPECT_EQ(render("clear.vit", "b.film", "--spp 8 --set window.state=0").status, 0);
 }
 
+TEST_F(SetGlazing, InspectListsPanesThatDoNotSwitch) {
+  write_text(directory / "still.pbrt",
+             scene_text("", "") +
+                 "MakeNamedMaterial \"still\" \"string type\" \"thindielectric\" "
+                 "\"string glazing\" \"pane.dat\"\nNamedMaterial \"still\"\nShape \"disk\"\n");
+  const CommandResult told = run(fmt::format("{} '{}' --json", vitrail("inspect"), path("still.pbrt")));
+  ASSERT_EQ(told.status, 0) << told.output;
+  const nlohmann::json panes = nlohmann::json::parse(told.output).at("glazing");
+  ASSERT_EQ(panes.size(), 3u);
+  EXPECT_EQ(panes[0]["name"], "window");
+  EXPECT_EQ(panes[0]["can_be_set"], "state");
+  EXPECT_EQ(panes[1]["system"], "sunny");
+  EXPECT_EQ(panes[2]["name"], "still");
+  EXPECT_EQ(panes[2]["set"], "");
+  EXPECT_EQ(panes[2]["can_be_set"], "");
+}
+
 TEST_F(SetGlazing, SaysWhatCanBeSet) {
   const auto refused = [&](const std::string& options) {
     const CommandResult result = render("clear.vit", "r.film", options);
