@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// What a reader is told beside the file.
+// The options of a reader.
 struct ImportOptions {
   // Values of a Mitsuba scene's parameters, as its command line's -D: they stand before the file's
   // <default>s.
