@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
           ->expected(3)
           ->delimiter(',')
           ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--csv", a.csv, "write the measurements as a table to this file")->needs(rgb);
+  app.add_option("--csv", a.csv, "write the reflectances of --rgb to this file")->needs(rgb);
   app.add_option("--cube", a.cube, "colours a side of the cube; default: 33 (100 are a million)")
       ->check(CLI::Range(2, 400));
   app.add_option("--picture", a.picture,
