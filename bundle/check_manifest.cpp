@@ -206,9 +206,9 @@ void check_lights(const Checker& c, const Manifest& m) {
   }
   c.require(m.emissive_attributes.empty() ||
                 m.emissive_attributes.size() == m.emissive_triangles.size() * m.attributes,
-            "the attributes of what shines are not whole");
+            "the attributes of emissive triangles are not whole");
   c.require(m.emissive_opacities.empty() || m.emissive_opacities.size() == m.emissive_triangles.size(),
-            "the opacities of what shines are not whole");
+            "the opacities of emissive triangles are not whole");
   for (const Light& light : m.lights)
     std::visit(
         [&](const auto& l) {

@@ -63,8 +63,8 @@ void require_unchanged_files() {
     if (::stat(file.c_str(), &status) != 0) continue;
     if (same_file(then, of(status)) && !unchanged(then, of(status)))
       throw Error(
-          "it was changed while it was rendered: what came after the last checkpoint is not to be trusted, "
-          "and is not written",
+          "this file changed during the render: the samples after the last checkpoint may be wrong, and are "
+          "not written",
           {file});
   }
 }

@@ -29,11 +29,11 @@ std::string usage() {
       "usage: vitrail VERB ...\n\nStart here:\n" + example_text(first_steps(), width) + "\nVerbs:\n";
   for (const Verb& verb : verbs()) text += entry_text(verb.name, verb.summary, column, width);
   text += "\nMore:\n";
-  text += entry_text("help VERB", "all that a verb can do", column, width);
-  text += entry_text("completion",
-                     "bash, zsh or fish: what the shell needs to complete words, as in: "
-                     "source <(vitrail completion bash)",
-                     column, width);
+  text += entry_text("help VERB", "the options of a verb", column, width);
+  text += entry_text(
+      "completion",
+      "bash, zsh or fish: the completion script of that shell, as in: source <(vitrail completion bash)",
+      column, width);
   return text + entry_text("-V, --version", "which version this is", column, width);
 }
 

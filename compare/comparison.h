@@ -33,9 +33,9 @@ struct Comparison {
   // its p-values from evenly spread ones.
   double value = 0;
   std::optional<double> threshold, mean_within;
-  // value ≤ threshold, the means of X, Y and Z differ by no more than the fraction mean_within (without one,
-  // ztest tests the means too), and every pixel is finite in both images. Nothing was asked where there is
-  // neither a threshold nor a fraction.
+  // All of these hold: value ≤ threshold; the means of X, Y and Z differ by no more than the fraction
+  // mean_within (without one, ztest tests the means too); every pixel is finite in both images. Without a
+  // threshold and a fraction nothing is judged.
   bool passed = true;
   bool judged() const { return threshold.has_value() || mean_within.has_value(); }
   std::size_t nonfinite_image = 0, nonfinite_reference = 0;  // pixels

@@ -42,8 +42,8 @@ Json errors(const ComparisonPage& page) {
   const std::vector<double> flip =
       page.low_range ? ldr_flip(a, b, page.pixels_per_degree) : hdr_flip(a, b, page.pixels_per_degree);
   Json all = Json::array();
-  all.push_back(
-      error_of("flip", "what one notices who flips between the two, 0 to 1", mean_of_valid(flip), flip, 1));
+  all.push_back(error_of("flip", "the difference that a viewer notices when flipping between the two, 0 to 1",
+                         mean_of_valid(flip), flip, 1));
   const auto add = [&](const char* name, const char* about, double (*channel_error)(double, double)) {
     const std::vector<double> map = error_map(a, b, channel_error);
     all.push_back(error_of(name, about, mean_of_valid(map), map, hottest(map)));
@@ -66,7 +66,7 @@ Json rows(const ComparisonPage& page, const Json& all) {
   table.push_back({"bitwise", mean_of_valid(difference_map(a, b)), "pixels with any bit different"});
   table.push_back({"luminance", ratios.luminance, "mean of the image over that of the reference"});
   table.push_back({"± (95 %)", 1.96 * luminance_ratio_error(a, b, page.neighbours_of_mean),
-                   page.neighbours_of_mean > 1 ? "with what splatting makes alike"
+                   page.neighbours_of_mean > 1 ? "with the correlation that splatting makes"
                                                : "if the pixels' errors are independent"});
   table.push_back({"red", ratios.red, "as luminance"});
   table.push_back({"green", ratios.green, ""});

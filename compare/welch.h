@@ -19,7 +19,7 @@ inline constexpr int welch_tile = 8;  // pixels a side
 // Of so many pairs of renders with the same expectation one is called different.
 inline constexpr double welch_significance = 1e-4;
 
-// A picture and the variance of each of its pixels' mean luminances, of one degree of freedom each.
+// A picture, and for each pixel the variance of its mean luminance, with one degree of freedom.
 struct WelchPicture {
   const Image* image = nullptr;
   const Image* variance = nullptr;

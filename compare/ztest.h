@@ -4,8 +4,8 @@
 // bright paths. The rule is that of Mitsuba's renderer tests.
 //
 // A film estimates each pixel's variance from two groups of samples. With one degree of freedom Student's
-// distribution has tails so long that one pixel of 10⁴ would have to be off by 10⁵ σ to be found; so
-// estimates are pooled over a neighbourhood first (variance.h), which leaves about 49 and asks for 6 σ.
+// distribution has long tails: one pixel of 10⁴ would have to be off by 10⁵ σ to be found. So estimates are
+// pooled over a neighbourhood first (variance.h). That leaves about 49 degrees of freedom and takes 6 σ.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ namespace vitrail {
 
 inline constexpr double ztest_significance = 0.01;
 inline constexpr double ztest_tolerated = 0.0025;  // fraction of values that may fail
-// What every pixel's noise hides, the mean of all shows. Of one of 10,000 equal pictures it is said to
-// differ.
+// The mean of all pixels shows differences that the noise of each pixel hides. One of 10,000 equal pictures
+// fails this test.
 inline constexpr double ztest_mean_significance = 1e-4;
 
 // Two images and the variances of their means.
@@ -43,14 +43,14 @@ struct ZTest {
   std::size_t values = 0;         // tested: pixels × (1 or 3)
   std::size_t failed = 0;         // of them, the non-finite ones among them
   double value_significance = 0;  // after the correction
-  // By how many standard errors the means differ, of luminance or of the worst of X, Y and Z, beyond what
-  // rounding the reference to half floats can do; and whether that is too many.
+  // By how many standard errors the means differ, of luminance or of the worst of X, Y and Z. A difference
+  // that rounding the reference to half floats can make is taken off first. Then whether that is too many.
   double mean_sigmas = 0;
   bool means_differ = false;
   double noise_rms = 0, difference_rms = 0;  // of luminance: expected of the variances, and found
 };
 
-// z = (a − b)/√variance of luminance, or of X, of Y and of Z; 0 for equal values.
+// z = (a − b)/√variance for luminance, or for X, Y and Z; 0 for equal values.
 ZTest ztest(const ZTestInput& input);
 
 // P(|T| > t) for Student's distribution with ν degrees of freedom (Abramowitz & Stegun 1964, 26.7.3

@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// Where a picture comes from; what is empty or 0 is unknown.
+// Where a picture comes from. An empty field or 0 is unknown.
 struct PictureOrigin {
   std::string software, scene, scene_hash, seeds, film_hash;
   std::string glazing;    // in which state it was set; empty: as the scene says

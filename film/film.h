@@ -28,9 +28,9 @@ struct Refused {
   bool operator==(const Refused&) const = default;
 };
 
-// What the pixels of an iteration of photon mapping have in common errs alike in all of them, and no pixel's
-// scatter tells. So such a film keeps the sums of Y and the samples of all pixels in batches of iterations
-// that follow on each other, each batch well stratified: iteration i in batch ⌊i/8⌋ mod 32.
+// The pixels of an iteration of photon mapping share photons, and so a part of their error, which the scatter
+// within a pixel does not show. So such a film also keeps the sums of Y and the samples of all pixels in
+// batches. A batch has successive iterations and is well stratified: iteration i is in batch ⌊i/8⌋ mod 32.
 inline constexpr std::uint32_t photon_batches = 32, iterations_a_batch = 8;
 constexpr std::uint32_t batch_of(std::uint32_t iteration) {
   return iteration / iterations_a_batch % photon_batches;
@@ -85,8 +85,8 @@ class Film {
   int length_exponent() const { return length_exponent_; }
 
   // Adds to a pixel. Safe from many threads. `pixel` = y·width + x within the crop. Each component is rounded
-  // once to a whole number of quanta, up or down with the probabilities that make the mean exact, by a hash
-  // of pixel, sample and value: light below the quantum is not lost. Returns false, and adds and counts in
+  // once to a whole number of quanta, up or down by a hash of pixel, sample and value. The probabilities make
+  // the mean exact: light below the quantum is not lost. Returns false, and adds and counts in
   // `refused` what it is, if the value is not finite or too large. `spread`: where the film splats, and
   // nowhere else, the sample's pixels, of which those outside the crop get nothing. `parts`: where the film
   // keeps groups of lights, and nowhere else, what of `value` is of which; the last gets what is left of the
@@ -120,7 +120,8 @@ class Film {
   XYZ mean(std::uint32_t pixel) const;
   // Mean radiance of a bin, W·m⁻²·sr⁻¹·nm⁻¹, imaging ratio applied.
   double mean_of_bin(std::uint32_t pixel, std::size_t bin) const;
-  // Mean of a plane of a layer of sums over all samples of a pixel; those that see nothing count as 0.
+  // Mean of a layer of sums, in one of its planes, over all samples of a pixel. A sample that sees nothing
+  // has 0.
   double mean_of_layer(std::uint32_t pixel, Layer layer, std::size_t plane) const;
   // Mean of the light of a group, as `mean`.
   XYZ mean_of_group(std::uint32_t pixel, std::size_t group) const;
@@ -150,16 +151,16 @@ class Film {
   // xxh3 over all sums, counts, ids and mattes.
   std::uint64_t hash() const;
 
-  // The raw planes, for exchange between ranks: X, Z, Y of each group, then one a spectral bin and those of
-  // layers and X, Y, Z of each group of lights, each width·height; where the film splats the weights of each
-  // group; of photon mapping the Y, then the samples, of all pixels in each batch; and, where there is a
-  // clamp, the Y that it took of all pixels; the samples of each group; and what was refused.
+  // The raw planes, for exchange between ranks, each width·height: X, Z, Y of each group; one a spectral bin;
+  // those of layers; X, Y, Z of each group of lights; where the film splats, the weights of each group. Then
+  // numbers for all pixels together: of photon mapping the Y, then the samples, of each batch; where there is
+  // a clamp, the Y that it took. The spans below have the samples of each group, and the refused samples.
   std::span<WideSum> sums() { return sums_; }
   std::span<const WideSum> sums() const { return sums_; }
   std::span<std::uint32_t> counts() { return counts_; }
   std::span<const std::uint32_t> counts() const { return counts_; }
   Refused& refused() { return refused_; }
-  // Those of layers, each width·height: of two, the greater one counts. 0: none.
+  // Those of layers, each width·height; 0: none. Where films are merged, the greater id is kept.
   std::span<std::int64_t> ids() { return ids_; }
   // Those of layers, each width·height.
   std::span<MattePixel> mattes() { return mattes_; }

@@ -150,8 +150,8 @@ Header read_header(Reader& in) {
   if (h.version != film_version && h.version != adaptive_version && h.version != photon_version &&
       h.version != groups_version)
     in.fail(
-        fmt::format("film file of version {}, but this program ({}) reads version {}: it was made by "
-                    "another one, and can be developed by that alone",
+        fmt::format("film file of version {}, but this program ({}) reads version {}: only the program that "
+                    "made the film can develop it",
                     h.version, to_string(this_renderer()), film_version));
   if (h.checksum != checksum(h)) in.fail("the film file is corrupt: the checksum of its header is wrong");
   if (!has_sizes(h) || !has_bins(h) || !has_key(h) || !(h.render_time_s >= 0))
@@ -244,7 +244,7 @@ FilmProgress read_progress(Reader& in, const Header& h) {
   const auto not_ascending = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
   if (std::ranges::adjacent_find(read.earlier_ends, not_ascending) != read.earlier_ends.end() ||
       (!read.earlier_ends.empty() && read.earlier_ends.back() >= h.samples_per_pixel))
-    in.fail("the film file is corrupt: it goes on from more samples than it has");
+    in.fail("the film file is corrupt: it continues from more samples than it has");
   in.read_array(read.about, h.about_bytes, "description");
   in.read_array(read.done, words_of(h.items), "progress");
   if (h.items % 64 != 0 && read.done.back() >> (h.items % 64) != 0)

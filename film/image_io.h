@@ -9,13 +9,14 @@
 
 namespace vitrail {
 
-// Writes .exr (32-bit float, linear; beside R, G, B `Variance.Y` if the picture has variances,
-// `S0.580,000000nm` and the like if it has spectra, and its layers, ids as 32-bit integers, masks as
-// Cryptomatte; its origin as attributes), .hdr (Radiance's RGBE, linear, the colours alone), or .png, .jpg,
-// .tif or .webp with sRGB's transfer function, clamped, rounded to nearest: of 8 or 16 `bits`, 0 being
-// usual_bits; a denoised one says so in its description. The file appears whole or not at all, and its date
-// is SOURCE_DATE_EPOCH or 1970, so equal pictures give equal files. Other extensions, and bits that a format
-// has not, throw UsageError.
+// Writes a picture in the format of the file's extension:
+// .exr: 32-bit float, linear, with its origin as attributes. Beside R, G, B it has `Variance.Y` if the
+// picture has variances, `S0.580,000000nm` and the like if it has spectra, and the layers. Ids are 32-bit
+// integers, masks are Cryptomatte. .hdr: Radiance's RGBE, linear, only the colours. .png, .jpg, .tif, .webp:
+// with sRGB's transfer function, clamped, rounded to nearest, of 8 or 16 `bits` (0: usual_bits). The
+// description of a denoised one names the denoiser. The file appears whole or not at all. Its date is
+// SOURCE_DATE_EPOCH or 1970, so equal pictures give equal files. Other extensions, and bits that a format
+// does not have, throw UsageError.
 void write_picture(const std::filesystem::path& file, const Picture& picture, int bits = 0);
 
 // A channel, by the file's name: 32 (floats), 16 or 8; 0 where such a file cannot be written.

@@ -33,7 +33,7 @@ std::string words_of_depth(int depth) {
 std::vector<PictureField> picture_fields(const FilmKey& key, const FilmSettings& film) {
   constexpr bool hidden = false;
   return {{"bundle, state of its glass (--set) or way to sample",
-           "they are of different scenes or of glass in different states, or sampled in different ways",
+           "they differ in the scene, the state of its glass or the way to sample",
            fmt::format("{:016x}", key.scene_hash), hidden},
           {"build", "they were made by different programs", words(key.renderer)},
           {"width", "their widths differ", words(film.width)},
@@ -42,7 +42,7 @@ std::vector<PictureField> picture_fields(const FilmKey& key, const FilmSettings&
           {"depth", "their depths differ", words_of_depth(key.max_depth)},
           {"integrator", "one has direct light only", key.direct_only ? "direct" : "path", hidden},
           {"threshold", "their thresholds differ", words(key.threshold)},
-          {"way to count what light goes straight through",
+          {"way to count surfaces that light passes straight through",
            "one counts going straight through a sheet as scattering, the other does not",
            key.straight_counts ? "as scattering" : "not at all", hidden},
           {"--splat", "samples of one add to several pixels, those of the other to their own",

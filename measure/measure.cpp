@@ -60,10 +60,8 @@ Measurement measure(const MeasureOptions& options, const Execute& execute, const
       make_plan(options, m.axes, sample_wall_s, std::max(0.0, start.wall_s - sample_wall_s) + 0.2);
   news.say(
       fmt::format("{} × {} pixels, {} samples, {} seeds a setting, a reference of 2 × {}: {} renders, about "
-                  "{:.0f} s; then "
-                  "the search for a recommendation, up to {} more, some of up to {} times the samples (what "
-                  "is there already "
-                  "is not rendered again)",
+                  "{:.0f} s; then the search for a recommendation, up to {} more, some of up to {} times the "
+                  "samples (pictures in the folder are not rendered again)",
                   timed.picture.width, timed.picture.height, plan.spp, options.seeds, plan.reference_spp,
                   plan.renders, plan.wall_s, plan.search_renders, most_samples_factor));
 

@@ -117,7 +117,7 @@ void require_own_page(const std::filesystem::path& folder) {
   const std::filesystem::path page = folder / "index.html";
   if (!std::filesystem::exists(page) || std::filesystem::exists(folder / "measure.json")) return;
   throw Error(
-      "it is there already, and no measure.json beside it says that measure made it: name another folder",
+      "this file exists, and without a measure.json beside it measure did not make it: name another folder",
       {page.string()});
 }
 

@@ -157,7 +157,7 @@ std::string table(const Measurement& m) {
                  s.farm.is_known() ? fmt::format("{:.2g}", s.farm(m.scene_spp)) : "");
   };
   for (const bool biased : {false, true}) {
-    if (biased) text += "  what may change the picture for good:\n";
+    if (biased) text += "  settings that may bias the picture:\n";
     for (std::size_t i = 0; i < m.settings.size(); ++i)
       if ((m.settings[i].effect == Effect::bias) == biased) put(i);
   }

@@ -59,10 +59,10 @@ std::uint64_t default_memory_bytes();
 
 // Writes the bundle directory `out` (built beside it under a temporary name, renamed when whole; an existing
 // bundle of that name is replaced). A scene that does not fit into the memory is divided into buckets first,
-// which are written to disk and divided one after the other. `progress` is told the done fraction in [0,1]
-// and what is going on, from any thread but one at a time; what it throws stops the work. The domains, their
-// order and every byte depend on the scene and the options, never on the threads. Throws Error for bad input,
-// UsageError, and MachineError, for too little memory too.
+// which are written to disk and divided one after the other. `progress` gets the done fraction in [0,1]
+// and the name of the stage, from any thread but one at a time; an exception from it stops the work. The
+// domains, their order and every byte depend on the scene and the options, never on the threads. Throws Error
+// for bad input, UsageError, and MachineError, for too little memory too.
 PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
                          const PartitionOptions& options,
                          const std::function<void(double, const char*)>& progress = {});

@@ -23,7 +23,8 @@ std::string summarise(const Diagnostics& diagnostics) {
 
 void require_exact(const Diagnostics& diagnostics) {
   if (!diagnostics.empty())
-    throw Error("not imported exactly, as --strict asks: " + diagnostics[0].message, diagnostics[0].location);
+    throw Error("not imported exactly, which --strict refuses: " + diagnostics[0].message,
+                diagnostics[0].location);
 }
 
 }  // namespace vitrail

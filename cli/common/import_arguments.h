@@ -29,7 +29,7 @@ RgbMethod rgb_method(const std::string& method);
 
 // Of --no-cache.
 inline constexpr const char* no_cache_help =
-    "bake all images: keep none, and use none that are kept, in $XDG_CACHE_HOME/vitrail or ~/.cache/vitrail";
+    "bake all images without the cache in $XDG_CACHE_HOME/vitrail or ~/.cache/vitrail";
 
 // A definition that is not name=value is refused as the options are parsed.
 void declare_import_options(CLI::App& app, ImportArguments& arguments);

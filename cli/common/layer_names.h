@@ -8,7 +8,7 @@
 namespace vitrail {
 
 inline constexpr const char* layers_help =
-    "keep these of the first surface that each sample sees, with commas between them: albedo, position, "
+    "keep these layers of the first surface that each sample sees, separated by commas: albedo, position, "
     "geo_normal, sh_normal (or normal), uv, depth, shape_index, material_index, prim_index, alpha, motion, "
     "cryptomatte (crypto_object and crypto_material); none; default: as the scene says";
 

@@ -48,7 +48,7 @@ GlazingSetting parse_setting(const std::string& text) {
   const auto* kind = std::ranges::find(kinds, quantity, &QuantityKind::name);
   if (kind == std::end(kinds))
     refuse(
-        "what can be set is scale, sun or turbidity of lights, color or roughness of materials, and state, "
+        "these can be set: scale, sun or turbidity of lights; color or roughness of materials; state, "
         "temperature, uv or seconds of glass that switches");
   GlazingSetting setting{text.substr(0, dot), kind->quantity};
   const char* end = number.data() + number.size();
@@ -130,7 +130,7 @@ std::vector<GlazingSetting> parse_settings(const std::vector<std::string>& texts
     const GlazingSetting setting = parse_setting(text);
     for (const GlazingSetting& other : settings)
       if (other.name == setting.name && other.quantity == setting.quantity)
-        throw UsageError(fmt::format("--set {}: it is set already", text));
+        throw UsageError(fmt::format("--set {}: this is set twice", text));
     settings.push_back(setting);
   }
   return settings;

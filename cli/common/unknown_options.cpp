@@ -32,16 +32,16 @@ constexpr std::array foreign_options{
     ForeignOption{"--write-partial-images", "here it is render --preview PICTURE"},
     ForeignOption{"--toply", "here it is vitrail convert IN OUT.pbrt"},
     ForeignOption{"--upgrade", "here it is vitrail convert IN OUT.pbrt"},
-    ForeignOption{"--format", "here the output's extension says it"},
-    ForeignOption{"--gpu", "vitrail renders on processors alone"},
+    ForeignOption{"--format", "here the output's extension selects it"},
+    ForeignOption{"--gpu", "vitrail renders on processors only"},
     ForeignOption{"--wavefront", "vitrail has one way of rendering"},
     ForeignOption{"--interactive", "vitrail has no window"},
     ForeignOption{"--mode", "vitrail is always spectral"},
     ForeignOption{"-m", "vitrail is always spectral"},
     ForeignOption{"-s", "here it is --camera N"},
     ForeignOption{"--sensor", "here it is --camera N"},
-    ForeignOption{"-v", "vitrail says all that it has to say; --stats F.json has more"},
-    ForeignOption{"--verbose", "vitrail says all that it has to say; --stats F.json has more"},
+    ForeignOption{"-v", "vitrail has one level of messages; --stats F.json has more"},
+    ForeignOption{"--verbose", "vitrail has one level of messages; --stats F.json has more"},
 };
 
 std::vector<std::string> names_of(const CLI::App& app) {

@@ -32,8 +32,7 @@ std::string message(const MemoryRefusal& refusal, double budget, const Stage& st
   if (partly) needed = std::max(needed, resident / stage.fraction);
   return fmt::format(
       "{:.0f} MiB of memory are too little: {} {:.0f} MiB is needed ({:.0f} MiB are in use and {:.1f} MiB "
-      "more "
-      "are asked for, {}{}{}); try --memory {}M: what comes after takes more",
+      "more are needed, {}{}{}); try --memory {}M: later stages take more",
       budget / mib, partly ? "about" : "at least", std::ceil(needed / mib) + 1, resident / mib,
       static_cast<double>(refusal.asked_bytes) / mib, stage.what,
       partly ? fmt::format(" at {:.0f} % of it", 100 * stage.fraction) : "",

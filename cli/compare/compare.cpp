@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/rectangle.h"
 #include "cli/compare/compare_arguments.h"
@@ -84,6 +85,8 @@ int run(const CompareArguments& options) {
     throw UsageError("welch tests tiles of pixels that lie together: not with --ignore or --mask");
   for (const std::filesystem::path& file : {options.heatmap, options.signed_map, options.html})
     if (!file.empty()) require_place(file);
+  for (const std::string* file : {&options.image, &options.reference})
+    require_input(*file, {InputKind::picture, InputKind::film});
   Picture image = load(options.image, options), reference = load(options.reference, options);
   if (options.resized) resize_to(image, reference);
   align(image, reference);

@@ -45,8 +45,8 @@ void declare(CLI::App& app, CompareArguments& o) {
                  "write one page for a browser: both images and their errors, to flip, split, zoom and "
                  "expose, with all metrics");
   app.add_option("--flip-range", o.flip_range,
-                 "of flip: ldr: the images as a screen shows them; hdr: at all exposures that show "
-                 "something; auto: ldr where both files are of 8 or 16 bits")
+                 "how FLIP sees the images: ldr: as a screen shows them; hdr: at all exposures that show "
+                 "something; auto: ldr where both files have 8 or 16 bits")
       ->check(CLI::IsMember({"auto", "ldr", "hdr"}))
       ->capture_default_str();
   app.add_option("--pixels-per-degree", o.pixels_per_degree,

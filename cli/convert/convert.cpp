@@ -7,6 +7,7 @@
 
 #include "cli/common/diagnostics_report.h"
 #include "cli/common/import_arguments.h"
+#include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/mesh_options.h"
 #include "cli/common/quadric_counts.h"
@@ -105,6 +106,7 @@ int run(const Arguments& a) {
   require_export_format(a.output);
   const bool by_us = is_checked_by_us(a, a.output);
   if (by_us) require_checkable(a.output);
+  require_input(a.input, {InputKind::scene});
   note_input(a.input);
   require_outputs(a);
   ImportedScene imported = import_scene(a.input, MeshMemory{}, {}, import_options(a.imports));

@@ -15,6 +15,7 @@
 #include <optional>
 #include <thread>
 
+#include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/run_program.h"
 #include "cli/convert/check_conversion.h"
@@ -126,6 +127,8 @@ void convert(const Conversion& c, const ManyConversions& many, Outcomes& outcome
 }  // namespace
 
 int convert_many(const ManyConversions& many) {
+  for (const fs::path& input : many.inputs)
+    if (kind_of_input(input) == InputKind::bundle) require_input(input, {InputKind::scene});
   const std::vector<FoundScene> scenes = find_scenes(many.inputs, many.folder);
   if (scenes.empty()) throw UsageError("there is no scene to convert");
   const std::vector<fs::path> names = converted_names(scenes, many.format);

@@ -57,7 +57,8 @@ std::string places_of(const NoteGroup& group) {
 std::string losses(const Diagnostics& diagnostics) {
   const std::vector<NoteGroup> groups = grouped_notes(diagnostics);
   if (groups.empty()) return "<p>Everything is as it was.</p>\n";
-  std::string text = "<h2>What is not as it was</h2>\n<table><tr><th><th>times<th>what<th>where</tr>\n";
+  std::string text =
+      "<h2>Differences from the source</h2>\n<table><tr><th><th>times<th>difference<th>where</tr>\n";
   for (const NoteGroup& group : groups)
     text += fmt::format("<tr><td class={0}>{0}</td>{1}{2}{3}</tr>\n", word(group.fidelity),
                         cell(fmt::format("{}", group.places.size())), cell(escaped(group.message)),

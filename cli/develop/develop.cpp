@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/rectangle.h"
 #include "cli/develop/chosen_layers.h"
@@ -89,7 +90,8 @@ Picture measured_picture(const Exposed& sum, const DevelopArguments& a) {
   for (const Layer layer : {Layer::crypto_object, Layer::crypto_material})
     if (sum.film.layers().has(layer) && !a.quiet)
       if (const double share = share_without_matte(sum.film, layer); share > 0)
-        say("vitrail: pixels with more than {} masks of {} leave {:.2g} % of what is seen in none\n",
+        say("vitrail: pixels with more than {} masks of {} leave {:.2g} % of the visible surfaces without a "
+            "mask\n",
             most_mattes, kind_of(layer).name, 100 * share);
   Picture picture = picture_of(sum);
   if (a.groups.empty()) return picture;
@@ -146,6 +148,7 @@ void say_what_is_written(const Picture& picture, const DevelopArguments& a, doub
 }
 
 int develop_all(const DevelopArguments& a) {
+  for (const std::string& file : a.films) require_input(file, {InputKind::film, InputKind::picture});
   std::optional<Denoiser> denoiser;
   if (a.denoised) denoiser.emplace();
   std::optional<Exposed> sum;

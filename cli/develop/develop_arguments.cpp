@@ -29,8 +29,8 @@ void declare(CLI::App& app, DevelopArguments& a) {
   app.add_option("--layer", a.layer,
                  "show this layer of the first surfaces, as render --aov names it, in place of the colours");
   app.add_option("--layers", a.layers,
-                 "what an .exr has beside the colours, with commas between: all that the film has, or names "
-                 "of render --aov, variance, spectrum, groups; default: all but variance and spectrum");
+                 "the layers of an .exr beside the colours, separated by commas: all (of the film), names of "
+                 "render --aov, variance, spectrum, groups; default: all but variance and spectrum");
   app.add_option("--groups,--group", a.groups,
                  "NAME=WEIGHT,…: weigh the light of these groups of a film of render --light-groups. A "
                  "weight is a number or red:green:blue; * means all groups, and other groups have 1");
@@ -99,10 +99,10 @@ void require_agreement(const DevelopArguments& a) {
       (is_exposed || a.denoised || a.with_variance || a.spectral || !a.false_color.empty()))
     throw UsageError("--layer shows numbers as they are: only --crop, --resize and --bits go with it");
   if (!a.layers.empty() && (!a.writes(".exr") || !a.layer.empty() || a.with_variance || a.spectral))
-    throw UsageError("--layers says what an .exr holds: not with --layer, --variance or --spectral");
+    throw UsageError("--layers chooses the layers of an .exr: leave out --layer, --variance and --spectral");
   const ChosenLayers chosen = parse_chosen_layers(a.layers);
   if (chosen.variance && (a.denoised || !a.size.empty()))
-    throw UsageError("neither --denoise nor --resize knows the variance of what it makes");
+    throw UsageError("--denoise and --resize give no variance: leave out one of them, or the layer variance");
   if (!a.groups.empty() && (chosen.groups || a.with_variance || a.spectral || !a.layer.empty() ||
                             a.writes(".csv") || a.writes(".film") || a.reads_picture()))
     throw UsageError(
@@ -111,7 +111,7 @@ void require_agreement(const DevelopArguments& a) {
   if (a.reads_picture() && a.films.size() > 1)
     throw UsageError("pictures do not merge as films do: give one");
   if (a.reads_picture() && (a.writes(".csv") || a.writes(".film") || !a.false_color.empty()))
-    throw UsageError("a picture is no film: .csv, .film and --false-color are made of what films measure");
+    throw UsageError("a picture is no film: .csv, .film and --false-color need the measurements of a film");
   if (a.writes(".film") && (is_exposed || a.denoised || a.with_variance || a.spectral || a.bits > 0 ||
                             !a.false_color.empty() || !a.layer.empty() || !a.crop.empty() || !a.size.empty()))
     throw UsageError("a .film holds the samples of its render: no option changes it");

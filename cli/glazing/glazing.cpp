@@ -34,12 +34,12 @@ void add_options(CLI::App& app, Arguments& a) {
       ->expected(1);
   app.add_option("--theta", a.theta_deg, "angles of incidence, degrees from the normal; default: 0")
       ->check(CLI::Range(0.0, 90.0));
-  app.add_option("--state", a.state, "of glass that switches: 0 clear to 1 dark")
+  app.add_option("--state", a.state, "state of glass that switches: 0 is clear, 1 is dark")
       ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--temperature", a.temperature_c, "of thermochromic glass, °C");
+  app.add_option("--temperature", a.temperature_c, "temperature of thermochromic glass, °C");
   app.add_option("--standard", a.standard, "a WINDOW standard (.std); default: NFRC 300-2003, built in");
   app.add_option("--sampling", a.sampling,
-                 "wavelengths: full and condensed as WinCalc, standard as Optics and the IGSDB")
+                 "which wavelengths: full and condensed as in WinCalc, standard as in Optics and the IGSDB")
       ->check(CLI::IsMember({"full", "condensed", "standard"}));
   app.add_flag("--polarised", a.polarised, "keep polarisations apart between panes; WINDOW takes their mean");
   app.add_option("--csv", a.csv, "write the spectra here");

@@ -23,7 +23,7 @@ std::span<const Verb> verbs() {
        "write a scene in another format",
        {{"vitrail convert room.pbrt room.xml", "from PBRT to Mitsuba 3"},
         {"vitrail convert room.pbrt room.xml --report room.json",
-         "what is exact, approximated or dropped, item by item"},
+         "lists each item as exact, approximated or dropped"},
         {"vitrail convert scenes/ --to xml -o converted --check",
          "a whole folder; says which scenes look different"}}},
       {"develop",

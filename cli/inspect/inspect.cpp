@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cli/common/import_arguments.h"
+#include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/sizes.h"
 #include "cli/common/within_memory.h"
@@ -27,6 +28,7 @@ Report inspect(const std::filesystem::path& file, const ImportOptions& options) 
   // A checkpoint is a film too.
   if (file.extension() == ".film" || file.extension() == ".partial" || file.extension() == ".work")
     return inspect_film(file);
+  require_input(file, {InputKind::scene, InputKind::bundle, InputKind::film});
   return inspect_scene(file, options);
 }
 
@@ -50,7 +52,7 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 
 int main(int argc, char** argv) {
   using namespace vitrail;
-  CLI::App app("says what a scene, a bundle, one of its files or a film holds, and verifies it",
+  CLI::App app("prints the contents of a scene, a bundle, one of its files or a film, and verifies them",
                "vitrail inspect");
   std::filesystem::path file;
   ImportArguments imports;

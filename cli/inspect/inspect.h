@@ -29,6 +29,9 @@ Report describe_materials(const Scene& scene);
 Report describe_textures(const Scene& scene);
 Report describe_media(const Scene& scene);
 Report describe_needs(const Scene& scene);
+// Panes of measured glass, whether they switch or not: "set" is "" where they do not. Reads their files
+// again.
+Report describe_panes(const Scene& scene);
 // Parts of solid glass, of meshes, that enclose nothing: open, folded, or the face of a pane without its rim.
 Report describe_open_glass(const Scene& scene);
 // Of all meshes, each once.

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Glass whose surface encloses nothing: what is behind it is inside of it, as far as light goes.
+// Glass of a scene: panes by their makers' measurements; and solid glass whose surface encloses nothing, so
+// that light takes the space behind it for its inside.
 #include <algorithm>
+#include <set>
+#include <utility>
 
+#include "cli/common/switching_glazing.h"
 #include "cli/inspect/inspect.h"
+#include "glazing/system_file.h"
+#include "importers/reading/glazing_material.h"
 #include "scene/records/material_traits.h"
 #include "scene/shapes/deferred_mesh.h"
 #include "scene/shapes/mesh_parts.h"
@@ -59,6 +65,25 @@ void add_open_parts(const Scene& scene, const std::vector<Shape>& shapes, const 
 }
 
 }  // namespace
+
+Report describe_panes(const Scene& scene) {
+  Report table = Report::array();
+  const std::vector<bool> sides = sides_of_glazing(scene);
+  std::set<std::pair<std::string, std::string>> listed;  // a material may stand twice, once for each use
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const std::string& name = scene.materials[i].name;
+    const std::string file = glazing_file_of(scene.materials, i);
+    if (file.empty() || sides[i] || !listed.emplace(name, file).second) continue;
+    const GlazingSystem system = read_system({file}).system;
+    const bool is_set = switches(system);
+    table.push_back({{"name", name.empty() ? Report(nullptr) : Report(name)},
+                     {"system", system.name.empty() ? Report(nullptr) : Report(system.name)},
+                     {"panes", system.layers.size()},
+                     {"set", is_set ? describe_setting(system) : ""},
+                     {"can_be_set", is_set ? names_of_quantities(system) : ""}});
+  }
+  return table;
+}
 
 Report describe_open_glass(const Scene& scene) {
   Report table = Report::array();

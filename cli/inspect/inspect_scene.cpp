@@ -229,6 +229,24 @@ Report describe(const Manifest& m) {
 
 namespace {
 
+// Adds the shape and the material of each area light to the list: of many shapes, the first in the file.
+// `ids`: the light's place in the list, by its id in the scene.
+void name_shapes_of_lamps(const Scene& scene, const std::vector<std::int32_t>& ids, Report& lights) {
+  for (Report& light : lights) light.update({{"shape", nullptr}, {"material", nullptr}});
+  const auto take = [&](const std::vector<Shape>& shapes) {
+    for (const Shape& shape : shapes) {
+      const std::int32_t at = shape.area_light ? ids.at(shape.area_light->value) : -1;
+      if (at < 0 || !lights[static_cast<std::size_t>(at)]["shape"].is_null()) continue;
+      Report& light = lights[static_cast<std::size_t>(at)];
+      light["shape"] = shape.name.empty() ? to_string(location(scene, shape.origin)) : shape.name;
+      const std::string& material = scene.materials[shape.material.value].name;
+      if (!material.empty()) light["material"] = material;
+    }
+  };
+  take(scene.shapes);
+  for (const Prototype& prototype : scene.prototypes) take(prototype.shapes);
+}
+
 // About what its bundle would take: triangles with their hierarchy (docs/why/partitioning.md), and images.
 std::uint64_t bundle_bytes(const Manifest& m, const Scene& scene) {
   std::uint64_t bytes = (m.requirements.shading_normals ? 78 : 62) * m.triangles;
@@ -256,10 +274,13 @@ Report inspect_scene(const std::filesystem::path& file, const ImportOptions& opt
   r["materials_of_the_scene"] = describe_materials(s);
   r["textures"] = describe_textures(s);
   r["media"] = describe_media(s);
+  if (Report panes = describe_panes(s); !panes.empty()) r["glazing"] = std::move(panes);
   r["open_glass"] = describe_open_glass(s);
   r.update(describe(manifest));
+  const Appearance appearance = appearance_of(s, {});
+  name_shapes_of_lamps(s, appearance.area_light_ids, r["lights"]);
   r["not_exact"] = describe_diagnostics(imported.diagnostics);
-  r["not_rendered_exactly"] = describe_diagnostics(appearance_of(s, {}).diagnostics);
+  r["not_rendered_exactly"] = describe_diagnostics(appearance.diagnostics);
   r["summary"] = summary_of(manifest, bundle_bytes(manifest, s));
   r["summary"]["not_exact"] = r["not_exact"].size();
   r["summary"]["not_rendered_exactly"] = r["not_rendered_exactly"].size();

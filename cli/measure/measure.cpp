@@ -47,9 +47,9 @@ int run(const MeasureOptions& options, bool quiet) {
       run_program(
           program, arguments, [] { return stop_number != 0; }, standard_output);
     } catch (const Interrupted& e) {
-      throw Interrupted(e.signal, "stopped; the same command goes on where it was");
+      throw Interrupted(e.signal, "stopped; the same command continues where it stopped");
     }
-    if (stop_number) throw Interrupted(stop_number, "stopped; the same command goes on where it was");
+    if (stop_number) throw Interrupted(stop_number, "stopped; the same command continues where it stopped");
   };
   const Measurement m = measure(options, execute, news);
   line.clear();
@@ -71,8 +71,7 @@ int run(const MeasureOptions& options, bool quiet) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Measures what speed costs on a scene: renders it small with one setting changed at a time, against a "
-      "long "
-      "reference, and recommends. Interrupted, the same command goes on.",
+      "long reference, and recommends. After an interruption the same command continues.",
       "vitrail measure");
   MeasureOptions options;
   bool quiet = false;
@@ -115,9 +114,11 @@ int main(int argc, char** argv) {
   app.add_option("--first-seed", options.first_seed, "of the pictures; of the reference: a million more")
       ->group("");
   app.add_option("--spp", options.spp, "samples of a measured picture; default: as --budget allows")
+      ->transform(plain_count)
       ->check(more_than_0);
   app.add_option("--reference-spp", options.reference_spp,
                  "samples of each half of the reference; default: 16 times the samples of a picture")
+      ->transform(plain_count)
       ->check(more_than_0);
   app.add_flag("--every-combination", options.every_combination,
                "measure all combinations of the axes, not only the promising ones; takes long");

@@ -12,6 +12,7 @@
 #include "cli/common/bundle_origin.h"
 #include "cli/common/diagnostics_report.h"
 #include "cli/common/import_arguments.h"
+#include "cli/common/input_kind.h"
 #include "cli/common/layer_names.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/mesh_options.h"
@@ -99,6 +100,7 @@ void interpret(PartitionArguments& a) {
     a.options.domain_bytes = parse_bytes(a.domain_bytes);
     if (a.options.domain_bytes == 0) throw UsageError("--domain-bytes has to be more than 0");
   }
+  require_input(a.input, {InputKind::scene});
   note_input(a.input);
   require_folder_of(a.output.has_filename() ? a.output : a.output.parent_path());
   require_no_other(a);

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "cli/common/layer_names.h"
+#include "cli/common/number_checks.h"
 
 namespace vitrail {
 
@@ -15,6 +16,7 @@ void declare(CLI::App& app, PartitionArguments& a) {
   app.add_option("-o,--output", a.output, "bundle to write (NAME.vit)")->required();
   auto* domains =
       app.add_option("--domains", a.options.domains, "number of sub-domains; default: as --domain-bytes says")
+          ->transform(plain_count)
           ->check(CLI::Range(1, 999'999));
   app.add_option("--domains-at-once", a.options.domains_at_once)->group("");
   app.add_flag("--require-everything", a.options.everything,

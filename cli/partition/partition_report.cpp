@@ -54,7 +54,7 @@ void print_summary(const PartitionStats& s, const std::filesystem::path& bundle)
        s.quadrics > 0 ? fmt::format(" and {} quadrics", s.quadrics) : "", s.domains,
        s.domains == 1 ? "" : "s", format_bytes(s.bundle_bytes));
   if (s.domains < s.domains_planned)
-    show("  these are fewer domains than {}: more would part nothing, only cut triangles into more pieces\n",
+    show("  fewer domains than {}: more would not separate the triangles, only cut them into more pieces\n",
          s.domains_planned);
   show("  a domain has {} to {} triangles, {:.0f} on average\n", s.triangles_min, s.triangles_max,
        s.triangles_mean);
@@ -71,7 +71,7 @@ void print_summary(const PartitionStats& s, const std::filesystem::path& bundle)
         s.coarse_shapes);
   show("  {:.2f} s, {:.2f} s of processor time, {:.2f} million triangles a second\n", s.wall_s, s.cpu_s,
        s.triangles_per_s * 1e-6);
-  show("  at most {} of memory of {} allowed; {}\n", format_bytes(s.peak_rss_bytes),
+  show("  at most {} of {} of memory; {}\n", format_bytes(s.peak_rss_bytes),
        format_bytes(s.memory_budget_bytes),
        s.buckets > 1
            ? fmt::format("in {} parts, {} on disk on the way", s.buckets, format_bytes(s.spill_bytes))

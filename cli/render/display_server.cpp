@@ -95,7 +95,8 @@ void DisplayServer::send_film(const std::filesystem::path& file) {
     send_picture(develop_colors(film).rgb);
   } catch (const std::exception& e) {
     failed_ = true;
-    say("vitrail: --display-server {}:{}: {}; the render goes on\n", address_.host, address_.port, e.what());
+    say("vitrail: --display-server {}:{}: {}; the render continues\n", address_.host, address_.port,
+        e.what());
   }
 }
 

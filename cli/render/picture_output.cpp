@@ -24,8 +24,7 @@ bool is_png(const fs::path& picture) { return picture.extension() == ".png"; }
 void require_own_picture(const fs::path& picture, bool force) {
   if (force || picture.empty() || !fs::exists(picture) || is_own_picture(picture)) return;
   throw Error(
-      "it is there already, and does not say that vitrail made it; --force replaces it, and another name "
-      "keeps "
+      "this file exists, and does not say that vitrail made it; --force replaces it, and another name keeps "
       "it",
       {picture.string()});
 }

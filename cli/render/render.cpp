@@ -65,7 +65,7 @@ std::string words_at_stop(const RenderArguments& a, const RenderStats& stats) {
   } catch (const std::exception& e) {
     say("vitrail: there is no picture so far: {}\n", e.what());
   }
-  return fmt::format("stopped; {} holds what was done, and the same command goes on{}",
+  return fmt::format("stopped; {} holds the samples so far, and the same command continues{}",
                      checkpoint_path(a.options.outputs.film).string(),
                      shown.empty() ? "" : fmt::format("; {} shows it", shown.string()));
 }
@@ -181,7 +181,7 @@ int render_frames(Transport& transport, const RenderArguments& all, std::span<ch
         "--frames takes a bundle: vitrail partition makes one of the scene, once for all frames");
   if (!all.film.empty())
     throw UsageError(
-        "--frames has a film for each picture: leave out --film, or let --output end in %04d.film");
+        "--frames keeps a film for each picture: leave out --film, or let --output end in %04d.film");
   const std::vector<Frame> frames = read_frames(all.frames);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const fs::path output = numbered(all.output, i + 1);
@@ -211,11 +211,11 @@ int render_frames(Transport& transport, const RenderArguments& all, std::span<ch
 int supervise_job(RenderArguments& a, int argc, char** argv) {
   if (launched_by_mpi())
     throw UsageError(
-        "a rank cannot start the job again: vitrail render --restarts N --launcher 'mpirun …' can");
+        "a rank cannot start the job again: use vitrail render --restarts N --launcher 'mpirun …'");
   if (a.options.outputs.force && a.restarts > 0)
-    throw UsageError("--force would begin anew at each restart: remove what is to be replaced instead");
+    throw UsageError("--force would begin anew at each restart: remove the old files instead");
   if (!a.frames.empty())
-    throw UsageError("--frames goes on at the first picture that is missing: no --restarts");
+    throw UsageError("--frames continues at the first missing picture: leave out --restarts");
   a.name_outputs();
   return supervise(supervised_command(argc, argv, a.launcher), a.options.outputs.film, a.restarts,
                    a.options.resources.patience_s);

@@ -36,6 +36,7 @@ void declare_files(CLI::App& app, RenderArguments& a) {
 void declare_samples(CLI::App& app, RenderArguments& a) {
   RenderOptions& o = a.options;
   app.add_option("--spp", o.picture.samples_per_pixel, "samples a pixel; default: the scene's")
+      ->transform(plain_count)
       ->check(more_than_0);
   app.add_flag("--adaptive,!--no-adaptive", o.picture.adaptive,
                "more samples where the picture is noisy, fewer elsewhere; --spp is then the mean");
@@ -80,9 +81,11 @@ void declare_picture(CLI::App& app, RenderArguments& a) {
                  "photon mapping, for caustics; default: the scene's")
       ->check(CLI::IsMember({"path", "direct", "photon"}));
   declare_sample_options(app, a.samples);
-  app.add_option("--look-at", a.look_at,
-                 "move the camera without partitioning again: x,y,z of the eye, x,y,z of the point that it "
-                 "looks at and, if it changes, x,y,z of the direction up. The camera then stands still");
+  app.add_option(
+      "--look-at", a.look_at,
+      "move the camera without partitioning again: x,y,z of the eye, x,y,z of the point that it "
+      "looks at and, where wanted, x,y,z of the direction up. Without it a level camera stays level. The "
+      "camera then stands still");
   app.add_option("--fov", o.picture.view.fov_deg,
                  "field of view of a perspective camera along the shorter side of the picture")
       ->check(CLI::Range(0.001, 179.999));
@@ -101,8 +104,9 @@ void declare_picture(CLI::App& app, RenderArguments& a) {
 
 void declare_photons(CLI::App& app, RenderOptions& o) {
   app.add_option("--photons", o.picture.photons.photons,
-                 "photons of an iteration; an iteration is one sample of every pixel; default: the scene's, "
-                 "else as many as pixels, at least 65536")
+                 "photons of an iteration, e.g. 500k or 2M; an iteration is one sample of every pixel; "
+                 "default: the scene's, else as many as pixels, at least 65536")
+      ->transform(plain_count)
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31));
   app.add_option("--photon-radius", o.picture.photons.first_radius,
                  "radius in which the first iteration gathers photons, in scene units; default: the scene's, "
@@ -283,11 +287,12 @@ void require_renderable(const RenderArguments& a) {
     throw UsageError("the meshes of a bundle stay as they are: give " + arguments_of(a.meshes)[0] +
                      " to partition");
   if (const auto words = arguments_of(a.imports); !words.empty() && a.is_bundle())
-    throw UsageError("what a bundle was made of is not read again: give " + words[0] + " to partition");
+    throw UsageError("a bundle is made already, and its scene is not read again: give " + words[0] +
+                     " to partition");
   if (a.rgb != usual_rgb && a.is_bundle())
-    throw UsageError("what a bundle was made of is not read again: give --rgb to partition");
+    throw UsageError("a bundle is made already, and its scene is not read again: give --rgb to partition");
   if (a.strict && a.is_bundle())
-    throw UsageError("what a bundle was made of is not read again: give --strict to partition");
+    throw UsageError("a bundle is made already, and its scene is not read again: give --strict to partition");
 }
 
 void prepare_dry_run(RenderOptions& o) {
@@ -355,11 +360,11 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   constexpr const char* known[] = {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".film"};
   const bool is_table = extension == ".csv" && !a.options.picture.sensors.empty();
   if (!a.options.picture.sensors.empty() && !is_table && extension != ".film")
-    throw UsageError("what sensors measure is written as .csv or kept as .film: " + a.output.string());
+    throw UsageError("the output of --sensors must end in .csv or .film: " + a.output.string());
   if (!is_table && std::ranges::find(known, extension) == std::end(known))
     throw UsageError("the output must end in .exr, .png, .jpg, .tif or .film: " + a.output.string());
   if (a.denoised && (is_table || extension == ".film"))
-    throw UsageError("--denoise is of pictures, not of what sensors or films measure: " + a.output.string());
+    throw UsageError("--denoise is for pictures, not for .csv and .film: " + a.output.string());
   if (!a.film.empty() && (extension == ".film" || a.film.extension() != ".film"))
     throw UsageError("--film NAME.film keeps the film beside a picture that --output names");
   RenderOptions& o = a.options;

@@ -69,8 +69,8 @@ void declare_sample_options(CLI::App& app, SampleArguments& a) {
       ->check(CLI::IsMember({1, 4}))
       ->capture_default_str();
   app.add_option("--light-sampling", a.light_sampling,
-                 "choose lamps by the light that each can send to a point (tree), or by power alone, which "
-                 "is quicker for few lamps")
+                 "choose lamps by the light that each can send to a point (tree), or by their power (power), "
+                 "which is quicker for few lamps")
       ->check(CLI::IsMember({"tree", "power"}))
       ->capture_default_str();
   app.add_option("--light-candidates", a.light_candidates,

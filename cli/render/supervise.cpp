@@ -87,7 +87,7 @@ End wait_for_end(pid_t process, const std::filesystem::path& film, double patien
       last_written = Clock::now();
     } else if (patience_s > 0 && is_missed &&
                Clock::now() - last_written > std::chrono::duration<double>(patience_s)) {
-      say("vitrail: the launcher does not end though its render has: it is killed\n");
+      say("vitrail: the render has ended and its launcher has not: the launcher is killed\n");
       ::kill(process, SIGKILL);
       is_missed = false;
     }

@@ -94,17 +94,17 @@ int run(const Arguments& a) {
 
 int main(int argc, char** argv) {
   using namespace vitrail;
-  CLI::App app("Where the sun stands, and what sun and clear sky give, by place and time.", "vitrail sky");
+  CLI::App app("The sun's position, and the light of the sun and the clear sky, by place and time.",
+               "vitrail sky");
   Arguments a;
   app.add_option("SKY", a.sky,
                  "LATITUDE,LONGITUDE,TIME[,turbidity=3,albedo=0.2,sun=1,sky=1], degrees as 33.9S, TIME as "
                  "2026-06-21T12:00+02:00")
       ->required();
-  app.add_option(
-      "-o,--output", a.output,
-      "write the sky without the sun as .exr, linear sRGB by latitude and longitude: the zenith at the "
-      "top, east at the left edge, then north");
-  app.add_option("--height", a.height, "of that, pixels")
+  app.add_option("-o,--output", a.output,
+                 "write the sky without the sun as .exr in linear sRGB, by latitude and longitude: the "
+                 "zenith at the top, east at the left edge, then north");
+  app.add_option("--height", a.height, "height of the picture, in pixels")
       ->check(CLI::Range(2, 1 << 14))
       ->capture_default_str();
   app.add_flag("--json", a.json, "print JSON");

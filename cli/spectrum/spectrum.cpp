@@ -107,18 +107,19 @@ int run(const Arguments& a) {
 
 int main(int argc, char** argv) {
   using namespace vitrail;
-  CLI::App app("how reflectances made from RGB, by Jakob and Hanika and by Matrix-R, stand for it",
+  CLI::App app("reflectances made from RGB, by Jakob and Hanika and by Matrix-R, and their errors",
                "vitrail spectrum");
   Arguments a;
-  CLI::Option* rgb = app.add_option("--rgb", a.rgb, "one linear sRGB colour: print its reflectances as CSV")
-                         ->expected(3)
-                         ->delimiter(',')
-                         ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--csv", a.csv, "write them here")->needs(rgb);
+  CLI::Option* rgb =
+      app.add_option("--rgb", a.rgb, "print the reflectances of this linear sRGB colour as CSV")
+          ->expected(3)
+          ->delimiter(',')
+          ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--csv", a.csv, "write the reflectances of --rgb to this file")->needs(rgb);
   app.add_option("--cube", a.cube, "colours a side of the cube; default: 33 (100 are a million)")
       ->check(CLI::Range(2, 400));
   app.add_option("--picture", a.picture,
-                 "the colours of this picture in place of the cube's; linear, or 8 and 16 bits of sRGB");
+                 "use the colours of this picture in place of the cube's; linear, or sRGB of 8 or 16 bits");
   app.add_option("--plot", a.plot, "write the ColorChecker's spectra as SVG");
   app.add_flag("--json", a.json, "print JSON");
   return run_guarded(app, argc, argv, [&] { return run(a); });

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/sizes.h"
 #include "scene/system/progress_line.h"
@@ -71,6 +72,7 @@ int main(int argc, char** argv) {
   app.add_flag("--quiet", quiet, "print problems only");
   app.add_option("--threads", options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
   return run_guarded(app, argc, argv, [&] {
+    require_input(bundle, {InputKind::bundle});
     ProgressLine line(progress_manner(quiet));
     options.progress = [&](double fraction) { line.show(fraction, "read"); };
     const VerifyResult result = verify_bundle(bundle, options);

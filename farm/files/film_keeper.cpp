@@ -65,7 +65,7 @@ FilmKeeper::FilmKeeper(const fs::path& film, std::uint64_t bytes) : reserved_(fi
 bool FilmKeeper::write_checkpoint(const fs::path& file, const Film& film, const FilmProgress& progress) {
   reserved_.release();
   const std::string failure = try_to_write(file, film, progress);
-  if (!failure.empty()) say("vitrail: no checkpoint: {}; the render goes on, and tries again\n", failure);
+  if (!failure.empty()) say("vitrail: no checkpoint: {}; the render continues, and tries again\n", failure);
   if (!reserved_.renew() && failure.empty())
     say("vitrail: {} is written; the disk has no room for another film beside it\n", file.string());
   return failure.empty();
@@ -83,10 +83,11 @@ void FilmKeeper::write_last(const fs::path& file, const Film& film, const FilmPr
   }
   if (failure.empty()) return;
   if (const auto place = write_elsewhere(file.filename(), film, progress))
-    throw MachineError(
-        fmt::format("{}; what was rendered is in {}: move it to {}, and the same command goes on with it",
-                    failure, place->string(), file.string()));
-  throw MachineError(failure + "; no other folder takes it, and what came after the last checkpoint is lost");
+    throw MachineError(fmt::format(
+        "{}; the rendered samples are in {}: move that file to {}, and the same command continues", failure,
+        place->string(), file.string()));
+  throw MachineError(failure +
+                     "; no other folder has room for it, and the samples after the last checkpoint are lost");
 }
 
 }  // namespace vitrail

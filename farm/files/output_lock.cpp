@@ -100,8 +100,8 @@ OutputLock::OutputLock(const std::filesystem::path& output) : file_(lock_of(outp
     if (taken == Taken::not_known && holder_may_live(who)) {
       ::close(std::exchange(descriptor_, -1));
       throw MachineError(
-          fmt::format("{} is being written by another render ({}), or was when that ended: this file system "
-                      "has no locks; remove {} if that process is gone",
+          fmt::format("{} belongs to another render ({}), which runs or was killed: this file system has no "
+                      "locks; remove {} if that process is gone",
                       output.string(), who, file_.string()));
     }
     if (taken != Taken::by_another && is_still_named(descriptor_, file_)) break;

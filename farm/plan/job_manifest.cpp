@@ -31,7 +31,8 @@ void override_layers(Manifest& m, const PictureSettings& picture, const std::fil
   };
   if (m.film.layers.has(Layer::motion) && !std::holds_alternative<PerspectiveCamera>(m.camera) &&
       !std::holds_alternative<OrthographicCamera>(m.camera))
-    throw UsageError("--aov motion is of perspective and orthographic cameras, and the scene's is another");
+    throw UsageError(
+        "--aov motion is for perspective and orthographic cameras, and the scene has another one");
   require(Layer::uv, m.requirements.uv, "(u,v), as nothing in the scene needs them");
   for (const Layer layer : {Layer::shape, Layer::crypto_object})
     require(layer, tells_shapes(kept), "account of which shape is which");
@@ -47,9 +48,10 @@ Point3d put_sensors(Manifest& m, const PictureSettings& picture) {
       picture.layers || picture.more_layers || picture.samples.filter || picture.hides_emitters ||
       picture.light_groups.any())
     throw UsageError(
-        "--sensors has no picture whose size, crop, filter, spectrum, channels or lights could be given");
+        "--sensors measures and makes no picture: leave out options of size, crop, filter, spectrum, "
+        "channels and lights");
   if (picture.clamp > 0)
-    throw UsageError("--clamp is of pictures: it would take light from what --sensors measures");
+    throw UsageError("--clamp is for pictures: it would remove light from the measurements of --sensors");
   SensorCamera camera{translate(-m.offset), read_sensors(picture.sensors)};
   const Point3d replaced = place_of(m.camera);
   m.film = sensor_film(camera.sensors.size());
@@ -67,19 +69,18 @@ Point3d put_sensors(Manifest& m, const PictureSettings& picture) {
 void check_error_is_known(const PictureSettings& picture) {
   if (picture.samples.sampling.one_sequence && (picture.adaptive || picture.target_error))
     throw UsageError(
-        "--one-sequence leaves nothing that tells a picture's error, which --adaptive, --target-error and "
-        "--quality ask for: give --spp instead");
+        "--one-sequence keeps no estimate of the error, and --adaptive, --target-error and --quality need "
+        "one: give --spp instead");
 }
 
 void check_splat(const Manifest& m, const PictureSettings& picture) {
   if (!picture.samples.sampling.splat) return;
   if (picture.adaptive || picture.target_error)
     throw UsageError(
-        "--splat makes the errors of neighbours alike, which --adaptive, --target-error and --quality take "
-        "for "
-        "independent: give --spp instead");
+        "--splat makes the errors of neighbouring pixels alike, and --adaptive, --target-error and --quality "
+        "need independent ones: give --spp instead");
   if (std::holds_alternative<SensorCamera>(m.camera))
-    throw UsageError("--splat is of pictures: sensors are no neighbours of each other");
+    throw UsageError("--splat is for pictures: sensors are no neighbours of each other");
   const auto [x, y] =
       std::visit([](const auto& f) { return std::pair(f.radius_x, f.radius_y); }, m.film.filter);
   if (std::max(x, y) > greatest_splat_radius)
@@ -98,7 +99,7 @@ void choose_integrator(const PictureSettings& picture, RenderSettings& s) {
   const PhotonSettings& given = picture.photons;
   if (!s.photons) {
     if (given != PhotonSettings{})
-      throw UsageError("--photons, --photon-radius and --photon-alpha are of --integrator photon");
+      throw UsageError("--photons, --photon-radius and --photon-alpha need --integrator photon");
     return;
   }
   if (given.photons) s.photons->photons = given.photons;
@@ -114,8 +115,7 @@ void override_settings(Manifest& m, const RenderOptions& options) {
   s.samples_per_pixel = static_cast<int>(goal_of(options, s).samples);
   if (picture.max_depth) s.max_depth = *picture.max_depth;
   if (picture.hides_emitters) s.hides_emitters = *picture.hides_emitters;
-  if (picture.threshold > 0 && !s.direct_only)
-    throw UsageError("--threshold is of direct light alone: give --integrator direct too");
+  if (picture.threshold > 0 && !s.direct_only) throw UsageError("--threshold needs --integrator direct");
   if (s.samples_per_pixel < 1 || static_cast<std::uint32_t>(s.samples_per_pixel) >= max_samples)
     throw UsageError(fmt::format("samples a pixel must be between 1 and {}", max_samples - 1));
   if (picture.target_error && s.samples_per_pixel < 4)
@@ -161,15 +161,15 @@ PhotonKey photons_of(const PictureSettings& picture, const Manifest& m) {
   const PhotonSettings& o = *m.settings.photons;
   if (picture.adaptive || picture.target_error)
     throw UsageError(
-        "photon mapping, which --integrator photon or the scene asks for, takes --spp or --time; it has no "
-        "--adaptive and no --target-error: --integrator path has them");
+        "photon mapping (by --integrator photon or by the scene) has no --adaptive and no --target-error: "
+        "give --spp or --time, or --integrator path");
   if (m.requirements.media)
     throw UsageError(
-        "--integrator photon has no photons in media, and the scene has some: --integrator path");
+        "--integrator photon does not render media, and the scene has some: use --integrator path");
   if (!picture.sensors.empty())
     throw UsageError(
-        "the samples of --sensors would share the photons of photon mapping, and their errors could not be "
-        "told: --integrator path");
+        "with photon mapping the samples of --sensors would share photons, and their errors would be "
+        "unknown: use --integrator path");
   PhotonKey key;
   key.photons = o.photons.value_or(default_photons(m.film));
   key.first_radius = o.first_radius.value_or(default_radius(m, key.photons));
@@ -194,8 +194,7 @@ FilmKey key_of(const Manifest& m, const PictureSettings& picture) {
   key.hides_emitters = m.settings.hides_emitters;
   key.groups = group_lights(picture.light_groups, m).groups;
   if (key.groups.any() && key.photons.photons > 0)
-    throw UsageError(
-        "photons do not tell whose light they are, which --light-groups asks for: --integrator path");
+    throw UsageError("photons do not record their lamp, and --light-groups needs it: use --integrator path");
   return key;
 }
 

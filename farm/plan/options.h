@@ -37,7 +37,7 @@ struct PictureSettings {
   std::optional<int> max_depth;
   std::optional<Integrator> integrator;
   PhotonSettings photons;        // what of them is given; refused where no photons are traced
-  double threshold = 0;          // FilmKey::threshold, where only direct light is asked for
+  double threshold = 0;          // FilmKey::threshold, with direct light alone
   std::vector<SetSheet> sheets;  // in place of the bundle's; of all ranks the same
   std::vector<SceneEdit> edits;  // of lights and materials
   ViewEdit view;                 // of the camera
@@ -100,10 +100,10 @@ struct JobOutputs {
   std::filesystem::path profile;  // where a RayProfile of a whole picture goes; empty: none
   std::filesystem::path trace;    // where what all threads did when goes (trace_events.h); empty: nowhere
   ProgressMode progress = ProgressMode::none;
-  bool quiet = false;  // nothing is said but what is wrong
+  bool quiet = false;  // only problems are printed
 };
 
-// What `vitrail render` is asked for.
+// The options of `vitrail render`.
 struct RenderOptions {
   std::filesystem::path bundle;
   PictureSettings picture;

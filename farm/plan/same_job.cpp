@@ -31,7 +31,7 @@ std::vector<Part> parts_of(const Manifest& m, const FilmKey& key, const Goal& go
   for (const TextureFileEntry& t : m.texture_files) bundle += fmt::format(" {:x}", t.hash);
   std::vector<Part> parts{{"way to sample the picture", words_of(o.picture.samples)},
                           {"bundle", std::move(bundle)},
-                          {"what was set (--set)", o.picture.glazing},
+                          {"values of --set", o.picture.glazing},
                           {"seed", fmt::format("{}", key.seed)}};
   for (const PictureField& field : picture_fields(key, m.film)) parts.push_back({field.name, field.value});
   parts.insert(parts.end(),

@@ -161,7 +161,7 @@ bool set_alpha(FloatParameter& alpha, double value) {
 void set_facets(Roughness& roughness, const SceneEdit& edit) {
   if (!set_alpha(roughness.alpha_u, edit.values[0]) || !set_alpha(roughness.alpha_v, edit.values[0]))
     refuse(edit.text,
-           "a bundle of a smooth surface serves no rough one, nor the other way round: change the scene and "
+           "a smooth surface of a bundle cannot become rough, or a rough one smooth: change the scene and "
            "partition it again");
   roughness.square_root = false;
 }

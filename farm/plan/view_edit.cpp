@@ -19,14 +19,31 @@ namespace vitrail {
 namespace {
 
 constexpr const char* look_at_takes =
-    "--look-at takes x,y,z of the eye, x,y,z of what it looks at, and may have x,y,z of the direction that "
-    "is "
-    "up: ";
+    "--look-at takes x,y,z of the eye, x,y,z of the point that it looks at, and may have x,y,z of the "
+    "direction up: ";
+
+// What stays up where the camera is moved: the axis of the world over which the camera is level, so that its
+// horizon stays level too. Its right is at a right angle to that axis; of two, the one nearer to its up. A
+// camera that is level over no axis keeps its own up.
+Vector3d kept_up(const Transform& camera_to_world) {
+  constexpr double level = 1e-6, least_cosine = 0.1;
+  const Vector3d right = normalize(transform_vector(camera_to_world, {1, 0, 0})),
+                 up = normalize(transform_vector(camera_to_world, {0, 1, 0}));
+  Vector3d kept = up;
+  double greatest = least_cosine;
+  for (const Vector3d axis : {Vector3d{1, 0, 0}, Vector3d{0, 1, 0}, Vector3d{0, 0, 1}}) {
+    const double cosine = dot(up, axis);
+    if (std::abs(dot(right, axis)) > level || std::abs(cosine) < greatest) continue;
+    greatest = std::abs(cosine);
+    kept = axis * std::copysign(1.0, cosine);
+  }
+  return kept;
+}
 
 // Left and right stay where they are: files of pbrt and of Mitsuba mean opposite hands.
 Transform look_from(const ViewEdit::LookAt& view, const Transform& before) {
   const bool has_up = view.up != Vector3d{0, 0, 0};
-  const Vector3d up = has_up ? view.up : transform_vector(before, {0, 1, 0});
+  const Vector3d up = has_up ? view.up : kept_up(before);
   const Transform to_world = look_at(view.eye, view.target, up);
   if (!is_invertible(to_world))
     throw UsageError("--look-at has no direction: eye and target coincide, or up is along the view");
@@ -87,7 +104,7 @@ void edit_view(const ViewEdit& edit, Manifest& m) {
   }
   if (edit.fov_deg) {
     auto* const perspective = std::get_if<PerspectiveCamera>(&m.camera);
-    if (!perspective) throw UsageError("--fov is of perspective cameras, and the scene's is none");
+    if (!perspective) throw UsageError("--fov is for perspective cameras, and the scene has another one");
     perspective->screen = screen_under(*edit.fov_deg, m.film);
   }
   std::string camera = camera_to_json(m.camera).dump();

@@ -13,7 +13,7 @@ namespace vitrail {
 struct ViewEdit {
   struct LookAt {
     Point3d eye, target;
-    Vector3d up{0, 0, 0};  // 0: the direction that was up before
+    Vector3d up{0, 0, 0};  // 0: the axis of the world over which the camera is level, else its own up
   };
   std::optional<View> view;       // of another scene; what stands around the camera stays the bundle's
   std::optional<LookAt> look_at;  // in the world of the scene's file; the camera then stands still

@@ -111,12 +111,13 @@ struct Asked {
   const std::string& about;
 };
 
-// In what this is other work than what is asked for: "depth: 3, asked for is 4; …"; "" where it is the same.
+// In what this is other work than what is asked for: "depth: 3, this command has 4; …"; "" where it is the
+// same.
 std::string differences(const Held& held, const Asked& asked) {
   std::string text;
   const auto add = [&](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
   const auto compare = [&](const char* name, const std::string& has, const std::string& wanted) {
-    if (has != wanted) add(fmt::format("{}: {}, asked for is {}", name, has, wanted));
+    if (has != wanted) add(fmt::format("{}: {}, this command has {}", name, has, wanted));
   };
   const FilmProgress& p = held.progress;
   const FilmKey &key = held.film.key(), &wanted = asked.film.key();
@@ -129,7 +130,7 @@ std::string differences(const Held& held, const Asked& asked) {
   if (p.samples_per_pixel > asked.goal.samples)
     compare("samples a pixel", std::to_string(p.samples_per_pixel), std::to_string(asked.goal.samples));
   if (p.adaptive && !asked.goal.adaptive)
-    add("samples: adaptive, asked for is the same number everywhere (--adaptive goes on with it)");
+    add("samples: adaptive, this command has the same number everywhere (--adaptive continues it)");
   if (text.empty() && !makes_sense(held)) text = "it does not say which samples it holds";
   return text;
 }

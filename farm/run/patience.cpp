@@ -111,7 +111,7 @@ void Patience::give_up() {
   for (const int rank : named) names.push_back(name(rank));
   const bool one = named.size() == 1;
   say("vitrail: rank {} of {}: {} {} {} not answered for {} s (--patience){}, while this one was {}: the job "
-      "ends; what its last checkpoint holds is not lost, the same command goes on from there\n",
+      "ends; the same command continues from its last checkpoint\n",
       transport_.rank(), transport_.size(), one ? "rank" : "ranks", fmt::join(names, ", "),
       one ? "has" : "have", patience_s_,
       are_stopped ? (one ? ", for it is stopped" : ", for they are stopped") : "", doing());

@@ -98,7 +98,7 @@ void Progress::print(const Round& round, double elapsed_s) {
                        {"resident_domains_by_rank", by_rank(round, &RankReport::resident)},
                        {"domain_loads", sums.domain_loads}});
   ProgressNews news{done, "render", left_s, {}};
-  news.details = {fmt::format("{:.4g} of {} samples a pixel", samples_ * done, samples_),
+  news.details = {fmt::format("{:.0f} of {:.0f} samples a pixel", samples_ * done, samples_),
                   fmt::format("{:.2f} Mray/s", rate * 1e-6)};
   if (const std::string waiting = waiting_text(round.ranks); !waiting.empty())
     news.details.push_back(waiting);
@@ -123,14 +123,32 @@ std::string text_of(const Goal& goal) {
 
 }  // namespace
 
+namespace {
+
+// Light that came through a window has been scattered often before it is measured. The manifest's depth has
+// the sensor's own event in it.
+void warn_of_depth(const RenderOptions& options, const Manifest& m) {
+  constexpr int enough = 16;
+  const int depth = m.settings.max_depth - 1;
+  if (options.picture.sensors.empty() || options.picture.max_depth || options.outputs.quiet ||
+      m.settings.direct_only || depth >= enough)
+    return;
+  say("vitrail: --sensors leaves out light after {} scattering events, the depth of the scene: indoors give "
+      "--max-depth -1\n",
+      depth);
+}
+
+}  // namespace
+
 void print_start(const RenderOptions& options, const Manifest& m, const Goal& goal, int ranks, int threads) {
   const auto now = std::chrono::steady_clock::now();
   if (options.resources.time_limit_s > 0 && !options.outputs.quiet &&
       limit_start(options, now) > options.resources.start)
-    say("vitrail: {} of --time {} went by before tracing began: tracing has half of it all the same; "
-        "partition once, and render the bundle, to spare that time\n",
+    say("vitrail: {} of --time {} went by before tracing began; tracing still gets half of it. Partition "
+        "once and render the bundle to save that time\n",
         duration_in_words(std::chrono::duration<double>(now - options.resources.start).count()),
         options.resources.time_limit_s);
+  warn_of_depth(options, m);
   if (options.outputs.progress != ProgressMode::lines) return;
   const PixelRect& c = m.film.crop;
   const std::string domains = m.domains.size() == 1 ? "" : fmt::format(", {} domains", m.domains.size());
@@ -159,7 +177,7 @@ void print_end(const RenderOptions& options, const RenderStats& s) {
   if (!writes_film(s.ending)) return;
   const std::string name = (o.picture.empty() ? o.film : o.picture).string();
   if (options.picture.target_error && !s.finished_before)
-    say("vitrail: error {:.3g}, in all likelihood below {:.3g}, where {} was asked for\n", s.reached.estimate,
+    say("vitrail: error {:.3g}, in all likelihood below {:.3g}; --target-error is {}\n", s.reached.estimate,
         s.reached.upper, text_of(*options.picture.target_error));
   if (s.finished_before && o.picture.empty()) return;  // read_earlier_work has said so
   if (s.finished_before)
@@ -168,7 +186,7 @@ void print_end(const RenderOptions& options, const RenderStats& s) {
     say("vitrail: {}: {:.4g} of {} samples a pixel after {}, {:.2f} Mray/s, {:.0f} MiB a rank{}\n", name,
         samples, s.spp, duration_in_words(s.wall_s), static_cast<double>(rays) / s.wall_s * 1e-6,
         static_cast<double>(s.peak_rss_bytes) / 0x1p20,
-        s.ending == Ending::time_is_up ? "; the same command goes on" : "");
+        s.ending == Ending::time_is_up ? "; the same command continues" : "");
 }
 
 void print_wedges(const RenderOptions& options, const TraceCounters& traced) {

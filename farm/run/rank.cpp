@@ -126,9 +126,8 @@ std::optional<Ending> Rank::after_round(const Round& round) {
 
 void Rank::watch_for_stall(const RoundSums& sums) {
   if (!stall_.seen(sums, state_.elapsed_s()) || transport_.rank() != 0) return;
-  say("vitrail: no rank has had anything to do for {} s (--patience), while {} rays are alive: what was sent "
-      "does not arrive; the job ends: its last checkpoint is not lost, and the same command goes on from "
-      "there\n",
+  say("vitrail: no rank has had work for {} s (--patience), while {} rays are alive: messages do not arrive; "
+      "the job ends; the same command continues from its last checkpoint\n",
       options_.resources.patience_s, sums.born - sums.died);
   constexpr int machine_failed = 4;
   transport_.abandon(machine_failed);

@@ -84,11 +84,11 @@ std::string differences_of_scenes(const std::string& about, const std::string& a
                            const std::string& name, const char* where_not_told = "none") {
     const std::string x = value_of(mine, key), y = value_of(theirs, key);
     if (x != y)
-      text += fmt::format("{}{}: {}, asked for is {}", text.empty() ? "" : "; ", name,
+      text += fmt::format("{}{}: {}, this command has {}", text.empty() ? "" : "; ", name,
                           x.empty() ? where_not_told : x, y.empty() ? where_not_told : y);
     return x != y;
   };
-  compare(held, asked, "glazing", "what was set (--set)", "nothing");
+  compare(held, asked, "glazing", "values of --set", "nothing");
   const bool sampled_otherwise = compare(held, asked, "sampling", "way to sample", "as usual");
   compare(held, asked, "sensors", "sensors");
   const Ordered none = Ordered::object();

@@ -14,8 +14,8 @@ namespace vitrail {
 // however the scene is cut into domains. `bundle`: what the manifest was read of.
 nlohmann::ordered_json scene_parts(const Manifest& manifest, const std::filesystem::path& bundle);
 
-// In what two scenes differ, by the FilmProgress::about of a film of each: "camera: A, asked for is B; …".
-// Shapes are named where nothing else differs. `about` may be of a program that wrote no parts.
+// In what two scenes differ, by the FilmProgress::about of a film of each: "camera: A, this command has B;
+// …". Shapes are named where nothing else differs. `about` may be of a program that wrote no parts.
 std::string differences_of_scenes(const std::string& about, const std::string& asked_for);
 
 }  // namespace vitrail

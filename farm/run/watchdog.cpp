@@ -84,9 +84,8 @@ bool Watchdog::stands_still(double since_last_s) {
 }
 
 void Watchdog::say_given_up(const std::string& what) {
-  say("vitrail: {}{}{}; the job ends: its last checkpoint is not lost, and the same command goes on from "
-      "there\n",
-      name_, name_.empty() ? "" : ": ", what);
+  say("vitrail: {}{}{}; the job ends; the same command continues from its last checkpoint\n", name_,
+      name_.empty() ? "" : ": ", what);
 }
 
 }  // namespace vitrail

@@ -45,8 +45,8 @@ class Transport {
   // Ends all ranks at once, however they are, with this status.
   [[noreturn]] virtual void abandon(int status) = 0;
 
-  // Called again and again while the following wait, and by whoever waits for a round or for work of its own,
-  // so that words are heard.
+  // Called again and again while the functions below wait, so that messages are heard. Callers that wait for
+  // a round or for work call it too.
   std::function<void()> while_waiting;
   void goes_on() const {
     if (while_waiting) while_waiting();

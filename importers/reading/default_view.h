@@ -7,8 +7,9 @@
 
 namespace vitrail {
 
-// Gives geometry a camera that sees all of it, from the front and a little from above (+y is up), and, where
-// nothing in it shines, a constant white sky of radiance 1; diagnostics say so.
+// Gives geometry a camera that sees all of it, from the front and a little from above; +y is up. Where
+// nothing shines it adds a white sky and a sun, under which a white surface that faces the sun has
+// radiance 1. Diagnostics report both.
 void add_default_view(ImportedScene& imported, const std::filesystem::path& file);
 
 }  // namespace vitrail

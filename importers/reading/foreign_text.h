@@ -7,9 +7,9 @@
 
 namespace vitrail {
 
-// A scene may include any file that the program may read, and who wrote the scene sees what is said of it.
-// So of a file outside of the scene's folder no text is repeated: the same error with its place, and without
-// its excerpt and what it quotes.
+// A scene may include any file that the program may read, and the author of the scene may see the messages.
+// So the text of a file outside of the scene's folder is not repeated: the error keeps its place and loses
+// its excerpt and its quotations.
 Error without_foreign_text(const Error& error, const std::filesystem::path& scene_file);
 
 }  // namespace vitrail

@@ -9,9 +9,9 @@
 
 namespace vitrail {
 
-// "LATITUDE,LONGITUDE,TIME[,KEY=VALUE …]": degrees (north and east positive, or 33.9S and 70.7W), a moment
-// (local_time), then any of turbidity=3 (a bare number too), albedo=0.2 (of the ground), up=y|z|…, north=…,
-// with an axis as +x, -y, z; sun=0 and sky=0 leave out the one or the other.
+// "LATITUDE,LONGITUDE,TIME[,KEY=VALUE …]": degrees (north and east positive, or 33.9S and 70.7W) and a moment
+// (local_time). Keys are turbidity=3 (a bare number too), albedo=0.2 (of the ground), up and north. The last
+// two take an axis: +x, -y, z. sun=0 and sky=0 leave out the one or the other.
 struct GivenSky {
   Place place;
   LocalTime time;
@@ -25,12 +25,12 @@ GivenSky parse_sky(const std::string& words);
 // +x east, +y north, +z up, to the world with these axes. Throws UsageError where they are not across.
 Transform sky_to_world(const std::string& up, const std::string& north);
 
-// The axis that is up in the camera's picture: of those that are level with the picture's rows the one that
-// points up most, since cameras look up and down more than they are tilted.
+// The axis that is up in the camera's picture. Cameras look up and down more often than they are tilted, so
+// axes level with the picture's rows come first; among them the one that points up most.
 std::string up_of_camera(const Camera& camera);
 
-// Puts it in place of all light from infinitely far, and says what is replaced, what is up where that was not
-// given, and how bright the scene's lamps are beside it where that is more than lamps mostly are.
+// Puts it in place of all light from infinitely far. Diagnostics name the lights that it replaces, and the up
+// axis where none was given. They compare its brightness with lamps that are brighter than usual.
 void replace_sky(ImportedScene& imported, const GivenSky& sky);
 
 }  // namespace vitrail

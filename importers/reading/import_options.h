@@ -17,7 +17,7 @@ struct ProgramLimits {
   int nested = 200;                         // --nesting-limit: objects and brackets within each other
 };
 
-// What a reader is told beside the file.
+// The options of a reader.
 struct ImportOptions {
   // Values of a Mitsuba scene's parameters, as its command line's -D: they stand before the file's
   // <default>s.

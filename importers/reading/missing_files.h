@@ -7,15 +7,16 @@
 
 namespace vitrail {
 
-// Said with an error about such a file.
+// The end of the message about such a file.
 inline constexpr const char* how_to_replace_missing = "; --missing=replace goes on without it";
 
-// Throws Error, with the place of the first and the names and places of the others in its message, where an
-// image or table of the scene is not there or no file: those that replace_missing_images replaces.
+// Throws Error where an image or a table of the scene is missing, or is no file. The error has the place of
+// the first; its message lists the others with their places. replace_missing_images replaces the same files.
 void require_images(const Scene& scene);
 
-// Textures whose image is not there become 0.5, normal maps nothing, materials by a table diffuse, lights
-// around and goniometric ones the same in all directions, media by a grid nothing; a diagnostic each.
+// A texture without its image becomes 0.5, a normal map nothing. A material without its table becomes
+// diffuse. An environment or a goniometric light becomes the same in all directions, a medium by a grid
+// nothing. Each gets a diagnostic.
 void replace_missing_images(ImportedScene& imported);
 
 }  // namespace vitrail

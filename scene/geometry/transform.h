@@ -39,9 +39,9 @@ Vector3d transform_vector(const Transform& t, Vector3d v);
 // singular transforms. The sign follows det > 0; for mirrors the normal keeps its side. Not normalised.
 Normal3d transform_normal(const Transform& t, Normal3d n);
 
-// Rounded to 40 bits of the greatest entry of the 3×3 block, and of that of the translation: the noise that
-// inverting a matrix leaves is gone, so that a camera that one file gives as its inverse and another as it is
-// comes out equal.
+// Rounded to 40 bits below the greatest entry, for the 3×3 block and for the translation. This removes the
+// noise that inverting a matrix leaves. Then a camera is the same whether a file gives its matrix or the
+// inverse.
 Transform snapped(const Transform& t);
 
 // Of the upper 3×3 block.

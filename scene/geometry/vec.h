@@ -79,7 +79,8 @@ Vector3<T> normalize(Vector3<T> v) {
   return l > T(0) && std::isfinite(l) ? v * (T(1) / l) : v;
 }
 
-// normalize, but v itself where its length is 1 to rounding: what is written and read again stays as it is.
+// normalize, but v itself where its length is 1 to rounding: a vector that is written and read stays the
+// same.
 inline Vector3<double> unit(Vector3<double> v) { return std::abs(dot(v, v) - 1) < 1e-15 ? v : normalize(v); }
 
 // Component by component, rounded to the nearest.

@@ -49,9 +49,9 @@ struct SphericalCamera {
   bool operator==(const SphericalCamera&) const = default;
 };
 
-// Irradiance meters instead of a picture: column x of the raster is sensor x, and every row repeats it with
-// samples of its own, so that rows tell how far their mean is off. A sensor is as a white diffuse surface
-// that is seen: its radiance times π, the film's imaging ratio, is the irradiance.
+// Irradiance meters instead of a picture. Column x of the raster is sensor x. Every row repeats it with
+// samples of its own, so that the rows give the error of their mean. A sensor is a white diffuse surface that
+// is seen: its radiance times π, the film's imaging ratio, is the irradiance.
 struct Sensor {
   Point3d position;          // in camera space
   Vector3d normal{0, 0, 1};  // unit
@@ -73,8 +73,8 @@ struct LensSurface {
   double aperture_radius = 0;
   bool operator==(const LensSurface&) const = default;
 };
-// Of a ring of the film: where its rays to the plane of the lens's last vertex go to, for a point of the film
-// on the x axis (they turn with it), and what each brings beside cos⁴θ.
+// Of a ring of the film: the part of the plane at the lens's last vertex that its rays aim at, and the weight
+// of each ray beside cos⁴θ. The rectangle is that of a point on the x axis, and turns with the point.
 struct ExitPupil {
   ScreenWindow rectangle{0, 0, 0, 0};
   double weight = 0;

@@ -23,7 +23,7 @@ enum class Layer : std::uint8_t {
   material,
   primitive,
   alpha,   // how much of a pixel something covers; what is infinitely far covers nothing
-  motion,  // how far what is seen goes over the picture while the shutter is open, in pixels
+  motion,  // the way of the surface over the picture while the shutter is open, in pixels
   // Cryptomatte: masks of shapes and of materials, by their names.
   crypto_object,
   crypto_material
@@ -41,7 +41,7 @@ struct LayerKind {
   bool is_length, has_frame;
   bool is_matte = false;
 
-  // A number of what is seen, which is not added up.
+  // A number of the surface, which is not added up.
   constexpr bool is_id() const { return sums == 0 && !is_matte; }
 };
 inline constexpr std::array<LayerKind, layer_count> layer_kinds{
@@ -76,12 +76,12 @@ struct FilmLayers {
 };
 inline constexpr std::uint32_t all_layers = (1u << layer_count) - 1;
 
-// Whether shapes that are alike in all but their names are told apart.
+// Whether shapes that differ in nothing but their names stay apart.
 constexpr bool tells_shapes(const FilmLayers& layers) {
   return layers.has(Layer::shape) || layers.has(Layer::crypto_object);
 }
 
-// Planes of sums, of ids and of mattes of the layers below `end`.
+// How many planes the layers below `end` have: for sums, for ids and for mattes.
 constexpr std::size_t sum_planes(const FilmLayers& layers, std::size_t end = layer_count) {
   std::size_t planes = 0;
   for (std::size_t i = 0; i < end; ++i)

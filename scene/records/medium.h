@@ -15,8 +15,8 @@
 
 namespace vitrail {
 
-// What a grid has outside of its cells: what it has at the other end, the edge's values (Mitsuba), or
-// nothing, so that it falls to half from the centres of the outermost cells to the edge (pbrt).
+// The values of a grid outside of its cells: those of the other end, those of the edge (Mitsuba), or 0
+// (pbrt). Of the last, values fall to half from the centres of the outermost cells to the edge.
 enum class GridEdge : std::uint8_t { repeated, held, zero };
 
 // Values on a regular grid over a box, linear in between. Given here or in a file (Mitsuba's .vol, NanoVDB).

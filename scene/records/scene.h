@@ -28,8 +28,8 @@ struct Shape {
   Id<TriangleMesh> mesh;
   Id<Material> material;
   std::optional<Id<AreaLight>> area_light;
-  // The share of the surface that is there: of all rays 1 − opacity go on as if they had met nothing, which
-  // is no event and does not count in a path's depth, and what is not there does not shine. Constant 0 with
+  // The share of the surface that is there. A share 1 − opacity of the rays passes as if nothing were there:
+  // that is no event, and does not count in a path's depth. The missing part does not shine. Constant 0 with
   // an area light: nothing meets the surface, but the light shines in full (pbrt-v4's invisible light).
   FloatParameter opacity = 1.0f;
   Transform object_to_world;  // to the prototype's space for shapes of a prototype

@@ -95,9 +95,9 @@ bool is_constant(const Spectrum& spectrum);
 
 // Piecewise linear samples in ascending order of wavelength, as a table. Outside their range the spectrum is
 // zero, or held at the end value if `extend`. Where all stand at whole nanometres, or outside of the visible
-// range, values are those there. Else each is the mean around it, weighted by a tent that falls to 0 at the
-// next ones, so that integrals are the samples' however narrow a line is. The table keeps the samples.
-// Unsorted or duplicate wavelengths, non-finite values and an empty list throw Error.
+// range, the table has their values. Else each entry is the mean around it, weighted by a tent that falls to
+// 0 at the next entries. So integrals are the samples', however narrow a line is. The table keeps the
+// samples. Unsorted or duplicate wavelengths, non-finite values and an empty list throw Error.
 TabulatedSpectrum tabulate(const std::vector<SpectrumSample>& samples, bool extend);
 
 // Samples that say the same: those that the table was made of, or its own.

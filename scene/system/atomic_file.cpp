@@ -38,7 +38,8 @@ std::filesystem::path behind_links(std::filesystem::path file) {
 
 AtomicFile::AtomicFile(std::filesystem::path target) : target_(behind_links(std::move(target))) {
   if (is_input(target_))
-    throw UsageError(fmt::format("{} is read by this command, and would be written over", target_.string()));
+    throw UsageError(
+        fmt::format("{} is an input of this command, and would be overwritten", target_.string()));
   temporary_ = target_;
   temporary_ += fmt::format(".tmp{}", ::getpid());
   const Underway underway("creating", temporary_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said to the user about the input: errors that stop, and notes on what was approximated or dropped.
+// Messages to the user about the input: errors that stop, and notes on approximated and dropped records.
 #pragma once
 
 #include <cstdint>

@@ -97,8 +97,9 @@ void require_confined(const std::filesystem::path& file) {
   std::error_code unknown;
   const std::filesystem::path there = std::filesystem::weakly_canonical(file, unknown);
   if (unknown || std::ranges::mismatch(folder, there).in1 != folder.end())
-    throw Error(fmt::format("this does not lie in {}, which --root allows alone", folder.string()),
-                {file.string()});
+    throw Error(
+        fmt::format("this file is outside of {}, the only folder that --root allows", folder.string()),
+        {file.string()});
 }
 
 void check_input(const std::filesystem::path& file) {

@@ -45,7 +45,7 @@ void require_place(const fs::path& file) {
     throw MachineError(fmt::format("cannot write {}: it is a folder", file.string()));
   if (is_input(file))
     throw UsageError(
-        fmt::format("{} is read by this command: give what it writes another name", file.string()));
+        fmt::format("{} is an input of this command: give the output another name", file.string()));
 }
 
 void require_room(const fs::path& file, std::uint64_t bytes) {

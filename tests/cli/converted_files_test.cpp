@@ -92,7 +92,7 @@ TEST_F(ConvertedFiles, NoOutputReplacesAnInput) {
   for (const char* output : {"part.pbrt", "hard.pbrt", "soft.pbrt", "mesh.ply", "in.pbrt"}) {
     const CommandResult refused = convert(in + " " + path(output));
     EXPECT_EQ(refused.status, 2) << output << refused.output;
-    EXPECT_THAT(refused.output, HasSubstr("is read by this command"));
+    EXPECT_THAT(refused.output, HasSubstr("is an input of this command"));
   }
   for (const std::string& report : {in, path("part.pbrt"), path("mesh.ply"), image}) {
     const CommandResult refused = convert(in + " " + path("out.xml") + " --report " + report);

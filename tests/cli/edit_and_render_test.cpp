@@ -139,17 +139,18 @@ TEST_F(EditAndRender, ARefusalSaysExactlyWhatDiffers) {
     const std::size_t begin = refused.output.find("lost: ") + 6;
     return refused.output.substr(begin, refused.output.find("; --force") - begin);
   };
-  EXPECT_EQ(refusal("--spp 16"), "samples a pixel: 64, asked for is 16");
-  EXPECT_EQ(refusal("--spp 64 --seed 7"), "seed: 0, asked for is 7");
-  EXPECT_EQ(refusal("--spp 64 --max-depth -1"), "depth: 5, asked for is no limit");
+  EXPECT_EQ(refusal("--spp 16"), "samples a pixel: 64, this command has 16");
+  EXPECT_EQ(refusal("--spp 64 --seed 7"), "seed: 0, this command has 7");
+  EXPECT_EQ(refusal("--spp 64 --max-depth -1"), "depth: 5, this command has no limit");
   EXPECT_EQ(refusal("--spp 64 --integrator direct --clamp 3"),
-            "integrator: path, asked for is direct; clamp: 0, asked for is 3");
-  EXPECT_EQ(refusal("--spp 64 --filter box:1"), "way to sample: as usual, asked for is --filter box:1");
+            "integrator: path, this command has direct; clamp: 0, this command has 3");
+  EXPECT_EQ(refusal("--spp 64 --filter box:1"), "way to sample: as usual, this command has --filter box:1");
   edit({.look_at = "0 0 6  0 0 0  0 1 0"});
-  EXPECT_EQ(refusal("--spp 64"),
-            "camera: perspective at (0, 0, 5) along (0, 0, -1), up (0, 1, 0), asked for is perspective at "
-            "(0, 0, 6) "
-            "along (0, 0, -1), up (0, 1, 0)");
+  EXPECT_EQ(
+      refusal("--spp 64"),
+      "camera: perspective at (0, 0, 5) along (0, 0, -1), up (0, 1, 0), this command has perspective at "
+      "(0, 0, 6) "
+      "along (0, 0, -1), up (0, 1, 0)");
   edit({.color = ".1 .2 .3"});
   EXPECT_THAT(refusal("--spp 64"), AllOf(HasSubstr("materials and textures: "), Not(HasSubstr(";"))));
   edit({.power = "3 3 3"});
@@ -174,7 +175,7 @@ TEST_F(EditAndRender, AnInterruptedPictureIsNotLostToAnotherOne) {
   const CommandResult refused = render("-o x.png --spp 400000");
   EXPECT_EQ(refused.status, 3) << refused.output;
   EXPECT_THAT(refused.output,
-              AllOf(HasSubstr("x.png.partial: "), HasSubstr("asked for is perspective at (0, 0, 6)")));
+              AllOf(HasSubstr("x.png.partial: "), HasSubstr("this command has perspective at (0, 0, 6)")));
   EXPECT_EQ(read("x.png.partial"), work);
   EXPECT_EQ(render("-o y.png --spp 2").status, 0) << "another name";
   EXPECT_EQ(render("-o x.png --spp 2 --force").status, 0);

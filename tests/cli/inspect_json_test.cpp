@@ -105,6 +105,21 @@ TEST_F(InspectJson, AQuadricThatShinesHasAnAreaAndAPower) {
   EXPECT_NEAR(lamp["area"].get<double>(), 16 * 3.14159265, 1e-3);
   EXPECT_GT(lamp["power"], 0);
   EXPECT_EQ(lamp["number"], 1);
+  EXPECT_THAT(lamp["shape"], HasSubstr("lamp.pbrt:6:"));
+  EXPECT_TRUE(lamp["material"].is_null());
+}
+
+// A point light has neither.
+TEST_F(InspectJson, ALampHasAShapeAndAMaterial) {
+  std::ofstream(directory_ / "lamps.pbrt")
+      << "WorldBegin\nLightSource \"point\"\nMakeNamedMaterial \"bulb\" \"string type\" \"diffuse\"\n"
+         "NamedMaterial \"bulb\"\nAttributeBegin\nAreaLightSource \"diffuse\"\nShape "
+         "\"sphere\"\nAttributeEnd\n";
+  const nlohmann::json lights = json(path("lamps.pbrt"))["lights"];
+  ASSERT_EQ(lights.size(), 2u);
+  EXPECT_EQ(lights[0]["material"], "bulb");
+  EXPECT_THAT(lights[0]["shape"], HasSubstr("lamps.pbrt:7:"));
+  EXPECT_TRUE(lights[1]["shape"].is_null() && lights[1]["material"].is_null());
 }
 
 TEST_F(InspectJson, TheTextBeginsWithASummary) {

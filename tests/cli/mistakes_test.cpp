@@ -50,6 +50,58 @@ TEST_F(Mistakes, MisspelledWordsAreRecognised) {
   EXPECT_THAT(verb("convert", "a b --reprot c").output, HasSubstr("did you mean --report?"));
 }
 
+TEST_F(Mistakes, AFileOfAnotherKindIsNamed) {
+  ASSERT_EQ(verb("partition", path("in.pbrt") + " -o " + path("in.vit")).status, 0);
+  ASSERT_EQ(render("").status, 0);
+  ASSERT_EQ(verb("develop", path("a.film") + " -o " + path("a.png")).status, 0);
+  const auto expect_named = [&](const char* program, const std::string& arguments, const char* kinds,
+                                const char* advice) {
+    const CommandResult refused = verb(program, arguments);
+    EXPECT_EQ(refused.status, 3) << program << " " << arguments;
+    EXPECT_THAT(refused.output, AllOf(HasSubstr(kinds), HasSubstr(advice))) << program << " " << arguments;
+  };
+  const std::string scene = path("in.pbrt"), bundle = path("in.vit"), film = path("a.film"),
+                    picture = path("a.png"), to_scene = " " + path("out.xml"),
+                    to_bundle = " -o " + path("out.vit"), to_picture = " -o " + path("out.png");
+  expect_named("convert", bundle + to_scene, "this is a bundle, not a scene", "vitrail inspect names");
+  expect_named("convert", bundle + " --to xml -o " + path("all"), "this is a bundle, not a scene", "inspect");
+  expect_named("convert", picture + to_scene, "this is a picture, not a scene", "vitrail compare");
+  expect_named("partition", bundle + to_bundle, "this is a bundle, not a scene", "vitrail inspect names");
+  expect_named("partition", film + to_bundle, "this is a film, not a scene", "vitrail develop");
+  expect_named("inspect", picture, "this is a picture, not a scene or bundle or film", "vitrail compare");
+  expect_named("verify", scene, "this is a scene, not a bundle", "vitrail partition");
+  expect_named("develop", scene + to_picture, "this is a scene, not a film or picture", "vitrail render");
+  expect_named("develop", bundle + to_picture, "this is a bundle, not a film or picture", "vitrail render");
+  expect_named("compare", picture + " " + bundle, "this is a bundle, not a picture or film",
+               "vitrail render");
+  EXPECT_THAT(verb("convert", path("no.vit") + to_scene).output, Not(HasSubstr("this is a")));
+  EXPECT_THAT(verb("inspect", bundle).output, HasSubstr("in.pbrt")) << "the advice leads somewhere";
+}
+
+TEST_F(Mistakes, CountsHaveSuffixes) {
+  const auto photons = [&](const std::string& count) {
+    EXPECT_EQ(render("--integrator photon --photons " + count).status, 0) << count;
+    return verb("inspect", "--json " + path("a.film")).output;
+  };
+  EXPECT_THAT(photons("70k"), HasSubstr("\"photons\": 70000,"));
+  EXPECT_THAT(photons("0.07M"), HasSubstr("\"photons\": 70000,"));
+  for (const char* wrong : {"5G", "k", "70kk", "-1k", "1T"})
+    EXPECT_EQ(render(std::string("--integrator photon --photons ") + wrong).status, 2) << wrong;
+}
+
+TEST_F(Mistakes, AShallowDepthOfSensorsIsWarnedOf) {
+  write("sensors.txt", "0 0 0  0 0 1\n");
+  const auto measured = [&](const std::string& options) {
+    const CommandResult result = verb("render", path("in.pbrt") + " --sensors " + path("sensors.txt") +
+                                                    " -o " + path("out.csv") + " --spp 1 --force " + options);
+    EXPECT_EQ(result.status, 0) << result.output;
+    return result.output;
+  };
+  EXPECT_THAT(measured(""), HasSubstr("after 5 scattering events"));
+  for (const char* option : {"--max-depth -1", "--max-depth 5", "--integrator direct", "--quiet"})
+    EXPECT_THAT(measured(option), Not(HasSubstr("scattering events"))) << option;
+}
+
 TEST_F(Mistakes, WaysToSampleThatAreNotThere) {
   for (const auto& [option, hint] : {std::pair("--filter box:", "number of pixels"),
                                      {"--filter box:0", "number of pixels"},

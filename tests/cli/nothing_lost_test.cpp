@@ -47,7 +47,7 @@ TEST_F(NothingLost, AFilmOfOtherWorkIsKept) {
     EXPECT_THAT(refused.output, HasSubstr("--force"));
     EXPECT_EQ(hash("a.film"), film) << other;
   }
-  EXPECT_THAT(render("a.film", "--spp 4").output, HasSubstr("samples a pixel: 8, asked for is 4"));
+  EXPECT_THAT(render("a.film", "--spp 4").output, HasSubstr("samples a pixel: 8, this command has 4"));
   EXPECT_EQ(render("a.film", "--spp 4 --force").status, 0);
   EXPECT_NE(hash("a.film"), film);
 }

@@ -100,7 +100,7 @@ TEST(Progress, TheLastEventSaysThatTheRenderWasStopped) {
                       vitrail("render"), VITRAIL_SOURCE_DIR, (directory / "x.png").string()));
   EXPECT_THAT(stopped.output, AllOf(HasSubstr("\"event\":\"end\""), HasSubstr("\"ending\":\"interrupted\"")));
   EXPECT_THAT(stopped.output,
-              AllOf(HasSubstr("x.png.partial holds what was done"), HasSubstr("x.png shows it")));
+              AllOf(HasSubstr("x.png.partial holds the samples so far"), HasSubstr("x.png shows it")));
 }
 
 TEST(Progress, ALogHasALineSoon) {
@@ -111,6 +111,7 @@ TEST(Progress, ALogHasALineSoon) {
   EXPECT_EQ(done.status, 0) << done.output;
   EXPECT_THAT(done.output,
               AllOf(HasSubstr("vitrail: rendering "), HasSubstr("vitrail: render "), HasSubstr(" left, ")));
+  EXPECT_THAT(done.output, ::testing::ContainsRegex(" left, [0-9]+ of 65536 samples a pixel"));
   EXPECT_THAT(done.output, Not(HasSubstr("\033")));
 }
 

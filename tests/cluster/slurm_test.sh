@@ -78,7 +78,7 @@ job=$(sbatch --parsable -n 2 --ntasks-per-node=2 --mem=1000 --time=20 -o log \
 for _ in $(seq 600); do [ -e a.film.partial ] && break; sleep .1; done
 [ -e a.film.partial ] || fail "no checkpoint: $(cat log)"
 timeout 60 srun -p high -n 2 --mem=1500 sleep 1 || fail "nothing was preempted"
-grep -q "stopped; a.film.partial holds what was done" log || fail "TERM did not stop it: $(cat log)"
+grep -q "stopped; a.film.partial holds the samples so far" log || fail "TERM did not stop it: $(cat log)"
 [ -e a.film ] && fail "it was finished before it was preempted"
 for _ in $(seq 240); do
   [ -e a.film ] && [ -z "$(squeue -h -j "$job" -t R,CG -o %T 2> /dev/null)" ] && break

@@ -85,7 +85,7 @@ TEST_F(Checkpoint, OfAnotherProgramIsRefused) {
 TEST_F(Checkpoint, OfOtherOptionsIsRefused) {
   const CommandResult refused = render("--resume", 4);
   EXPECT_EQ(refused.status, 3);
-  EXPECT_THAT(refused.output, HasSubstr("depth: 3, asked for is 4"));
+  EXPECT_THAT(refused.output, HasSubstr("depth: 3, this command has 4"));
   EXPECT_EQ(render("--seed 5 --resume").status, 3);
 }
 

@@ -88,7 +88,7 @@ TEST_F(SmallDisk, AFilmThatDoesNotFitIsElsewhere) {
   EXPECT_EQ(failed.status, 4) << failed.output;
   EXPECT_THAT(failed.output, HasSubstr("No space left"));
   EXPECT_THAT(failed.output, HasSubstr("trying again"));
-  EXPECT_THAT(failed.output, HasSubstr("what was rendered is in " + path("spare/a.film")));
+  EXPECT_THAT(failed.output, HasSubstr("the rendered samples are in " + path("spare/a.film")));
   EXPECT_EQ(hash("spare/a.film"), whole_);
   // What it says helps: the film is known where it belongs, and the checkpoint can be gone on from.
   std::filesystem::rename(path("spare/a.film"), path("kept/a.film"));

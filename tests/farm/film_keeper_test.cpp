@@ -165,8 +165,8 @@ TEST_F(TheFilmKeeper, GoesElsewhereAtOnceWhereASignalWantsAnEnd) {
     const Variable variable("TMPDIR", temporary_.c_str());
     ::testing::internal::CaptureStderr();
     EXPECT_THAT(last_without_its_folder(),
-                AllOf(HasSubstr("what was rendered is in " + (fs::canonical(spare_) / "a.film").string()),
-                      HasSubstr("move it to " + missing_.string())));
+                AllOf(HasSubstr("the rendered samples are in " + (fs::canonical(spare_) / "a.film").string()),
+                      HasSubstr("move that file to " + missing_.string())));
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "it is not tried again";
   });
   EXPECT_EQ(hash_of(spare_ / "a.film"), film_.hash());
@@ -199,7 +199,7 @@ TEST_F(TheFilmKeeper, SaysWhereNoFolderTakesIt) {
     FilmKeeper keeper(file_, bytes_);
     const LimitedFiles full(bytes_ / 2);
     ask_to_stop();
-    EXPECT_THAT(last(keeper, file_), AllOf(HasSubstr(file_.string()), HasSubstr("is lost")));
+    EXPECT_THAT(last(keeper, file_), AllOf(HasSubstr(file_.string()), HasSubstr("are lost")));
   });
   EXPECT_FALSE(fs::exists(file_));
   EXPECT_TRUE(fs::is_empty(spare_));

@@ -255,7 +255,7 @@ TEST_F(FilmFile, RefusesToGoOnFromMoreThanItHas) {
   for (const std::vector<std::uint32_t>& ends : {std::vector<std::uint32_t>{8, 8}, {8, 16}}) {
     progress_.earlier_ends = ends;
     write_film(file_, film_, progress_);
-    expect_error("goes on from more samples");
+    expect_error("continues from more samples");
   }
 }
 

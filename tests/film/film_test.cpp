@@ -244,7 +244,7 @@ TEST(FilmMerge, RefusesStrangersAndSaysWhy) {
   EXPECT_EQ(difference(film, film_of(9)), "");
   differs(film_of(1, 3, 3), "their widths differ: 4 and 3");
   differs(Film(settings(4, 3), {9, 1}),
-          "they are of different scenes or of glass in different states, or sampled in different ways");
+          "they differ in the scene, the state of its glass or the way to sample");
   differs(Film(settings(4, 3), {1, 2, 8}), "their depths differ: 0 and 8");
   differs(Film(settings(4, 3), {1, 2, 0, true}), "one has direct light only");
   differs(film_of(2, 4, 3, -50), "their sums count in different powers of two: -45 and -50");

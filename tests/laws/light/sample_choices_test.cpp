@@ -240,7 +240,7 @@ TEST(SampleChoices, ImagesAreSeenAsIfTheSceneHadSaidSo) {
   EXPECT_NE(plain.hash(), nearest.hash());
   const Film unfiltered = film(TextureFilter::trilinear, TextureChoice::unfiltered);
   EXPECT_EQ(unfiltered.hash(), plain.hash());
-  EXPECT_THAT(difference(unfiltered, filtered), testing::HasSubstr("sampled in different ways"));
+  EXPECT_THAT(difference(unfiltered, filtered), testing::HasSubstr("the way to sample"));
   EXPECT_EQ(film(TextureFilter::trilinear, TextureChoice::nearest).hash(), nearest.hash());
   EXPECT_EQ(film(TextureFilter::nearest, TextureChoice::unfiltered).hash(), nearest.hash());
   EXPECT_EQ(difference(film(TextureFilter::bilinear, TextureChoice::unfiltered), plain), "");
@@ -305,13 +305,13 @@ TEST_F(OnePictureOfSamples, WaysDoNotMix) {
     CommandResult result = render("usual.film", 1, way);
     EXPECT_EQ(result.status, 3) << way;
     EXPECT_THAT(result.output,
-                testing::HasSubstr(std::string("way to sample: as usual, asked for is ") + way))
+                testing::HasSubstr(std::string("way to sample: as usual, this command has ") + way))
         << way;
     ASSERT_EQ(render("other.film", 1, std::string("--force --seed 1 ") + way).status, 0);
     result = run(fmt::format("{} '{}' '{}' -o '{}'", vitrail("develop"), path("usual.film"),
                              path("other.film"), path("both.exr")));
     EXPECT_EQ(result.status, 3) << way;
-    EXPECT_THAT(result.output, testing::HasSubstr("or sampled in different ways")) << way;
+    EXPECT_THAT(result.output, testing::HasSubstr("the way to sample")) << way;
     result = run(fmt::format("{} '{}'", vitrail("inspect"), path("other.film")));
     EXPECT_THAT(result.output, testing::HasSubstr(way));
   }

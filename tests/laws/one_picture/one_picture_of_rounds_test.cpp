@@ -112,7 +112,7 @@ TEST_F(OnePictureOfRounds, GoOnFromWhatIsThere) {
   ASSERT_EQ(run(command("d.film", 1, 1, "--force --spp 32 --adaptive")).status, 0);
   const CommandResult uniform = run(command("d.film", 1, 1, "--spp 64"));
   EXPECT_EQ(uniform.status, 3);
-  EXPECT_THAT(uniform.output, ::testing::HasSubstr("--adaptive goes on with it"));
+  EXPECT_THAT(uniform.output, ::testing::HasSubstr("--adaptive continues it"));
   const CommandResult finished = run(command("d.film", 1, 1, "--spp 32 --adaptive"));
   EXPECT_THAT(finished.output, ::testing::HasSubstr("finished already"));
   const CommandResult more = run(command("d.film", 8, 2, "--spp 64 --adaptive --progress lines"));
