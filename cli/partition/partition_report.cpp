@@ -71,7 +71,7 @@ void print_summary(const PartitionStats& s, const std::filesystem::path& bundle)
         s.coarse_shapes);
   show("  {:.2f} s, {:.2f} s of processor time, {:.2f} million triangles a second\n", s.wall_s, s.cpu_s,
        s.triangles_per_s * 1e-6);
-  show("  at most {} of {} of memory; {}\n", format_bytes(s.peak_rss_bytes),
+  show("  at most {} of memory, {} allowed; {}\n", format_bytes(s.peak_rss_bytes),
        format_bytes(s.memory_budget_bytes),
        s.buckets > 1
            ? fmt::format("in {} parts, {} on disk on the way", s.buckets, format_bytes(s.spill_bytes))

@@ -8,7 +8,7 @@
 namespace vitrail {
 
 // The end of the message about such a file.
-inline constexpr const char* how_to_replace_missing = "; --missing=replace goes on without it";
+inline constexpr const char* how_to_replace_missing = "; --missing=replace continues without it";
 
 // Throws Error where an image or a table of the scene is missing, or is no file. The error has the place of
 // the first; its message lists the others with their places. replace_missing_images replaces the same files.

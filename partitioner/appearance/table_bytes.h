@@ -19,7 +19,7 @@ class TableBytes {
  public:
   explicit TableBytes(const std::filesystem::path& file) : file_(file) {
     if (!std::filesystem::is_regular_file(file))
-      throw Error("cannot find the table of a material; --missing=replace goes on without it",
+      throw Error("cannot find the table of a material; --missing=replace continues without it",
                   {file.string()});
     check_input(file);
     bytes_ = read_file(file);
