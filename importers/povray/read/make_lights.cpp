@@ -101,10 +101,7 @@ void SceneMaker::add_surroundings() {
   const Transform sphere = translate(eye - Point3d{}) * scale({radius, radius, radius});
   if (world_.sky && !world_.sky->pigments.empty()) {
     place = world_.sky->place;
-    // The last of several is above: one that is not all there lets the others through.
-    if (world_.sky->pigments.size() > 1)
-      reader_.notes.approximated("sky_sphere: of its pigments the first alone", reader_.location(place));
-    radiance = surfaces_.radiance_of(*world_.sky->pigments.front(), sphere);
+    radiance = surfaces_.radiance_of(world_.sky->pigments, sphere);
   }
   // Fog without end hides it.
   const bool hidden = !fogs_.empty() && std::ranges::none_of(fogs_, &Fog::ground);

@@ -53,6 +53,17 @@ SpectrumParameter Surfaces::radiance_of(const Pigment& pigment, const Transform&
   return color_texture(pigment, to_world * pigment.to_object, Part::radiance, 1, false);
 }
 
+SpectrumParameter Surfaces::radiance_of(const std::vector<Shared<Pigment>>& pigments,
+                                        const Transform& to_world) {
+  SpectrumParameter radiance = radiance_of(*pigments.front(), to_world);
+  for (std::size_t i = 1; i < pigments.size(); ++i) {
+    const Pigment& above = *pigments[i];
+    const FloatParameter opacity = opacity_of(above, to_world * above.to_object, false);
+    radiance = add(MixTexture{radiance, radiance_of(above, to_world), opacity}, false, above.place);
+  }
+  return radiance;
+}
+
 Numbers mean_color(const Pigment& pigment) {
   if (pigment.color) return *pigment.color;
   if (!pigment.map || pigment.map->entries.empty()) return Finish::grey(0.5);

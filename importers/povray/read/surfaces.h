@@ -38,6 +38,8 @@ class Surfaces {
   Surface of(const Look& look);
   // Radiance by a pigment, as of a sky: a colour or a texture.
   SpectrumParameter radiance_of(const Pigment& pigment, const Transform& to_world);
+  // The last is above: where one is not all there, those before it show through. One at least.
+  SpectrumParameter radiance_of(const std::vector<Shared<Pigment>>& pigments, const Transform& to_world);
 
  private:
   struct Layer {  // a material with its share of what is behind

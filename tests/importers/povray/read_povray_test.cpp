@@ -304,5 +304,20 @@ TEST_F(ReadPovray, AnImageAroundASphere) {
   EXPECT_LT(length(at("rotate 90*y scale 3", 0, 0.5) - Point3d{0, 0, -1}), 1e-12);
 }
 
+TEST_F(ReadPovray, PigmentsOfASkyLieAboveEachOther) {
+  const Scene scene = read(
+                          "camera { location -4*z } sky_sphere { pigment { rgb <0,0,1> } pigment { rgbt "
+                          "<1,1,1,0.75> } } sphere "
+                          "{ 0, 1 }")
+                          .scene;
+  const auto& radiance = scene.area_lights.at(scene.shapes.back().area_light->value).radiance;
+  const auto* const texture = std::get_if<Id<Texture>>(&radiance);
+  ASSERT_TRUE(texture);
+  const auto& mix = std::get<MixTexture>(scene.textures.at(texture->value).model);
+  EXPECT_FLOAT_EQ(std::get<float>(mix.amount), 0.25f);
+  EXPECT_LT(luminance(std::get<Spectrum>(mix.first)), 0.2) << "blue, below";
+  EXPECT_NEAR(luminance(std::get<Spectrum>(mix.second)), 1, 0.01);
+}
+
 }  // namespace
 }  // namespace vitrail
