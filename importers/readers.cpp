@@ -93,7 +93,7 @@ const std::vector<Reader>& readers() {
        .sniff = nullptr,
        .read = [](ReadRequest r) { return read_povray(r.file, std::move(r.memory), r.options); },
        .adds_view = true,
-       .has_definitions = false,
+       .has_definitions = true,
        .has_many_cameras = false},
       {.name = "Wavefront OBJ",
        .suffixes = {".obj"},

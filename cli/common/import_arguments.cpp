@@ -32,8 +32,10 @@ void declare_program_limits(CLI::App& app, ImportArguments& a) {
 }  // namespace
 
 void declare_import_options(CLI::App& app, ImportArguments& a) {
-  app.add_option("-D,--define", a.definitions,
-                 "name=value: set a parameter of a Mitsuba scene; may be repeated")
+  app.add_option(
+         "-D,--define", a.definitions,
+         "name=value: set a parameter of a Mitsuba scene, or declare a number or text of a POV-Ray scene "
+         "(clock=0.5: the time of an animation); may be repeated")
       ->allow_extra_args(false)
       ->check([](const std::string& word) {
         const std::size_t at = word.find('=');

@@ -20,7 +20,7 @@ struct ProgramLimits {
 // The options of a reader.
 struct ImportOptions {
   // Values of a Mitsuba scene's parameters, as its command line's -D: they stand before the file's
-  // <default>s.
+  // <default>s. Of a POV-Ray scene: what stands before it, as its command line's Declare=.
   std::map<std::string, std::string> definitions;
   bool replace_missing = false;  // go on without images and meshes that are not there (missing_files.h)
   std::string sky;  // in place of all light from infinitely far (given_sky.h); "": as the file says

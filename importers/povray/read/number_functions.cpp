@@ -44,11 +44,12 @@ std::optional<Numbers> Reader::constant_of(Word word) {
     case Word::false_:
     case Word::no_:
     case Word::off_:
-    case Word::clock_:
     case Word::clock_on_:
     case Word::now_:
     case Word::clock_delta_:
       return Numbers(0);
+    case Word::clock_:
+      return Numbers(clock);
     // Of an animation the first frame is read. POV-Ray's stills have 0, and refuse many animations.
     case Word::frame_number_:
     case Word::initial_frame_:

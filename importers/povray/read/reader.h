@@ -130,6 +130,10 @@ class Reader {
   double version = 0;  // 0: the file does not say
   std::optional<double> assumed_gamma;
   int image_width = 640, image_height = 480;
+  double clock = 0;  // the time of an animation
+  // What stands before the scene, as POV-Ray's Declare=NAME=VALUE: a number, or text where it is none.
+  // `clock` sets that. Throws UsageError where a scene cannot have such a name.
+  void define(const std::string& name, const std::string& value);
 
   // The exponent that makes light of the numbers of colours; none: they are encoded as sRGB.
   std::optional<double> gamma() const;

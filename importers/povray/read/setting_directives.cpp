@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Directives that set something: #declare, #undef, #version, and those of text files.
+#include <fast_float/fast_float.h>
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 
 #include "importers/povray/read/numbers_text.h"
 #include "importers/povray/read/reader.h"
@@ -217,6 +222,25 @@ void Reader::read_text() {
   }
   // At its end, the file's identifier goes: scenes loop while it is defined.
   if (file->at_end()) symbols_.undefine(name);
+}
+
+void Reader::define(const std::string& name, const std::string& value) {
+  double number = 0;
+  const char* const end = value.data() + value.size();
+  const auto parsed = fast_float::from_chars(value.data(), end, number);
+  const bool is_number = parsed.ec == std::errc{} && parsed.ptr == end && std::isfinite(number);
+  if (name == name_of(Word::clock_)) {
+    if (!is_number) throw UsageError("-D clock takes a number, not '" + value + "'");
+    clock = number;
+    return;
+  }
+  const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  const bool is_name = !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) == 0 &&
+                       std::ranges::all_of(name, fits);
+  Symbol* const symbol = symbols_.find(name);
+  if (!is_name || symbol->word != Word::none)
+    throw UsageError("-D: a POV-Ray scene cannot declare '" + name + "'");
+  *symbols_.variable(symbol, 0) = is_number ? Value{Numbers(number)} : Value{value};
 }
 
 }  // namespace vitrail::pov

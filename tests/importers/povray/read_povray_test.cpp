@@ -173,6 +173,24 @@ TEST_F(ReadPovray, AnAnimationIsItsFirstFrame) {
     EXPECT_EQ(number(name), 1) << name;
 }
 
+TEST_F(ReadPovray, WhatIsDefinedStandsBeforeTheScene) {
+  ImportOptions options;
+  options.definitions = {{"clock", "0.25"}, {"Wide", "-2e1"}, {"Name", "2 m"}};
+  const Scene scene =
+      read_povray(file("camera { location -4*z } #ifndef (Wide) #error \"no\" #end #if (Name = \"2 m\") "
+                       "sphere { <Wide, clock, 0>, 1 } #end"),
+                  {}, options)
+          .scene;
+  ASSERT_EQ(scene.shapes.size(), 1u);
+  const Point3d center = transform_point(scene.shapes[0].object_to_world, Point3d{});
+  EXPECT_DOUBLE_EQ(center.x, -20);
+  EXPECT_DOUBLE_EQ(center.y, 0.25);
+  for (const auto& [name, value] : {std::pair{"sphere", "1"}, {"clock", "noon"}, {"2x", "1"}, {"", "1"}}) {
+    options.definitions = {{name, value}};
+    EXPECT_THROW(read_povray(file("sphere { 0, 1 }"), {}, options), UsageError) << name;
+  }
+}
+
 TEST_F(ReadPovray, TextsAreCompared) {
   EXPECT_EQ(number("(Name_ != \"\" ? 1 : 2)", "#declare Name_ = \"b\";"), 1);
   EXPECT_EQ(number("(\"a\" = Name_)", "#declare Name_ = \"b\";"), 0);
