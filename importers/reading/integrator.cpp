@@ -82,4 +82,26 @@ std::vector<std::string> settle_integrator(const AskedIntegrator& asked, Scene& 
   return differences;
 }
 
+namespace {
+
+bool leave_out_media(std::vector<Shape>& shapes) {
+  bool any = false;
+  for (Shape& shape : shapes) {
+    any |= shape.interior || shape.exterior;
+    shape.interior.reset();
+    shape.exterior.reset();
+  }
+  return any;
+}
+
+}  // namespace
+
+bool leave_out_media(Scene& scene) {
+  bool any = scene.camera_medium.has_value();
+  scene.camera_medium.reset();
+  any |= leave_out_media(scene.shapes);
+  for (Prototype& prototype : scene.prototypes) any |= leave_out_media(prototype.shapes);
+  return any;
+}
+
 }  // namespace vitrail

@@ -42,4 +42,8 @@ AskedIntegrator asked_for(const std::string& name, std::span<const NamedIntegrat
 // path tracing where there are media, which photons do not cross here.
 std::vector<std::string> settle_integrator(const AskedIntegrator& asked, Scene& scene);
 
+// Takes the media away from shapes and the camera, for integrators that ignore them. False where none had
+// one.
+bool leave_out_media(Scene& scene);
+
 }  // namespace vitrail

@@ -101,6 +101,6 @@ void read_sensor(Builder& builder, const Object& sensor);
 // max_depth and what the integrator leaves out.
 void read_integrator(Builder& builder, const Object& integrator);
 // Once the scene is read.
-void finish_integrator(Builder& builder);
+void finish_integrator(Builder& builder, bool all_media);
 
 }  // namespace vitrail::mitsuba

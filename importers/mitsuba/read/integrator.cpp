@@ -37,6 +37,9 @@ constexpr std::array<NamedIntegrator, 20> kinds{{{"path", Kind::paths},
                                                  {"direct_projective", Kind::first_hit},
                                                  {"emission", Kind::first_hit}}};
 const std::vector<std::string> volumetric{"volpath", "volpathmis", "volpath_simple", "prbvolpath"};
+// These take what is between surfaces for vacuum.
+const std::vector<std::string> without_media{"path",      "prb",    "prb_projective",
+                                             "prb_basic", "direct", "direct_projective"};
 // Around another integrator whose picture is the first of what they write, or is found with fewer samples.
 const std::vector<std::string> wrappers{"moment", "aov", "stokes", "multichannel", "adaptive", "irrcache"};
 
@@ -134,10 +137,17 @@ void read_integrator(Builder& builder, const Object& integrator) {
   report_unused_in_one(integrator, report, {"max_depth", "hide_emitters"});
 }
 
-void finish_integrator(Builder& builder) {
+void finish_integrator(Builder& builder, bool all_media) {
   if (builder.passes) builder.scene.settings.samples_per_pixel = *builder.passes;
   const Origin& place = builder.scene.integrator_origin;
   builder.report.begin_item({place, RecordKind::integrator});
+  const std::string& given = builder.integrator.name;
+  const std::string name = given.empty() ? "path" : given;
+  if (!all_media && is_one_of(name, without_media) && leave_out_media(builder.scene))
+    builder.report.dropped(fmt::format("media: {}integrator \"{}\" ignores them, in Mitsuba as here; "
+                                       "\"volpath\" or --all-media shows them",
+                                       given.empty() ? "the default " : "", name),
+                           place);
   for (const std::string& difference : settle_integrator(builder.integrator, builder.scene))
     builder.report.approximated(difference, place);
 }

@@ -69,7 +69,7 @@ static void build(Builder& b, const Object& root, const ImportOptions& options) 
   report_null_depth(b);
   report_dark_bumps(b);
   report_clipping(b);
-  finish_integrator(b);
+  finish_integrator(b, options.all_media);
   root.ignore({"camera", "version"});
   root.children("sampler");
   root.children("film");

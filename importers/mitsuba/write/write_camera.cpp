@@ -279,6 +279,7 @@ void write_integrator(Context& context, Element root) {
   if (scene.settings.direct_only) {
     context.begin(RecordKind::integrator, scene.integrator_origin);
     context.approximated("Mitsuba's direct integrator ends at the first surface, specular or not");
+    if (!scene.media.empty()) context.dropped("media: Mitsuba's direct integrator ignores them");
     Element element = add(root, "integrator", "direct");
     add_integer(element, "emitter_samples", 1);
     add_integer(element, "bsdf_samples", 1);

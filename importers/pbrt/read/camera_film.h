@@ -57,8 +57,6 @@ void read_sampler(const std::string& kind, ParameterSet& parameters, Context& co
 void read_integrator(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view);
 // Whether pbrt's integrator of this name ignores media: it takes what is between surfaces for vacuum.
 bool passes_media_by(const std::string& integrator);
-// Takes the media away from shapes and the camera. False where none had one.
-bool leave_out_media(Scene& scene);
 bool has_subsurface(const Scene& scene);
 
 // Puts camera, film and settings into the scene. Throws Error for a lens that cannot be focussed.

@@ -43,30 +43,12 @@ PhotonSettings read_photons(ParameterSet& parameters, Context& context, ViewSett
   return photons;
 }
 
-bool leave_out_media(std::vector<Shape>& shapes) {
-  bool any = false;
-  for (Shape& shape : shapes) {
-    any |= shape.interior || shape.exterior;
-    shape.interior.reset();
-    shape.exterior.reset();
-  }
-  return any;
-}
-
 }  // namespace
 
 bool passes_media_by(const std::string& integrator) {
   constexpr std::array<std::string_view, 7> names{
       "path", "simplepath", "directlighting", "whitted", "lightpath", "randomwalk", "sppm"};
   return std::ranges::count(names, integrator) > 0;
-}
-
-bool leave_out_media(Scene& scene) {
-  bool any = scene.camera_medium.has_value();
-  scene.camera_medium.reset();
-  any |= leave_out_media(scene.shapes);
-  for (Prototype& prototype : scene.prototypes) any |= leave_out_media(prototype.shapes);
-  return any;
 }
 
 bool has_subsurface(const Scene& scene) {

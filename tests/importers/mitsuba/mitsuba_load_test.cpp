@@ -117,6 +117,24 @@ TEST_F(MitsubaLoad, NullCountsInMitsubasPath) {
   EXPECT_FALSE(says("volpath"));
 }
 
+// Mitsuba 3.9.1: an absorbing ball is clear to path, whatever its surface, and to scenes without integrator.
+TEST_F(MitsubaLoad, MediaThatTheIntegratorIgnores) {
+  const std::string ball =
+      "<shape type=\"sphere\"><bsdf type=\"null\"/><medium name=\"interior\" type=\"homogeneous\"/></shape>";
+  const auto sees = [&](const std::string& integrator, const ImportOptions& options = {}) {
+    const std::string element = integrator.empty() ? "" : "<integrator type=\"" + integrator + "\"/>";
+    imported_ = read_mitsuba(folder_.write("scene.xml", head + element + ball + tail), MeshMemory{}, options);
+    const bool seen = imported_.scene.shapes.at(0).interior.has_value();
+    EXPECT_EQ(mentions("ignores them"), !seen) << integrator;
+    return seen;
+  };
+  for (const char* integrator : {"volpath", "volpathmis", "bdpt"}) EXPECT_TRUE(sees(integrator));
+  for (const char* integrator : {"path", "prb", "direct", ""}) EXPECT_FALSE(sees(integrator));
+  ImportOptions options;
+  options.all_media = true;
+  EXPECT_TRUE(sees("path", options));
+}
+
 TEST_F(MitsubaLoad, DefaultsReferencesAliasesAndIncludes) {
   folder_.write("part.xml", head +
                                 "<default name=\"tone\" value=\"0.75\"/><bsdf type=\"diffuse\" id=\"part\">"

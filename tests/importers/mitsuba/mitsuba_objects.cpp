@@ -138,7 +138,7 @@ void read_all(Builder& builder, const Object& root) {
     if (object.tag == "shape")
       if (const Object* emitter = object.child("emitter")) add_area_light(builder, *emitter);
   }
-  finish_integrator(builder);
+  finish_integrator(builder, true);
 }
 
 }  // namespace vitrail::mitsuba
