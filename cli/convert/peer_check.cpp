@@ -140,8 +140,10 @@ Json check_in_peer(const PeerCheck& check, const FilmSettings& film) {
   if (std::string_view(peer.name) == "Mitsuba")
     found.update(in_mitsuba(check, program, film, folder));
   else if (std::string_view(peer.name) == "POV-Ray")
-    found.update(
-        in_program({program, "+I" + out, "+W8", "+H8", "-D", "+O" + folder.file("picture.png")}, folder));
+    // It looks for images in its working directory and in those of +L, not beside the scene.
+    found.update(in_program({program, "+I" + out, "+L" + fs::path(out).parent_path().string(), "+W8", "+H8",
+                             "-D", "+O" + folder.file("picture.png")},
+                            folder));
   else
     found.update(in_program({program, "--spp", "1", "--outfile", folder.file("picture.exr"), out}, folder));
   if (found.contains("missing")) {

@@ -212,11 +212,16 @@ TEST_F(Convert, PovRayTakesWhatIsWritten) {
   if (std::system("povray --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no povray on the path";
   const std::string in = write("in.pbrt",
                                "LookAt 0 0 5 0 0 0 0 1 0 Camera \"perspective\" Film \"rgb\" WorldBegin "
-                               "LightSource \"point\" " +
+                               "LightSource \"point\" Texture \"t\" \"spectrum\" \"imagemap\" \"string "
+                               "filename\" \"t.pfm\" Material \"diffuse\" \"texture reflectance\" \"t\" " +
                                    triangle_);
+  write("t.pfm", std::string("PF\n1 1\n-1.0\n") + std::string(12, '\0'));
   const auto result = convert(in + " " + path("out.pov") + " --check=peer");
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_THAT(result.output, HasSubstr("POV-Ray renders it"));
+  std::ifstream written(path("out.pov"));
+  const std::string text{std::istreambuf_iterator<char>(written), {}};
+  EXPECT_THAT(text, HasSubstr("image_map"));
 }
 
 TEST_F(Convert, InspectKnowsEverySpectrum) {
