@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a whole render costs beside the intersections it cannot do without, what sub-domains cost, what a
-// second rank gains; all as ratios within one run. Seconds on a shared machine mean little by themselves.
+// What a whole render costs beside the intersections it cannot do without, scene by scene; what sub-domains
+// cost, what a second rank gains. All are ratios within one run. Seconds on a shared machine mean little by
+// themselves.
 //
 //   bench_render [--spp N]
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "partitioner/partition.h"
+#include "tests/bench/render_scenes.h"
 #include "tests/bench/timing.h"
 #include "tests/support/command.h"
 #include "tests/support/render.h"
@@ -18,61 +20,53 @@
 namespace vitrail::test {
 namespace {
 
-// A sphere whose radius ripples, seen as rough by bounced rays.
-void add_bumpy_sphere(Scene& scene, Point3f centre, float radius, std::uint32_t rings) {
-  TriangleMesh mesh;
-  const std::uint32_t sectors = 2 * rings;
-  for (std::uint32_t i = 0; i <= rings; ++i)
-    for (std::uint32_t j = 0; j < sectors; ++j) {
-      const double theta = 3.14159265358979 * i / rings, phi = 6.28318530717959 * j / sectors;
-      const double r = radius * (1 + 0.04 * std::sin(23 * theta) * std::sin(31 * phi));
-      mesh.positions.push_back({centre.x + static_cast<float>(r * std::sin(theta) * std::cos(phi)),
-                                centre.y + static_cast<float>(r * std::sin(theta) * std::sin(phi)),
-                                centre.z + static_cast<float>(r * std::cos(theta))});
-    }
-  for (std::uint32_t i = 0; i < rings; ++i)
-    for (std::uint32_t j = 0; j < sectors; ++j) {
-      const std::uint32_t a = i * sectors + j, b = i * sectors + (j + 1) % sectors;
-      if (i > 0) mesh.triangles.push_back({a, a + sectors, b});
-      if (i + 1 < rings) mesh.triangles.push_back({b, a + sectors, b + sectors});
-    }
-  scene.meshes.push_back(std::move(mesh));
-  add_shape(scene, {static_cast<std::uint32_t>(scene.meshes.size() - 1)},
-            Material{DiffuseMaterial{ConstantSpectrum{0.7f}}});
-}
+// Records the calls of the intersector, so that the same rays can be traced again without anything else.
+struct Recording {
+  struct Call {
+    std::size_t first, count;  // among the rays
+    bool occluded, many;       // which function of KernelFunctions
+  };
+  std::vector<Call> calls;
+  std::vector<RayConstants> rays;
+  std::vector<float> ends;  // of shadow rays; others have 0
 
-// Eight bumpy spheres in a room with a lamp: 1.06 million triangles.
-Scene bench_scene() {
-  Scene scene;
-  for (int i = 0; i < 8; ++i)
-    add_bumpy_sphere(scene, {i & 1 ? 1.2f : -1.2f, i & 2 ? 1.2f : -1.2f, i & 4 ? 1.2f : -1.2f}, 1.05f, 182);
-  auto walls = box_faces({-3, -3, -3}, {3, 3, 3});
-  for (auto& face : walls) std::swap(face[1], face[3]);
-  add_shape(scene, add_quads(scene, walls), Material{DiffuseMaterial{ConstantSpectrum{0.6f}}});
-  add_shape(scene, add_quads(scene, {{{{-1, 2.95f, -1}, {1, 2.95f, -1}, {1, 2.95f, 1}, {-1, 2.95f, 1}}}}),
-            Material{DiffuseMaterial{ConstantSpectrum{0}}}, AreaLight{ConstantSpectrum{10}, true});
-  set_camera(scene, {0, 0, -2.9}, {0, 0, 0}, {0, 1, 0}, 1.4, 256, 256);
-  return scene;
-}
-
-// Records every call of the intersector, so that the same rays can be traced again without anything else.
-struct Recorded {
-  RayConstants ray;
-  float tmax;  // of shadow rays; < 0: a closest hit is asked for
+  void add(const RayConstants* of, const float* tmax, std::size_t count, bool many) {
+    calls.push_back({rays.size(), count, tmax != nullptr, many});
+    rays.insert(rays.end(), of, of + count);
+    tmax ? ends.insert(ends.end(), tmax, tmax + count) : ends.insert(ends.end(), count, 0.0f);
+  }
 };
-std::vector<Recorded> recording;
+Recording recording;
 const KernelFunctions* recorded_kernel = nullptr;
 
 KernelFunctions recorder() {
   recorded_kernel = &best_kernel();
   KernelFunctions k = *recorded_kernel;
   k.tree_closest = [](const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, Hit& hit) {
-    recording.push_back({ray, -1});
+    recording.add(&ray, nullptr, 1, false);
     recorded_kernel->tree_closest(nodes, clusters, ray, hit);
   };
   k.tree_occluded = [](const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, float tmax) {
-    recording.push_back({ray, tmax});
+    recording.add(&ray, &tmax, 1, false);
     return recorded_kernel->tree_occluded(nodes, clusters, ray, tmax);
+  };
+  k.domain_closest = [](const DomainView& domain, const RayConstants& ray, Hit& hit) {
+    recording.add(&ray, nullptr, 1, false);
+    recorded_kernel->domain_closest(domain, ray, hit);
+  };
+  k.domain_occluded = [](const DomainView& domain, const RayConstants& ray, float tmax) {
+    recording.add(&ray, &tmax, 1, false);
+    return recorded_kernel->domain_occluded(domain, ray, tmax);
+  };
+  k.node_closest = [](const BvhNode& node, const Cluster* clusters, const RayConstants* rays,
+                      Hit* const* hits, std::size_t count) {
+    recording.add(rays, nullptr, count, true);
+    recorded_kernel->node_closest(node, clusters, rays, hits, count);
+  };
+  k.node_occluded = [](const BvhNode& node, const Cluster* clusters, const RayConstants* rays,
+                       const float* tmax, bool* blocked, std::size_t count) {
+    recording.add(rays, tmax, count, true);
+    recorded_kernel->node_occluded(node, clusters, rays, tmax, blocked, count);
   };
   return k;
 }
@@ -93,37 +87,52 @@ double trace_all(const RenderScene& scene, const DomainView* view, const KernelF
 
 double replay(const DomainView& view) {
   const KernelFunctions& kernel = best_kernel();
-  std::uint64_t hits = 0;
+  constexpr std::size_t most = 64;  // rays a call
+  std::array<Hit, most> hits;
+  std::array<Hit*, most> places;
+  for (std::size_t i = 0; i < most; ++i) places[i] = &hits[i];
+  std::array<bool, most> blocked;
+  std::uint64_t met = 0;
   const double start = cpu_seconds();
-  for (const Recorded& r : recording) {
-    if (r.tmax >= 0) {
-      hits += kernel.occluded(view, r.ray, r.tmax);
-    } else {
-      Hit hit;
-      kernel.closest(view, r.ray, hit);
-      hits += hit.triangle != no_triangle;
+  for (const Recording::Call& call : recording.calls) {
+    const RayConstants* const rays = &recording.rays[call.first];
+    const float* const ends = &recording.ends[call.first];
+    if (call.occluded) {
+      if (call.many)
+        kernel.occluded_of_many(view, rays, ends, blocked.data(), call.count);
+      else
+        blocked[0] = kernel.occluded(view, *rays, *ends);
+      for (std::size_t i = 0; i < call.count; ++i) met += blocked[i];
+      continue;
     }
+    std::fill_n(hits.begin(), call.count, Hit{});
+    if (call.many)
+      kernel.closest_of_many(view, rays, places.data(), call.count);
+    else
+      kernel.closest(view, *rays, hits[0]);
+    for (std::size_t i = 0; i < call.count; ++i) met += hits[i].triangle != no_triangle;
   }
   const double seconds = cpu_seconds() - start;
-  if (hits == 0) fmt::print("no ray hit anything\n");
+  if (met == 0) fmt::print("no ray hit anything\n");
   return seconds;
 }
 
-void against_the_bare_intersector(const std::filesystem::path& bundle, int spp) {
+// Millions of rays a second of a processor: of a whole render in one domain, and of the intersector alone
+// with the same rays.
+void against_the_bare_intersector(const std::string& name, const std::filesystem::path& bundle, int spp) {
   const RenderScene scene(read_manifest(bundle), bundle, 1 << 30, 0);
   const MappedDomain domain(domain_path(bundle, 0));
   const KernelFunctions recording_kernel = recorder();
+  recording = {};
   trace_all(scene, &domain.view(), recording_kernel, spp);
   std::vector<double> whole, bare;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 5; ++i) {
     whole.push_back(trace_all(scene, &domain.view(), best_kernel(), spp));
     bare.push_back(replay(domain.view()));
   }
-  const double rays = static_cast<double>(recording.size());
-  fmt::print("render, 1 domain            {:6.3f} Mray/CPU-s\n", rays / median(whole) * 1e-6);
-  fmt::print("bare intersector, same rays {:6.3f} Mray/CPU-s\n", rays / median(bare) * 1e-6);
-  fmt::print("ratio                       {:6.3f}   (target >= 0.5)\n\n", median(bare) / median(whole));
-  recording.clear();
+  const double millions = static_cast<double>(recording.rays.size()) * 1e-6;
+  fmt::print("{:14} {:7.3f} {:7.3f} {:7.3f}\n", name, millions / median(whole), millions / median(bare),
+             median(bare) / median(whole));
 }
 
 nlohmann::json run_once(const TemporaryDirectory& directory, int domains, int ranks, int spp) {
@@ -159,7 +168,12 @@ int main(int argc, char** argv) {
   using namespace vitrail::test;
   const int spp = argc > 2 && std::string(argv[1]) == "--spp" ? std::atoi(argv[2]) : 8;
   const TemporaryDirectory directory;
-  const Scene scene = bench_scene();
+  fmt::print("Mray/CPU-s       whole    bare   ratio   (target >= 0.5)\n");
+  for (const auto& [name, scene] : render_scenes(directory.path())) {
+    partition(scene, directory / "scene.vit", {});
+    against_the_bare_intersector(name, directory / "scene.vit", spp);
+  }
+  const Scene scene = million_room();
   for (const std::uint32_t domains : {1u, 64u}) {
     PartitionOptions options;
     options.domains = domains;
@@ -167,7 +181,7 @@ int main(int argc, char** argv) {
     fmt::print("{} triangles, {} domains, {:.1f} bytes a triangle\n", stats.input_triangles, stats.domains,
                static_cast<double>(stats.bundle_bytes) / static_cast<double>(stats.input_triangles));
   }
-  against_the_bare_intersector(directory / "1.vit", std::min(spp, 8));
+  against_the_bare_intersector("million room", directory / "1.vit", std::min(spp, 8));
   domains_and_ranks(directory, spp);
   fmt::print("wire: path {} B, shadow {} B\n", sizeof(RayRecord), sizeof(ShadowRecord));
 }
