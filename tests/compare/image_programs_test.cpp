@@ -95,11 +95,11 @@ TEST_F(ImagePrograms, DevelopRefusesDoubleSeedsAndStrangers) {
   EXPECT_THAT(twice.output, HasSubstr("seed 1"));
   const CommandResult mixed = develop(a + ' ' + other + " -o " + quoted("x.exr"));
   EXPECT_EQ(mixed.status, 3);
-  EXPECT_THAT(mixed.output, HasSubstr("different scenes"));
+  EXPECT_THAT(mixed.output, HasSubstr("differ in the scene"));
   const CommandResult same_seed = develop(a + ' ' + film("stranger.film", 1, 9) + " -o " + quoted("x.exr"));
   EXPECT_EQ(same_seed.status, 3);
   EXPECT_THAT(same_seed.output,
-              AllOf(HasSubstr("different scenes"), HasSubstr("a.film"), HasSubstr("stranger.film")));
+              AllOf(HasSubstr("differ in the scene"), HasSubstr("a.film"), HasSubstr("stranger.film")));
   const std::string deeper = film("deeper.film", 3, 1, 8);
   const CommandResult unequal = develop(a + ' ' + deeper + " -o " + quoted("x.exr"));
   EXPECT_EQ(unequal.status, 3);

@@ -55,7 +55,7 @@ TEST_F(ChangedFiles, ChangedInPlaceEndsTheJob) {
     bytes << '?';
   });
   EXPECT_EQ(ended.status, 3);
-  EXPECT_THAT(ended.output, HasSubstr(".dom: it was changed while it was rendered"));
+  EXPECT_THAT(ended.output, HasSubstr(".dom: this file changed during the render"));
   EXPECT_FALSE(fs::exists(path("a.film")));
   // The checkpoint is of before.
   fs::remove_all(path("box.vit"));
@@ -81,7 +81,7 @@ TEST_F(ChangedFiles, DeletedOrReplacedWhileMappedIsAsItWas) {
 TEST_F(ChangedFiles, CutShortEndsTheJob) {
   const CommandResult ended = rendered_while([](const fs::path& file) { fs::resize_file(file, 1); });
   EXPECT_TRUE(ended.status == 3 || ended.status == 4) << ended.status;
-  EXPECT_THAT(ended.output, ::testing::AnyOf(HasSubstr("became shorter"), HasSubstr("it was changed")));
+  EXPECT_THAT(ended.output, ::testing::AnyOf(HasSubstr("became shorter"), HasSubstr("this file changed")));
   EXPECT_FALSE(fs::exists(path("a.film")));
 }
 
