@@ -335,10 +335,6 @@ ProgressMode progress_mode(const RenderArguments& a) {
   return a.progress == "bar" ? ProgressMode::bar : ProgressMode::lines;
 }
 
-}  // namespace
-
-namespace {
-
 // A number is a camera of the scene's own.
 void interpret_camera(RenderArguments& a) {
   int number = 0;

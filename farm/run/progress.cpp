@@ -121,10 +121,6 @@ std::string text_of(const Goal& goal) {
   return fmt::format("to an error of {}, at most {}", text_of(*goal.target), samples);
 }
 
-}  // namespace
-
-namespace {
-
 // Light that came through a window has been scattered often before it is measured. The manifest's depth has
 // the sensor's own event in it.
 void warn_of_depth(const RenderOptions& options, const Manifest& m) {

@@ -327,10 +327,6 @@ std::optional<Id<Material>> the_same_as(Writer& w, std::size_t index) {
   return std::nullopt;
 }
 
-}  // namespace
-
-namespace {
-
 // pbrt stops at a parameter that it does not know, unless it comes from an attribute: so it has thin glass
 // there.
 void write_glazing(Writer& w, std::size_t index, const std::string& file) {
