@@ -187,7 +187,8 @@ int render_frames(Transport& transport, const RenderArguments& all, std::span<ch
     const fs::path output = numbered(all.output, i + 1);
     const bool stays = !all.options.outputs.force && is_there(transport, output);
     if (transport.rank() == 0 && !all.quiet)
-      say("vitrail: frame {} of {}: {}{}\n", i + 1, frames.size(), output.string(), stays ? " is there" : "");
+      say("vitrail: frame {} of {}: {}{}\n", i + 1, frames.size(), output.string(),
+          stays ? " is there and stays; --force renders it anew" : "");
     if (stays) continue;
     RenderArguments a;
     CLI::App app("a frame", "vitrail render");
