@@ -7,7 +7,7 @@ set(documents ${CMAKE_INSTALL_DATADIR}/doc/vitrail)
 list(TRANSFORM verbs PREPEND vitrail- OUTPUT_VARIABLE programs)
 install(TARGETS vitrail ${programs} RUNTIME DESTINATION ${folder} COMPONENT programs)
 # Apart, as the libraries behind it are many.
-install(TARGETS vitrail_openimageio LIBRARY DESTINATION ${folder} COMPONENT images)
+install(TARGETS vitrail_assimp_module vitrail_openimageio LIBRARY DESTINATION ${folder} COMPONENT images)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/link)
 file(RELATIVE_PATH from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBEXECDIR}/vitrail/vitrail)
 file(CREATE_LINK ${from_bin} ${CMAKE_BINARY_DIR}/link/vitrail SYMBOLIC)

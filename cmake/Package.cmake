@@ -30,7 +30,7 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME vitrail)
 # Images in scenes; mpirun, which one process renders without; generators of examples.
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "vitrail-images, openmpi-bin, python3, libfreetype6, povray-includes, fonts-povray")
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION
-"Vitrail converts scenes between PBRT, Mitsuba, OBJ, PLY and POV-Ray. It renders
+"Vitrail converts scenes between PBRT, Mitsuba, glTF, OBJ, PLY and POV-Ray. It renders
 scenes that are larger than a machine's memory, spectrally, on one machine or
 under MPI, and gives the same film bit for bit on any number of ranks. Pictures
 are written as OpenEXR and PNG. Scenes with images need vitrail-images.")
@@ -38,6 +38,7 @@ are written as OpenEXR and PNG. Scenes with images need vitrail-images.")
 set(CPACK_DEBIAN_IMAGES_PACKAGE_NAME vitrail-images)
 set(CPACK_DEBIAN_IMAGES_PACKAGE_DEPENDS "vitrail (= ${PROJECT_VERSION})")
 set(CPACK_COMPONENT_IMAGES_DESCRIPTION
-"What Vitrail needs where scenes have images, and where pictures are compared
-or written as JPEG or TIFF: OpenImageIO and OpenColorIO.")
+"What Vitrail needs where scenes have images or are FBX, COLLADA or 3DS, and
+where pictures are compared or written as JPEG or TIFF: OpenImageIO, OpenColorIO
+and assimp.")
 include(CPack)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "images/image_files.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
+#include "scene/system/module.h"
 
 namespace vitrail {
 
@@ -25,25 +25,9 @@ std::atomic<bool> loaded = false;
 
 constexpr std::uint64_t most_pixels_of_gif = 1 << 26;  // of which its reader holds several copies
 
-// Beside this program; of programs that are not ours, where ours are installed.
-std::filesystem::path codec_file() {
-  const auto beside = std::filesystem::read_symlink("/proc/self/exe").parent_path() / image_codec_module;
-  const auto installed = std::filesystem::path(VITRAIL_PROGRAM_FOLDER) / image_codec_module;
-  std::error_code unknown;
-  return !std::filesystem::exists(beside, unknown) && std::filesystem::exists(installed, unknown) ? installed
-                                                                                                  : beside;
-}
-
 const ImageCodec& load_codec() {
-  const std::filesystem::path file = codec_file();
-  if (std::error_code unknown; !std::filesystem::exists(file, unknown))
-    throw MachineError(fmt::format(
-        "{} is missing, which reads images, and writes others than .exr and .png: the package vitrail-images "
-        "has it",
-        file.string()));
-  void* module = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
-  const void* codec = module ? ::dlsym(module, image_codec_symbol) : nullptr;
-  if (!codec) throw MachineError(fmt::format("cannot read or write images: {}", ::dlerror()));
+  const void* codec = module_symbol(image_codec_module, image_codec_symbol,
+                                    "reads images, and writes others than .exr and .png");
   loaded = true;
   return *static_cast<const ImageCodec*>(codec);
 }

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <fstream>
 
+#include "importers/assimp/read/assimp.h"
 #include "importers/gltf/read/gltf.h"
 #include "importers/mitsuba/read/mitsuba.h"
 #include "importers/obj/read/obj.h"
@@ -119,6 +120,14 @@ const std::vector<Reader>& readers() {
        .adds_view = false,
        .has_definitions = false,
        .has_many_cameras = false},
+      {.name = "FBX, COLLADA and 3DS",
+       .suffixes = {".fbx", ".dae", ".3ds"},
+       .gzipped = false,
+       .sniff = nullptr,
+       .read = [](ReadRequest r) { return read_assimp(r.file, std::move(r.memory), r.options); },
+       .adds_view = true,
+       .has_definitions = false,
+       .has_many_cameras = true},
   };
   return rows;
 }

@@ -15,7 +15,8 @@ namespace vitrail {
 
 namespace {
 
-constexpr std::string_view scenes[] = {".pbrt", ".xml", ".gltf", ".glb", ".pov", ".obj", ".ply", ".stl"};
+constexpr std::string_view scenes[] = {".pbrt", ".xml", ".gltf", ".glb", ".pov", ".obj",
+                                       ".ply",  ".stl", ".fbx",  ".dae", ".3ds"};
 constexpr std::string_view films[] = {".film", ".partial", ".work"};
 constexpr std::string_view pictures[] = {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr"};
 

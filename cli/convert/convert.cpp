@@ -40,7 +40,7 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& a) {
   app.add_option("files", a.files,
-                 "a scene (.pbrt, .xml, .glb, .gltf, .obj, .ply, .stl, .pov) and the file to write (.pbrt: "
+                 "a scene (.pbrt, .xml, .glb, .gltf, .obj, .ply, .stl, .fbx, .dae, .3ds, .pov) and the file to write (.pbrt: "
                  "v4, .xml: Mitsuba 3, .pov, .glb, .gltf, .obj, .ply); with --to: scenes, and folders that "
                  "are searched for them")
       ->required();

@@ -83,6 +83,8 @@ const std::map<std::string, std::vector<std::string>>& floors() {
         "stl/read",
         "obj/read",
         "obj/write",
+        "assimp",
+        "assimp/read",
         "pbrt/read",
         "pbrt/write",
         "mitsuba",

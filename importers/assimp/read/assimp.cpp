@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/assimp/read/assimp.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "importers/assimp/asset.h"
+#include "importers/assimp/read/asset_file.h"
+#include "importers/assimp/read/asset_lights.h"
+#include "importers/assimp/read/asset_materials.h"
+#include "importers/reading/default_view.h"
+#include "importers/reading/missing_files.h"
+#include "scene/spectra/rgb_to_spectrum.h"
+
+namespace vitrail {
+
+namespace assimp {
+
+namespace {
+
+// Normals and (u,v) that are not finite count as 0, as in the other readers.
+TriangleMesh mesh_of(AssetMesh&& in, const std::string& file) {
+  for (std::size_t i = 0; i < in.positions.size(); ++i)
+    if (const Point3f p = in.positions[i]; !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      throw Error(fmt::format("mesh '{}': vertex {} is not finite", in.name, i), {file});
+  TriangleMesh mesh;
+  mesh.positions = std::move(in.positions);
+  mesh.normals = std::move(in.normals);
+  mesh.uvs = std::move(in.uvs);
+  mesh.missing_uv = MissingUv::zero;
+  mesh.triangles = std::move(in.triangles);
+  for (Normal3f& n : mesh.normals)
+    if (!std::isfinite(n.x) || !std::isfinite(n.y) || !std::isfinite(n.z)) n = {0, 0, 0};
+  for (Point2f& uv : mesh.uvs)
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = {0, 0};
+  return mesh;
+}
+
+class SceneReader {
+ public:
+  SceneReader(const std::filesystem::path& file, MeshMemory& memory, const ImportOptions& options)
+      : file_(file.string()), memory_(memory), options_(options), asset_(read_asset(file)) {
+    imported_.scene.files.push_back(file_);
+  }
+
+  ImportedScene read() {
+    surfaces_ = add_materials(asset_, file_, imported_);
+    for (const AssetNode& node : asset_.nodes)
+      to_world_.push_back(to_world_.empty() ? node.to_parent : to_world_[node.parent] * node.to_parent);
+    std::vector<std::size_t> uses(asset_.meshes.size(), 0);
+    for (const AssetNode& node : asset_.nodes)
+      for (const std::size_t mesh : node.meshes) ++uses[mesh];
+    for (std::size_t node = 0; node < asset_.nodes.size(); ++node)
+      for (const std::size_t mesh : asset_.nodes[node].meshes) {
+        if (asset_.meshes[mesh].triangles.empty() && !meshes_.contains(mesh)) continue;
+        if (uses[mesh] > 1)
+          add_instance(mesh, node);
+        else if (is_visible(node))
+          add_shape(imported_.scene.shapes, mesh, node, to_world_[node]);
+      }
+    for (const AssetLight& light : asset_.lights) add_light(light);
+    take_camera();
+    note_whole_file();
+    return std::move(imported_);
+  }
+
+  bool has_camera() const { return !asset_.cameras.empty(); }
+
+ private:
+  void note(Fidelity fidelity, std::string what, RecordKind kind = RecordKind::any) {
+    imported_.diagnostics.push_back({fidelity, std::move(what), {file_}, {}, kind});
+  }
+
+  Id<TriangleMesh> keep(std::size_t mesh) {
+    const auto [at, is_new] = meshes_.try_emplace(mesh);
+    if (is_new) {
+      std::vector<TriangleMesh>& meshes = imported_.scene.meshes;
+      at->second = {static_cast<std::uint32_t>(meshes.size())};
+      meshes.push_back(memory_.keep(mesh_of(std::move(asset_.meshes[mesh]), file_), {}));
+    }
+    return at->second;
+  }
+
+  void add_shape(std::vector<Shape>& shapes, std::size_t mesh, std::size_t node, const Transform& to_world) {
+    const MtlSurface& surface = surfaces_.at(asset_.meshes[mesh].material);
+    Shape shape;
+    shape.mesh = keep(mesh);
+    shape.material = surface.material, shape.area_light = surface.light;
+    shape.object_to_world = to_world;
+    shape.flip_orientation = swaps_handedness(to_world);
+    shape.name = asset_.nodes[node].name;
+    shapes.push_back(std::move(shape));
+  }
+
+  void add_instance(std::size_t mesh, std::size_t node) {
+    Scene& scene = imported_.scene;
+    const auto [at, is_new] = prototypes_.try_emplace(mesh);
+    if (is_new) {
+      Prototype prototype;
+      prototype.name = asset_.meshes[mesh].name;
+      add_shape(prototype.shapes, mesh, node, Transform{});
+      at->second = {static_cast<std::uint32_t>(scene.prototypes.size())};
+      scene.prototypes.push_back(std::move(prototype));
+    }
+    if (is_visible(node)) scene.instances.push_back({at->second, to_world_[node], {}});
+  }
+
+  // A scale of 0 hides things.
+  bool is_visible(std::size_t node) {
+    if (is_invertible(to_world_[node])) return true;
+    note(Fidelity::dropped, fmt::format("'{}' is flat: its scale is 0", asset_.nodes[node].name),
+         RecordKind::shape);
+    return false;
+  }
+
+  void add_light(const AssetLight& in) {
+    if (std::ranges::min(in.color) < 0 || std::ranges::max(in.color) <= 0) return;
+    if (in.kind == AssetLight::Kind::other) {
+      note(Fidelity::dropped, "an ambient light, or one of an area", RecordKind::light);
+      return;
+    }
+    const Transform& to_world = to_world_[in.node];
+    const Point3d position = transform_point(to_world, in.position);
+    const Vector3d direction = transform_vector(to_world, in.direction);
+    if (in.kind != AssetLight::Kind::point && !(length(direction) > 0)) return;
+    const LightScale scale = scale_of_light(in, asset_.units_of_blender);
+    const Spectrum spectrum = emission_from_rgb(
+        {scale.factor * in.color[0], scale.factor * in.color[1], scale.factor * in.color[2]});
+    Light out;
+    if (in.kind == AssetLight::Kind::directional) {
+      out.model = DistantLight{normalize(direction), spectrum};
+    } else if (in.kind == AssetLight::Kind::point) {
+      out.model = PointLight{position, spectrum, scale.fading};
+    } else {
+      SpotLight spot;
+      spot.light_to_world = frame_along(position, direction);
+      spot.intensity = spectrum;
+      spot.cutoff_deg = static_cast<float>(std::clamp(in.outer_deg, 0.01, 90.0));
+      spot.beam_deg = std::min(static_cast<float>(std::max(in.inner_deg, 0.0)), spot.cutoff_deg);
+      spot.fading = scale.fading;
+      out.model = spot;
+    }
+    imported_.scene.lights.push_back(std::move(out));
+    if (!are_lights_noted_)
+      note(Fidelity::approximated,
+           asset_.units_of_blender ? "lights are watts and W/m², as Blender means them"
+                                   : "lights have no units: a light of colour 1 shows white as 1",
+           RecordKind::light);
+    are_lights_noted_ = true;
+  }
+
+  static Transform frame_along(Point3d position, Vector3d direction) {
+    const Vector3d up =
+        std::abs(direction.y) < 0.9 * length(direction) ? Vector3d{0, 1, 0} : Vector3d{1, 0, 0};
+    return look_at(position, position + direction, up);
+  }
+
+  void take_camera() {
+    constexpr double usual_fov_deg = 45;
+    const auto chosen = static_cast<std::size_t>(options_.camera);
+    if (chosen != 0 && chosen >= asset_.cameras.size())
+      throw UsageError(fmt::format("{}: it has {} cameras, and --camera {} is asked for", file_,
+                                   asset_.cameras.size(), chosen));
+    if (!has_camera()) return;
+    const AssetCamera& in = asset_.cameras[chosen];
+    const Transform& to_world = to_world_[in.node];
+    Scene& scene = imported_.scene;
+    const Point3d eye = transform_point(to_world, in.position);
+    // look_at puts +x left of who looks along −z with +y up: turned, so that the picture is not mirrored.
+    const Transform frame =
+        look_at(eye, eye + transform_vector(to_world, in.direction), transform_vector(to_world, in.up)) *
+        scale({-1, 1, 1});
+    if (!is_invertible(frame)) throw Error("its camera has no direction", {file_});
+    const double fov_deg =
+        in.horizontal_fov_deg > 0 && in.horizontal_fov_deg < 179 ? in.horizontal_fov_deg : usual_fov_deg;
+    const double wide = std::tan(fov_deg / 2 * std::numbers::pi / 180);
+    if (in.aspect > 1e-3 && in.aspect < 1e3) set_aspect(scene.film, in.aspect);
+    const double tall = wide * scene.film.height / scene.film.width;
+    scene.camera = PerspectiveCamera{frame, {-wide, wide, -tall, tall}, {}};
+    if (asset_.cameras.size() > 1 && chosen == 0)
+      note(Fidelity::approximated,
+           fmt::format("the first of {} cameras: --camera 1 takes the next", asset_.cameras.size()),
+           RecordKind::camera);
+  }
+
+  static void set_aspect(FilmSettings& film, double aspect) {
+    constexpr double longer_side = 1280;
+    film.width = std::max(1, static_cast<int>(std::lround(aspect >= 1 ? longer_side : longer_side * aspect)));
+    film.height =
+        std::max(1, static_cast<int>(std::lround(aspect >= 1 ? longer_side / aspect : longer_side)));
+    film.crop = {0, film.width, 0, film.height};
+  }
+
+  void note_whole_file() {
+    if (asset_.animations > 0)
+      note(Fidelity::approximated,
+           fmt::format("{} animations: the scene is as it stands without them", asset_.animations));
+    if (asset_.bones > 0) note(Fidelity::approximated, "bones: their meshes are as they stand without them");
+    if (asset_.colored_meshes > 0)
+      note(Fidelity::dropped, fmt::format("colours of vertices, of {} meshes", asset_.colored_meshes),
+           RecordKind::shape);
+    if (asset_.points_and_lines > 0) note(Fidelity::dropped, "points and lines", RecordKind::shape);
+  }
+
+  const std::string file_;
+  MeshMemory& memory_;
+  const ImportOptions& options_;
+  Asset asset_;
+  ImportedScene imported_;
+  std::vector<MtlSurface> surfaces_;  // by material
+  std::vector<Transform> to_world_;   // by node
+  std::map<std::size_t, Id<TriangleMesh>> meshes_;
+  std::map<std::size_t, Id<Prototype>> prototypes_;
+  bool are_lights_noted_ = false;
+};
+
+}  // namespace
+
+}  // namespace assimp
+
+ImportedScene read_assimp(const std::filesystem::path& file, MeshMemory memory,
+                          const ImportOptions& options) {
+  assimp::SceneReader reader(file, memory, options);
+  ImportedScene imported = reader.read();
+  if (!options.replace_missing) require_images(imported.scene);
+  reader.has_camera() ? add_default_light(imported, file) : add_default_view(imported, file);
+  return imported;
+}
+
+}  // namespace vitrail

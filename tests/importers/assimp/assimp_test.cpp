@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/assimp/read/assimp.h"
+
+#include <gmock/gmock.h>
+
+#include <cstring>
+
+#include "importers/import.h"
+#include "scene/records/scene.h"
+#include "scene/spectra/rgb_to_spectrum.h"
+#include "scene/system/diagnostics.h"
+#include "tests/importers/temporary_folder.h"
+
+namespace vitrail {
+namespace {
+
+using testing::HasSubstr;
+
+// A triangle of COLLADA in the plane z = 0, +z up: the file's y is −z here.
+constexpr const char* triangle = R"(
+  <library_geometries><geometry id="g" name="g"><mesh>
+    <source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 0 2</float_array><technique_common>
+      <accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor>
+    </technique_common></source>
+    <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+    <triangles count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+  </mesh></geometry></library_geometries>)";
+
+std::string phong(const std::string& parts) {
+  return R"(<library_effects><effect id="e"><profile_COMMON><technique sid="t"><phong>)" + parts +
+         R"(</phong></technique></profile_COMMON></effect></library_effects>
+  <library_materials><material id="m" name="m"><instance_effect url="#e"/></material></library_materials>)";
+}
+
+std::string node(const std::string& name, const std::string& place) {
+  return "<node id=\"" + name + "\" name=\"" + name + "\">" + place +
+         R"(<instance_geometry url="#g"><bind_material><technique_common><instance_material symbol="m" target="#m"/>
+  </technique_common></bind_material></instance_geometry></node>)";
+}
+
+std::string collada(const std::string& libraries, const std::string& nodes) {
+  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  <asset><up_axis>Z_UP</up_axis></asset>)" +
+         libraries + R"(<library_visual_scenes><visual_scene id="s">)" + nodes +
+         R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+class Assimp : public testing::Test {
+ protected:
+  ImportedScene read(const std::string& text, const ImportOptions& options = {}) {
+    return read_assimp(folder_.write("a.dae", text), MeshMemory{}, options);
+  }
+  std::string error_of(const std::string& name, const std::string& bytes) {
+    try {
+      read_assimp(folder_.write(name, bytes));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  static bool says(const ImportedScene& imported, const std::string& words) {
+    return std::ranges::any_of(imported.diagnostics, [&](const Diagnostic& d) {
+      return d.message.find(words) != std::string::npos;
+    });
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Assimp, NodesPlaceMeshesWithYUp) {
+  const ImportedScene one = read(collada(phong("") + triangle, node("n", "<translate>0 0 3</translate>")));
+  ASSERT_EQ(one.scene.shapes.size(), 1u);
+  const Shape& shape = one.scene.shapes[0];
+  EXPECT_EQ(shape.name, "n");
+  const TriangleMesh& mesh = one.scene.meshes.at(shape.mesh.value);
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  const Point3f corner = mesh.positions.at(mesh.triangles[0][2]);
+  const Point3d top = transform_point(shape.object_to_world, cast<double>(corner));
+  EXPECT_NEAR(top.x, 0, 1e-6);
+  EXPECT_NEAR(top.y, 5, 1e-6);
+  EXPECT_NEAR(top.z, 0, 1e-6);
+  EXPECT_TRUE(says(one, "no camera"));
+  EXPECT_TRUE(says(one, "no light"));
+}
+
+TEST_F(Assimp, AMeshOfManyNodesIsAPrototype) {
+  const ImportedScene two =
+      read(collada(phong("") + triangle, node("a", "") + node("b", "<scale>-1 1 1</scale>") +
+                                             node("flat", "<scale>0 1 1</scale>")));
+  EXPECT_TRUE(two.scene.shapes.empty());
+  EXPECT_EQ(two.scene.prototypes.size(), 1u);
+  EXPECT_EQ(two.scene.meshes.size(), 1u);
+  EXPECT_EQ(two.scene.instances.size(), 2u);
+  EXPECT_TRUE(says(two, "'flat' is flat"));
+}
+
+TEST_F(Assimp, MaterialsAreThoseOfMtl) {
+  const auto material = [&](const std::string& parts) {
+    const ImportedScene imported = read(collada(phong(parts) + triangle, node("n", "")));
+    return imported.scene.materials.at(imported.scene.shapes.at(0).material.value);
+  };
+  const std::string red = "<diffuse><color>.5 .25 .125 1</color></diffuse>";
+  const Material diffuse = material(red);
+  EXPECT_EQ(diffuse.name, "m");
+  EXPECT_EQ(std::get<DiffuseMaterial>(diffuse.model).reflectance,
+            SpectrumParameter(Spectrum(reflectance_from_rgb({.5, .25, .125}))));
+  const Material shiny = material(
+      red + "<specular><color>.5 .5 .5 1</color></specular><shininess><float>198</float></shininess>");
+  EXPECT_EQ(std::get<PlasticMaterial>(shiny.model).roughness.alpha_u, FloatParameter(.1f));
+  const Material glass = material(
+      "<transparency><float>.1</float></transparency><index_of_refraction><float>1.5</float></"
+      "index_of_refraction>");
+  EXPECT_TRUE(std::holds_alternative<DielectricMaterial>(glass.model));
+}
+
+TEST_F(Assimp, WhatNobodyWouldSeeIsOpaque) {
+  const ImportedScene imported = read(collada(
+      phong("<diffuse><color>1 1 1 1</color></diffuse><transparency><float>0</float></transparency>") +
+          triangle,
+      node("n", "")));
+  EXPECT_TRUE(std::holds_alternative<DiffuseMaterial>(imported.scene.materials.at(0).model));
+  EXPECT_TRUE(says(imported, "opacity 0"));
+}
+
+TEST_F(Assimp, ImagesThatAreMissingAreRefusedUnlessReplaced) {
+  const std::string text =
+      collada(R"(<library_images><image id="i"><init_from>wood.png</init_from></image></library_images>)" +
+                  std::string(R"(<library_effects><effect id="e"><profile_COMMON>
+  <newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam>
+  <newparam sid="u"><sampler2D><source>s</source></sampler2D></newparam>
+  <technique sid="t"><phong><diffuse><texture texture="u" texcoord="UV"/></diffuse></phong></technique>
+  </profile_COMMON></effect></library_effects>
+  <library_materials><material id="m" name="m"><instance_effect url="#e"/></material></library_materials>)") +
+                  triangle,
+              node("n", ""));
+  EXPECT_THAT(error_of("a.dae", text), HasSubstr("wood.png"));
+  folder_.write("wood.png", "");
+  const ImportedScene imported = read(text);
+  ASSERT_EQ(imported.scene.textures.size(), 1u);
+  EXPECT_THAT(std::get<ImageTexture>(imported.scene.textures[0].model).filename, HasSubstr("wood.png"));
+}
+
+TEST_F(Assimp, LightsShowTheirColour) {
+  const auto light = [&](const std::string& kind) {
+    const ImportedScene imported = read(collada(
+        phong("") + triangle + "<library_lights><light id=\"l\" name=\"l\"><technique_common>" + kind +
+            "</technique_common></light></library_lights>",
+        node("n", "") +
+            "<node id=\"l\" name=\"l\"><translate>1 2 3</translate><instance_light url=\"#l\"/></node>"));
+    EXPECT_EQ(imported.scene.lights.size(), 1u) << kind;
+    return imported.scene.lights.at(0).model;
+  };
+  const std::string white = "<color>1 1 1</color>";
+  const Spectrum shows_one = emission_from_rgb({std::numbers::pi, std::numbers::pi, std::numbers::pi});
+  const auto point = std::get<PointLight>(light("<point>" + white + "</point>"));
+  EXPECT_NEAR(point.position.y, 3, 1e-6);
+  EXPECT_NEAR(point.position.z, -2, 1e-6);
+  EXPECT_EQ(point.intensity, shows_one);
+  EXPECT_EQ(point.fading, Fading{});
+  const auto far = std::get<DistantLight>(light("<directional>" + white + "</directional>"));
+  EXPECT_NEAR(far.direction.y, -1, 1e-6);
+  EXPECT_EQ(far.irradiance, shows_one);
+  // 1/(1 + d²/4): half of it at d = 2.
+  const auto weak =
+      std::get<PointLight>(light("<point>" + white +
+                                 "<constant_attenuation>1</constant_attenuation><quadratic_attenuation>.25</"
+                                 "quadratic_attenuation></point>"));
+  EXPECT_EQ(weak.fading, (Fading{2, 2}));
+  const auto physical =
+      std::get<PointLight>(light("<point>" + white +
+                                 "<constant_attenuation>0</constant_attenuation><quadratic_attenuation>1</"
+                                 "quadratic_attenuation></point>"));
+  EXPECT_EQ(physical.fading, std::nullopt);
+  EXPECT_EQ(physical.intensity, shows_one);
+  const auto spot = std::get<SpotLight>(light("<spot>" + white + "<falloff_angle>60</falloff_angle></spot>"));
+  EXPECT_NEAR(spot.cutoff_deg, 30, 1e-4);
+}
+
+TEST_F(Assimp, TheCameraLooksAsTheFileSays) {
+  const std::string camera =
+      R"(<library_cameras><camera id="c" name="c"><optics><technique_common><perspective>
+  <xfov>90</xfov><aspect_ratio>2</aspect_ratio></perspective></technique_common></optics></camera></library_cameras>)";
+  // In COLLADA a camera looks along −z of its node: here down, with +y of the file up in the picture.
+  const std::string text = collada(
+      phong("") + triangle + camera,
+      node("n", "") +
+          "<node id=\"c\" name=\"c\"><translate>0 0 9</translate><instance_camera url=\"#c\"/></node>");
+  const ImportedScene imported = read(text);
+  const auto view = std::get<PerspectiveCamera>(imported.scene.camera);
+  const Vector3d along = transform_vector(view.camera_to_world, {0, 0, 1});
+  EXPECT_NEAR(along.y, -1, 1e-6);
+  EXPECT_NEAR(transform_point(view.camera_to_world, {0, 0, 0}).y, 9, 1e-5);
+  EXPECT_NEAR(view.screen.x1, 1, 1e-5);
+  EXPECT_EQ(imported.scene.film.width, 2 * imported.scene.film.height);
+  // +x of the file is right in the picture.
+  EXPECT_GT(transform_vector(view.camera_to_world, {1, 0, 0}).x, .999);
+  ImportOptions second;
+  second.camera = 1;
+  EXPECT_THROW(read(text, second), UsageError);
+}
+
+TEST_F(Assimp, BrokenFilesAreRefused) {
+  EXPECT_THAT(error_of("a.fbx", "Kaydara FBX Binary  \x00\x1a\x00 and no more"), HasSubstr("cannot read it"));
+  EXPECT_THAT(error_of("a.3ds", "MM"), HasSubstr("cannot read it"));
+  EXPECT_THAT(error_of("a.dae", "<COLLADA>"), HasSubstr("cannot read it"));
+  EXPECT_THAT(error_of("a.dae", "no XML"), HasSubstr("cannot read it"));
+  std::string text = collada(phong("") + triangle, node("n", ""));
+  const std::size_t at = text.find("0 1 2</p>");
+  EXPECT_NE(error_of("a.dae", text.replace(at, 5, "0 1 7")), "");
+  EXPECT_THROW(read_assimp(folder_ / "none.fbx"), Error);
+}
+
+// Chunks of 3DS: a number of the kind, the length with this head, what is in it.
+std::string chunk(std::uint16_t kind, const std::string& inside) {
+  const auto length = static_cast<std::uint32_t>(inside.size() + 6);
+  std::string bytes(6, '\0');
+  std::memcpy(bytes.data(), &kind, 2);
+  std::memcpy(bytes.data() + 2, &length, 4);
+  return bytes + inside;
+}
+template <typename T>
+std::string numbers(std::uint16_t count, const std::vector<T>& values) {
+  std::string bytes(2 + values.size() * sizeof(T), '\0');
+  std::memcpy(bytes.data(), &count, 2);
+  std::memcpy(bytes.data() + 2, values.data(), values.size() * sizeof(T));
+  return bytes;
+}
+
+TEST_F(Assimp, AnObjectOf3dsByItsSuffix) {
+  const std::string mesh = chunk(0x4110, numbers<float>(3, {0, 0, 0, 1, 0, 0, 0, 0, 2})) +
+                           chunk(0x4120, numbers<std::uint16_t>(1, {0, 1, 2, 7}));
+  const std::string file =
+      chunk(0x4d4d, chunk(0x3d3d, chunk(0x4000, std::string("box\0", 4) + chunk(0x4100, mesh))));
+  const ImportedScene imported = import_scene(folder_.write("A.3DS", file));
+  ASSERT_EQ(imported.scene.shapes.size(), 1u);
+  EXPECT_EQ(imported.scene.meshes.at(0).triangles.size(), 1u);
+  Bounds3d box;
+  for (const Point3f& p : imported.scene.meshes[0].positions)
+    extend(box, transform_point(imported.scene.shapes[0].object_to_world, cast<double>(p)));
+  EXPECT_NEAR(box.upper.y, 2, 1e-6);  // +z of the file is up
+}
+
+}  // namespace
+}  // namespace vitrail
