@@ -66,7 +66,7 @@ std::vector<Case> cases() {
              *attribute = "attribute that is not finite", *position = "a position that is not finite",
              *undefined = "a material that is never defined", *odd = "an odd count of numbers",
              *colors = "colours of vertices", *texture = "TextureFile", *smoothing = "smoothing groups",
-             *named = "several bsdfs by name", *angle = "`maxSmoothAngle`";
+             *named = "several bsdfs by name", *angle = "`maxSmoothAngle`", *unseen = "`Tr 1` without `d`";
   const std::string red = "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n",
                     group = square + "s 1\nf 1 2 3\n";
   return {
@@ -104,6 +104,7 @@ std::vector<Case> cases() {
       {colors, "a.obj", red},
       {texture, "a.ply", ply("comment TextureFile wood.png\n")},
       {texture, "a.xml", mitsuba_shape("ply", "textured.ply")},
+      {unseen, "a.obj", obj("tr.mtl"), nullptr, "taken as opaque"},
       {smoothing, "a.obj", group},
       {smoothing, "a.xml", mitsuba_shape("obj", "smooth.obj")},
       {named, "a.xml",
@@ -117,7 +118,7 @@ std::vector<Case> cases() {
 // Words of the rows: what else a report says (that a view is added) does not count.
 bool is_of_a_row(const std::string& message) {
   for (const char* words : {"not finite", "no such file", "not used", "TextureFile", "smoothing", "odd",
-                            "colours", "bsdf", "not defined"})
+                            "colours", "bsdf", "not defined", "opaque"})
     if (message.find(words) != std::string::npos) return true;
   return false;
 }
@@ -132,6 +133,7 @@ TEST(Courtesies, EachRowWithEachReader) {
   for (const char* name : {"wood.png", "sub/wood.png"}) write(name, "an image that nobody opens");
   for (const char* name : {"red.mtl", "sub/sub.mtl"}) write(name, "newmtl m\nKd 1 0 0\n");
   write("kd.mtl", "NEWMTL m\nkd 1 0 0\n");
+  write("tr.mtl", "newmtl m\nKd 1 0 0\nTr 1\n");
   write("nan.ply", ply("", "nan"));
   write("textured.ply", ply("comment TextureFile wood.png\n"));
   write("smooth.obj", square + "s 1\nf 1 2 3\n");

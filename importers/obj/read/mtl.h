@@ -67,7 +67,7 @@ struct MtlSurface {
 //   half of Ks at most, both up to 1 together
 //   otherwise                                   DiffuseMaterial: Kd, clamped to [0,1]; 0 if not given
 //   map_Kd, map_Ks                              times the colour; alone where that is black or not given
-//   d = 0 (or Tr = 1) without Ni > 1            InterfaceMaterial
+//   d = 0 without Ni > 1                        InterfaceMaterial (Tr = 1 alone is opaque: mtl_material.cpp)
 //   other d < 1 without Ni > 1, map_d           MaskMaterial around any of these
 //   maps of numbers                             the channel of -imfchan; else luminance, of map_d alpha where
 //                                               the image has one

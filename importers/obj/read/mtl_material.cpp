@@ -136,7 +136,14 @@ class Builder {
 
   // ---- Models -----------------------------------------------------------------------------------
 
-  double opacity() const { return mtl_.d ? *mtl_.d : mtl_.tr ? 1 - *mtl_.tr : 1; }
+  double opacity() const {
+    if (mtl_.d) return *mtl_.d;
+    return mtl_.tr && !is_opaque_by_tr() ? 1 - *mtl_.tr : 1;
+  }
+
+  // "Tr 1" alone. MeshLab, OpenMVS and others have written it for what is opaque: Tr was never in the
+  // format's specification, and 1 − d came later. Whoever means "not seen at all" does not export it.
+  bool is_opaque_by_tr() const { return mtl_.tr && *mtl_.tr >= 1 && !mtl_.d && !(mtl_.ni && *mtl_.ni > 1); }
 
   bool is_glass() const {
     const bool by_illum = mtl_.illum == 4 || mtl_.illum == 6 || mtl_.illum == 7 || mtl_.illum == 9;
@@ -160,6 +167,8 @@ class Builder {
   MaterialModel model() {
     const bool glass = is_glass();
     if (mtl_.d && mtl_.tr && *mtl_.d != 1 - *mtl_.tr) note(Fidelity::dropped, "Tr: its d says otherwise");
+    if (is_opaque_by_tr())
+      note(Fidelity::approximated, "Tr 1 without d: taken as opaque, as MeshLab means it");
     if (mtl_.tf && !glass && *mtl_.tf != RGB{1, 1, 1}) note(Fidelity::dropped, "Tf, without Ni above 1");
     if (glass) return dielectric();
     if (opacity() <= 0 && !find("map_d")) return InterfaceMaterial{};

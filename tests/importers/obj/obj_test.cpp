@@ -371,6 +371,7 @@ TEST_F(Obj, Dielectric) {
   const auto tinted = std::get<DielectricMaterial>(material("d 0\nNi 1.33\nTf .5 1 .5\n"));
   EXPECT_EQ(tinted.transmittance_factor, SpectrumParameter(Spectrum(unbounded_from_rgb({.5, 1, .5}))));
   EXPECT_EQ(material("d 0\n"), MaterialModel(InterfaceMaterial{}));
+  EXPECT_EQ(material("Tr 1\nNi 1.5\n"), glass);
   material("illum 4\nNi 1\nKd 1 1 1\n");  // Maya's Lambert
   EXPECT_TRUE(std::holds_alternative<DiffuseMaterial>(imported_.scene.materials[0].model));
   EXPECT_THAT(imported_.diagnostics, says("illum 4"));
@@ -382,6 +383,10 @@ TEST_F(Obj, Masks) {
   EXPECT_EQ(imported_.scene.materials.at(mask.material.value).model,
             MaterialModel(DiffuseMaterial{reflectance_from_rgb({1, 1, 1})}));
   EXPECT_THAT(imported_.diagnostics, says("Tr: its d says otherwise"));
+  // What MeshLab writes of an opaque material.
+  EXPECT_TRUE(std::holds_alternative<DiffuseMaterial>(material("Kd 1 1 1\nTr 1.000000\nillum 2\nNs 0\n")));
+  EXPECT_THAT(imported_.diagnostics, says("Tr 1 without d"));
+  EXPECT_EQ(std::get<MaskMaterial>(material("Kd 1 1 1\nTr .75\n")).opacity, FloatParameter(.25f));
   folder_.write("leaf.png", "");
   const auto leaf = std::get<MaskMaterial>(material("Kd 1 1 1\nd 1\nNi 1.45\nmap_d leaf.png\n"));
   EXPECT_EQ(image(leaf.opacity).encoding, Encoding::linear);
