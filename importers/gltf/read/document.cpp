@@ -134,7 +134,10 @@ void Document::load() {
   } catch (const std::exception& what) {
     error += what.what();
   }
-  if (!loaded) throw Error("cannot read the glTF: " + one_line(error), {file_.string()});
+  if (!loaded) {
+    require_known();  // tinygltf stumbles over what a required extension packs: the extension is the cause
+    throw Error("cannot read the glTF: " + one_line(error), {file_.string()});
+  }
   if (!model_.asset.version.starts_with("2."))
     throw Error(fmt::format("glTF {} is not read: export it as glTF 2.0", model_.asset.version),
                 {file_.string()});

@@ -130,6 +130,15 @@ TEST(GltfHostile, PackedMeshesAreNotReadAsZeros) {
           R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":{}}}]}],)" +
           one_node)),
       "without compression");
+  GltfText packed;
+  packed.accessor(R"("componentType":5126,"type":"VEC3","count":3)");
+  packed.accessor(R"("componentType":5123,"type":"SCALAR","count":3)");
+  EXPECT_SAYS(
+      error_of(packed.text(
+          R"("extensionsRequired":["KHR_draco_mesh_compression"],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,)"
+          R"("extensions":{"KHR_draco_mesh_compression":{}}}]}],)" +
+          one_node)),
+      "without compression");
 }
 
 TEST(GltfHostile, BuffersThatAreMissing) {
