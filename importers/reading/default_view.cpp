@@ -79,14 +79,19 @@ void add_default_view(ImportedScene& imported, const std::filesystem::path& file
   const SourceLocation place{file.string()};
   imported.diagnostics.push_back(
       {Fidelity::approximated, "there is no camera: one that sees everything is added", place});
+  add_default_light(imported, file);
+}
+
+void add_default_light(ImportedScene& imported, const std::filesystem::path& file) {
+  Scene& scene = imported.scene;
   if (!scene.lights.empty() || !scene.area_lights.empty()) return;
   // A white surface that faces the sun has radiance 1; the sky alone would show no shape.
-  constexpr double sky = 0.4, sun = (1 - sky) * std::numbers::pi;
+  constexpr double sky = 0.2, sun = (1 - sky) * std::numbers::pi;
   scene.lights.push_back({InfiniteLight{emission_from_rgb({sky, sky, sky})}});
   scene.lights.push_back(
       {DistantLight{normalize(Vector3d{0.5, -1, -0.7}), emission_from_rgb({sun, sun, sun})}});
   imported.diagnostics.push_back(
-      {Fidelity::approximated, "there is no light: a white sky and a sun are added", place});
+      {Fidelity::approximated, "there is no light: a white sky and a sun are added", {file.string()}});
 }
 
 }  // namespace vitrail

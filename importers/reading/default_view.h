@@ -8,8 +8,11 @@
 namespace vitrail {
 
 // Gives geometry a camera that sees all of it, from the front and a little from above; +y is up. Where
-// nothing shines it adds a white sky and a sun, under which a white surface that faces the sun has
-// radiance 1. Diagnostics report both.
+// nothing shines it adds the default light. Diagnostics report both.
 void add_default_view(ImportedScene& imported, const std::filesystem::path& file);
+
+// Where nothing shines: a white sky and a sun, under which a white surface that faces the sun has radiance 1.
+// For formats whose files often leave light to the program that shows them. Diagnostics report it.
+void add_default_light(ImportedScene& imported, const std::filesystem::path& file);
 
 }  // namespace vitrail

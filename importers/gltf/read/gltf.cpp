@@ -225,7 +225,7 @@ ImportedScene read_gltf(const std::filesystem::path& file, MeshMemory memory, co
   gltf::SceneReader reader(file, memory, options);
   ImportedScene imported = reader.read();
   if (!options.replace_missing) require_images(imported.scene);
-  if (!reader.has_camera()) add_default_view(imported, file);
+  reader.has_camera() ? add_default_light(imported, file) : add_default_view(imported, file);
   return imported;
 }
 
