@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bundle/loaded_domain.h"
 #include "partitioner/partition.h"
 #include "tests/bench/render_scenes.h"
 #include "tests/bench/timing.h"
@@ -121,14 +122,14 @@ double replay(const DomainView& view) {
 // with the same rays.
 void against_the_bare_intersector(const std::string& name, const std::filesystem::path& bundle, int spp) {
   const RenderScene scene(read_manifest(bundle), bundle, 1 << 30, 0);
-  const MappedDomain domain(domain_path(bundle, 0));
+  const auto domain = load_domain(scene.manifest, bundle, 0);
   const KernelFunctions recording_kernel = recorder();
   recording = {};
-  trace_all(scene, &domain.view(), recording_kernel, spp);
+  trace_all(scene, &domain->view(), recording_kernel, spp);
   std::vector<double> whole, bare;
   for (int i = 0; i < 5; ++i) {
-    whole.push_back(trace_all(scene, &domain.view(), best_kernel(), spp));
-    bare.push_back(replay(domain.view()));
+    whole.push_back(trace_all(scene, &domain->view(), best_kernel(), spp));
+    bare.push_back(replay(domain->view()));
   }
   const double millions = static_cast<double>(recording.rays.size()) * 1e-6;
   fmt::print("{:14} {:7.3f} {:7.3f} {:7.3f}\n", name, millions / median(whole), millions / median(bare),
