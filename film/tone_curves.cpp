@@ -47,6 +47,17 @@ double hable(double x) {
   return (x * (a * x + c * b) + d * e) / (x * (a * x + b) + d * f) - e / f;
 }
 
+// The luminance of each pixel that has any.
+template <typename Visit>
+void for_each_lit(const Image& rgb, const Visit& visit) {
+  for (std::size_t p = 0; p < rgb.pixels(); ++p) {
+    const float* c = &rgb.values[3 * p];
+    const double y =
+        srgb_to_xyz({static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])}).y;
+    if (y > 0 && std::isfinite(y)) visit(y);
+  }
+}
+
 }  // namespace
 
 Image agx_tone_mapped(const Image& rgb) {
@@ -71,15 +82,21 @@ Image filmic_tone_mapped(const Image& rgb) {
 double automatic_exposure_ev(const Image& rgb) {
   double logarithms = 0;
   std::size_t lit = 0;
-  for (std::size_t p = 0; p < rgb.pixels(); ++p) {
-    const float* c = &rgb.values[3 * p];
-    const double y =
-        srgb_to_xyz({static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])}).y;
-    if (!(y > 0) || !std::isfinite(y)) continue;
+  for_each_lit(rgb, [&](double y) {
     logarithms += std::log2(y);
     ++lit;
-  }
+  });
   return lit == 0 ? 0 : std::log2(middle_grey) - logarithms / static_cast<double>(lit);
+}
+
+double fitting_exposure_ev(const Image& rgb) {
+  constexpr double far_above_white = 8;
+  std::size_t lit = 0, above = 0;
+  for_each_lit(rgb, [&](double y) {
+    ++lit;
+    above += y > far_above_white;
+  });
+  return 2 * above > lit ? automatic_exposure_ev(rgb) : 0;
 }
 
 }  // namespace vitrail

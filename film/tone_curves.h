@@ -21,4 +21,8 @@ Image filmic_tone_mapped(const Image& rgb);
 // of the pixels that have any; 0 where none has.
 double automatic_exposure_ev(const Image& rgb);
 
+// The same where most of what is lit would be far above white (half of those pixels above 8), as pictures in
+// cd/m² are; else 0, so that a picture stays as bright as its scene makes it.
+double fitting_exposure_ev(const Image& rgb);
+
 }  // namespace vitrail

@@ -126,7 +126,8 @@ void cut_and_resize(Picture& picture, const DevelopArguments& a) {
 
 // Returns the stops that the picture was brightened by.
 double expose_for_screen(Picture& picture, const DevelopArguments& a) {
-  const double ev = exposure_ev(a).value_or(automatic_exposure_ev(picture.rgb));
+  const double ev = exposure_ev(a).value_or(a.exposure == "fit" ? fitting_exposure_ev(picture.rgb)
+                                                                : automatic_exposure_ev(picture.rgb));
   expose(picture, ev);
   if (a.white_balance_K > 0) balance_white(picture, a.white_balance_K);
   if (a.tone == "aces") picture.rgb = aces_tone_mapped(picture.rgb);

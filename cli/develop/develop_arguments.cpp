@@ -34,8 +34,10 @@ void declare(CLI::App& app, DevelopArguments& a) {
   app.add_option("--groups,--group", a.groups,
                  "NAME=WEIGHT,…: weigh the light of these groups of a film of render --light-groups. A "
                  "weight is a number or red:green:blue; * means all groups, and other groups have 1");
-  app.add_option("--exposure", a.exposure,
-                 "brighten by this many stops; auto: the log-average of the luminances becomes 0.18")
+  app.add_option(
+         "--exposure", a.exposure,
+         "brighten by this many stops; auto: the log-average of the luminances becomes 0.18; fit: as auto "
+         "where most of the picture would be far above white, else 0. A render makes its picture with fit")
       ->capture_default_str();
   app.add_option("--white-balance", a.white_balance_K,
                  "show colours under daylight of this temperature in K as they would be under D65; the same "
@@ -75,13 +77,13 @@ bool DevelopArguments::reads_picture() const {
 }
 
 std::optional<double> exposure_ev(const DevelopArguments& a) {
-  if (a.exposure == "auto") return std::nullopt;
+  if (a.exposure == "auto" || a.exposure == "fit") return std::nullopt;
   double ev = 0;
   const char* const end_of_word = a.exposure.data() + a.exposure.size();
   const auto [end, failed] =
       std::from_chars(a.exposure.data() + a.exposure.starts_with('+'), end_of_word, ev);
   if (failed != std::errc() || end != end_of_word || !std::isfinite(ev))
-    throw UsageError("--exposure takes auto or a number of stops, such as 1 or -0.5: " + a.exposure);
+    throw UsageError("--exposure takes auto, fit or a number of stops, such as 1 or -0.5: " + a.exposure);
   return ev;
 }
 

@@ -8,6 +8,7 @@
 #include "film/film_progress.h"
 #include "film/own_picture.h"
 #include "film/png_file.h"
+#include "film/tone_curves.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
 #include "scene/system/output_place.h"
@@ -37,10 +38,20 @@ void develop_film(const RenderArguments& a, const fs::path& file, const fs::path
     const Film film = read_film(file, nullptr);
     require_samples(film, file);
     Picture developed = develop_colors(film);
+    if (const double ev = fitting_exposure_ev(developed.rgb); ev != 0) {
+      expose(developed, ev);
+      if (!a.quiet)
+        say("vitrail: {}: exposed by {:+.1f} stops, since most of it would be white; vitrail develop makes "
+            "others of a "
+            ".film\n",
+            picture.string(), ev);
+    }
     make_straight(developed);
     return write_png(picture, developed);
   }
   std::vector<std::string> arguments{file.string(), "-o", picture.string(), "--quiet"};
+  if (picture.extension() != ".exr" && picture.extension() != ".hdr")
+    arguments.insert(arguments.end(), {"--exposure", "fit"});
   if (spectral_bins > 0 && picture.extension() == ".exr") arguments.push_back("--spectral");
   if (a.denoised) arguments.push_back("--denoise");
   run_program("vitrail-develop", arguments);

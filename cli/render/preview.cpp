@@ -25,9 +25,14 @@ bool Preview::busy() {
 
 void Preview::develop(const std::filesystem::path& film) {
   if (busy()) return;
-  std::array<std::string, 5> words{(program_folder() / "vitrail-develop").string(), film.string(), "-o",
-                                   picture_.string(), "--quiet"};
-  std::array<char*, 6> argv{};
+  std::array<std::string, 7> words{(program_folder() / "vitrail-develop").string(),
+                                   film.string(),
+                                   "-o",
+                                   picture_.string(),
+                                   "--quiet",
+                                   "--exposure",
+                                   "fit"};
+  std::array<char*, 8> argv{};
   for (std::size_t i = 0; i < words.size(); ++i) argv[i] = words[i].data();
   if (::posix_spawn(&developing_, argv[0], nullptr, nullptr, argv.data(), environ) != 0) developing_ = 0;
 }

@@ -68,5 +68,13 @@ TEST(ToneCurves, AutomaticExposureTakesTheLogAverageToMiddleGrey) {
   EXPECT_EQ(automatic_exposure_ev({1, 1, 3, {0, 0, 0}}), 0);
 }
 
+TEST(ToneCurves, FittingExposureLeavesWhatIsNotFarAboveWhite) {
+  const auto two = [](float a, float b) { return Image{2, 1, 3, {a, a, a, b, b, b}}; };
+  EXPECT_EQ(fitting_exposure_ev(two(600, 0.1f)), 0);  // a lamp and a room
+  EXPECT_EQ(fitting_exposure_ev(two(2, 2)), 0);       // a white background
+  EXPECT_EQ(fitting_exposure_ev(two(0, 0)), 0);
+  EXPECT_NEAR(fitting_exposure_ev(two(720, 0)), -std::log2(4000.0), 1e-4);  // cd/m²
+}
+
 }  // namespace
 }  // namespace vitrail
