@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include "bundle/binary_records.h"
 #include "bundle/checksum.h"
@@ -62,9 +64,9 @@ void check_film(const Checker& c, const FilmSettings& f) {
             "the film's spectral bins are too many or empty");
   std::visit(
       [&](const auto& filter) {
-        c.require(
-            filter.radius_x > 0 && filter.radius_y > 0 && std::isfinite(filter.radius_x + filter.radius_y),
-            "the radius of the pixel filter is not a positive number");
+        c.require(0 < filter.radius_x && filter.radius_x <= max_film_extent && 0 < filter.radius_y &&
+                      filter.radius_y <= max_film_extent,
+                  "the radius of the pixel filter is not above 0, or more than 1048576 pixels");
       },
       f.filter);
   if (const auto* gaussian = std::get_if<GaussianFilter>(&f.filter))
@@ -227,6 +229,29 @@ void check_lights(const Checker& c, const Manifest& m) {
       c.require(std::abs(length(sky->to_sun) - 1) < 1e-6 && sky->sun_diameter_deg > 0, "a sky has no sun");
 }
 
+// Images are files of the bundle, as others are not checked; and no file has more bytes than all together
+// could be counted in.
+void check_files(const Checker& c, const Manifest& m) {
+  constexpr std::uint64_t most_bytes = std::uint64_t{1} << 47;
+  std::set<std::string_view> images;
+  for (const TextureFileEntry& t : m.texture_files) {
+    c.require(t.name.starts_with("textures/") && t.name.find("..") == std::string::npos,
+              "a texture has no place in it");
+    c.require(t.bytes <= most_bytes, "a file is larger than files can be");
+    images.insert(t.name);
+  }
+  for (const DomainInfo& d : m.domains)
+    c.require(d.bytes <= most_bytes, "a file is larger than files can be");
+  for (const ObjectInfo& o : m.objects)
+    c.require(o.bytes <= most_bytes, "a file is larger than files can be");
+  const auto check_image = [&](const auto& model) {
+    if constexpr (requires { model.filename; })
+      c.require(images.contains(model.filename), "an image is no file of it");
+  };
+  for (const Texture& t : m.textures) std::visit(check_image, t.model);
+  for (const Light& l : m.lights) std::visit(check_image, l.model);
+}
+
 // Of positive factors, whose product may be more than can be counted.
 bool is_product(std::size_t product, std::initializer_list<int> factors) {
   std::size_t left = product;
@@ -309,9 +334,7 @@ void check_manifest(const Manifest& m, const std::filesystem::path& file) {
   c.require(m.settings.samples_per_pixel > 0 && m.settings.max_depth >= 0,
             "the samples a pixel or the depth is out of range");
   c.require(!m.settings.photons || in_range(*m.settings.photons), "its photons are out of range");
-  for (const TextureFileEntry& t : m.texture_files)
-    c.require(t.name.starts_with("textures/") && t.name.find("..") == std::string::npos,
-              "a texture has no place in it");
+  check_files(c, m);
   check_film(c, m.film);
   if (const char* fault = fault_of_kd_tree(m.kd_nodes, m.domains.size())) c.require(false, fault);
   check_triangles(c, m);

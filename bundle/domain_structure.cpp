@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "scene/system/diagnostics.h"
 
@@ -28,6 +30,14 @@ class OnceEach {
   std::size_t count_ = 0;
 };
 
+// Where a node has no child its box is that of nothing, which no ray enters.
+bool has_box_of_nothing(const BvhNode& node, std::size_t child) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+    if (node.lower[axis][child] != infinity || node.upper[axis][child] != -infinity) return false;
+  return true;
+}
+
 // Children come after their parent and every node and leaf hangs in exactly one place, so a traversal ends
 // and its stack is bounded by the depth; a curve, which is an instance, may have several leaves.
 void check_tree(const std::filesystem::path& file, std::span<const BvhNode> tree, std::size_t leaf_count,
@@ -36,8 +46,13 @@ void check_tree(const std::filesystem::path& file, std::span<const BvhNode> tree
   std::vector<std::uint8_t> depth(tree.size(), 1);
   if (!tree.empty()) nodes.mark(0);
   for (std::size_t i = 0; i < tree.size(); ++i)
-    for (const std::uint32_t child : tree[i].child) {
-      if (child == BvhNode::empty) continue;
+    for (std::size_t place = 0; place < std::size(tree[i].child); ++place) {
+      const std::uint32_t child = tree[i].child[place];
+      if (child == BvhNode::empty) {
+        if (!has_box_of_nothing(tree[i], place))
+          reject_domain(file, fmt::format("node {} has a box around no child", i));
+        continue;
+      }
       const std::size_t index = child & ~BvhNode::cluster_bit;
       if (child & BvhNode::cluster_bit) {
         if (index >= leaf_count || (!leaves.mark(index) && !may_repeat))

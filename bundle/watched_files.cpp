@@ -3,9 +3,11 @@
 
 #include <sys/stat.h>
 
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <tuple>
 
 #include "scene/system/diagnostics.h"
@@ -15,16 +17,20 @@ namespace vitrail {
 
 namespace {
 
+// As it was when it was first mapped. Files form a list to which one is added at a time and from which none
+// is taken: threads and signal handlers go through it without a lock.
 struct Watched {
-  dev_t device;
-  ino_t inode;
-  off_t size;
-  timespec modified;
+  std::string name;
+  struct stat status;
+  const Watched* older;
 };
+
+std::atomic<const Watched*> newest = nullptr;
+static_assert(std::atomic<const Watched*>::is_always_lock_free);
 
 struct Registry {
   std::mutex mutex;
-  std::map<std::string, Watched> files;
+  std::map<std::string_view, const Watched*> latest;  // of that name
 };
 
 Registry& registry() {
@@ -32,40 +38,46 @@ Registry& registry() {
   return only;
 }
 
-Watched of(const struct stat& s) { return {s.st_dev, s.st_ino, s.st_size, s.st_mtim}; }
+bool same_file(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
 
-bool same_file(const Watched& a, const Watched& b) { return a.device == b.device && a.inode == b.inode; }
-
-bool unchanged(const Watched& a, const Watched& b) {
-  const auto content = [](const Watched& w) {
-    return std::tuple(w.size, w.modified.tv_sec, w.modified.tv_nsec);
+bool unchanged(const struct stat& a, const struct stat& b) {
+  const auto content = [](const struct stat& s) {
+    return std::tuple(s.st_size, s.st_mtim.tv_sec, s.st_mtim.tv_nsec);
   };
   return content(a) == content(b);
+}
+
+bool has_changed(const Watched& w) {
+  struct stat now;
+  return ::stat(w.name.c_str(), &now) == 0 && same_file(w.status, now) && !unchanged(w.status, now);
 }
 
 }  // namespace
 
 void watch(const std::filesystem::path& file) {
-  struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) return;  // who maps it says so
-  const Watched now = of(status);
+  struct stat now;
+  if (::stat(file.c_str(), &now) != 0) return;  // who maps it says so
   const std::lock_guard lock(registry().mutex);
-  const auto [at, is_new] = registry().files.try_emplace(file.string(), now);
-  if (!is_new && !same_file(at->second, now)) at->second = now;
+  const auto known = registry().latest.find(file.native());
+  if (known != registry().latest.end() && same_file(known->second->status, now)) return;
+  const auto* added = new Watched{file.native(), now, newest.load(std::memory_order_relaxed)};
+  registry().latest.insert_or_assign(added->name, added);
+  newest.store(added, std::memory_order_release);
+}
+
+const char* changed_file() {
+  for (const Watched* w = newest.load(std::memory_order_acquire); w; w = w->older)
+    if (has_changed(*w)) return w->name.c_str();
+  return nullptr;
 }
 
 void require_unchanged_files() {
-  const std::lock_guard lock(registry().mutex);
-  for (const auto& [file, then] : registry().files) {
-    const std::filesystem::path path = file;
+  for (const Watched* w = newest.load(std::memory_order_acquire); w; w = w->older) {
+    const std::filesystem::path path = w->name;
     const Underway underway("looking at", path);
-    struct stat status {};
-    if (::stat(file.c_str(), &status) != 0) continue;
-    if (same_file(then, of(status)) && !unchanged(then, of(status)))
-      throw Error(
-          "this file changed during the render: the samples after the last checkpoint may be wrong, and are "
-          "not written",
-          {file});
+    if (has_changed(*w)) throw Error(file_changed, {w->name});
   }
 }
 

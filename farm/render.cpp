@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/render.h"
 
+#include <fmt/format.h>
 #include <malloc.h>
 
 #include <algorithm>
@@ -10,10 +11,12 @@
 #include "farm/conclude/gather_profile.h"
 #include "farm/conclude/gather_timeline.h"
 #include "farm/conclude/job_report.h"
+#include "farm/files/crashes.h"
 #include "farm/files/signals.h"
 #include "farm/plan/job.h"
 #include "farm/plan/same_job.h"
 #include "farm/run/about.h"
+#include "farm/run/file_watch.h"
 #include "farm/run/rank.h"
 #include "farm/run/workers.h"
 #include "farm/transport/agreement.h"
@@ -59,6 +62,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   ::mallopt(M_ARENA_MAX, 2);  // an arena a thread would keep memory that the budget does not know of
   catch_signals();
+  catch_crashes();
   // Plan.
   now_doing("reading the scene");
   Job job;
@@ -70,6 +74,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   const std::uint64_t samples_before = job.film.samples();  // on rank 0
   // Run.
   now_doing("beginning to render");
+  const FileWatch file_watch(
+      transport.size() > 1 ? fmt::format("rank {} of {}: ", transport.rank(), transport.size()) : "");
   RankState state(*job.scene, job.film, std::move(earlier.plan), job.plan, options);
   const bool finished_before = earlier.finished;
   Rank rank(transport, state, options, job, std::move(earlier), words);

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "film/film_layout.h"
 #include "film/film_progress.h"
 #include "scene/records/film_extent.h"
 #include "scene/system/atomic_file.h"
@@ -25,62 +26,13 @@
 
 namespace vitrail {
 
+using namespace film_layout;
+
 static_assert(std::endian::native == std::endian::little, "files are written as they lie in memory");
 
 namespace {
 
-constexpr char film_magic[8] = {'v', 'i', 't', 'f', 'i', 'l', 'm', '\n'};
-// Of the last two, what photons its samples gathered, or which lights it keeps apart, follows the header.
-constexpr std::uint32_t film_version = 4, adaptive_version = 5, photon_version = 7, groups_version = 8;
-
-// What a film was rendered with, in Header::options.
-constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, option_camera_space = 4,
-                        option_adaptive = 8, option_open_round = 16, option_splats = 32,
-                        option_one_sequence = 64, option_hides_emitters = 128;
-constexpr std::uint32_t threshold_bits = 0xffff0000;  // the upper half of a float
-constexpr std::uint32_t options_of(std::uint32_t version) {
-  const bool may_be_adaptive = version == adaptive_version || version == groups_version;
-  return threshold_bits | option_splats | option_one_sequence | option_hides_emitters |
-         (may_be_adaptive ? 31 : 7);
-}
-
-struct Header {
-  char magic[8];
-  std::uint32_t version;
-  std::int32_t full_width, full_height;
-  std::int32_t x0, x1, y0, y1;
-  std::int32_t bins;
-  double imaging_ratio;
-  double bins_min_nm, bins_max_nm;
-  std::uint64_t scene_hash, seed;
-  std::uint64_t items, samples_per_pixel;
-  double render_time_s;
-  char renderer[16];  // ends with a zero
-  std::uint32_t picture_revision;
-  std::int32_t max_depth;
-  std::uint32_t options;
-  std::int32_t exponent;
-  double clamp;
-  std::uint64_t nonfinite, too_large;  // deposits
-  std::uint32_t earlier_ends, about_bytes;
-  std::uint32_t layers;
-  std::int32_t length_exponent;
-  std::uint64_t checksum;  // of all before it
-};
-static_assert(sizeof(Header) == 184);
-
-// Of a film that keeps groups of lights: followed by their names, each with a zero behind it.
-struct GroupsHeader {
-  std::uint64_t lights;
-  std::uint32_t groups, text_bytes;
-};
-constexpr std::uint32_t most_text_bytes = 1 << 20;
-
-std::uint64_t checksum(const Header& h) { return XXH3_64bits(&h, offsetof(Header, checksum)); }
-
 bool in_range(std::int32_t exponent) { return least_exponent <= exponent && exponent <= greatest_exponent; }
-
-std::uint64_t words_of(std::uint64_t items) { return items / 64 + (items % 64 != 0 ? 1 : 0); }
 
 template <class T>
 void write_array(AtomicFile& out, const T& array) {
@@ -137,9 +89,11 @@ bool has_bins(const Header& h) {
          std::isfinite(h.bins_max_nm - h.bins_min_nm);
 }
 bool has_key(const Header& h) {
+  const auto threshold = std::bit_cast<float>(h.options & threshold_bits);
   return std::memchr(h.renderer, 0, sizeof h.renderer) != nullptr && h.max_depth >= 0 &&
          (h.options & ~options_of(h.version)) == 0 && (h.layers & ~all_layers) == 0 && in_range(h.exponent) &&
-         in_range(h.length_exponent) && h.clamp >= 0 && std::bit_cast<float>(h.options & threshold_bits) >= 0;
+         in_range(h.length_exponent) && h.clamp >= 0 && std::isfinite(h.clamp) && 0 <= threshold &&
+         threshold < 1;
 }
 
 Header read_header(Reader& in) {
@@ -154,7 +108,8 @@ Header read_header(Reader& in) {
                     "made the film can develop it",
                     h.version, to_string(this_renderer()), film_version));
   if (h.checksum != checksum(h)) in.fail("the film file is corrupt: the checksum of its header is wrong");
-  if (!has_sizes(h) || !has_bins(h) || !has_key(h) || !(h.render_time_s >= 0))
+  if (!has_sizes(h) || !has_bins(h) || !has_key(h) ||
+      !(h.render_time_s >= 0 && std::isfinite(h.render_time_s)))
     in.fail("the film file is corrupt: its header makes no sense");
   return h;
 }
@@ -187,41 +142,16 @@ std::vector<char> text_of(const LightGroups& groups) {
   return text;
 }
 
-std::uint64_t bytes_in_file(const LightGroups& groups) {
-  return groups.any() ? sizeof(GroupsHeader) + text_of(groups).size() + 2 * 8 : 0;
+GroupsHeader header_of(const LightGroups& groups) {
+  return {groups.lights, static_cast<std::uint32_t>(groups.names.size()),
+          static_cast<std::uint32_t>(text_of(groups).size())};
 }
 
-// What a header says of the arrays behind it.
-struct Arrays {
-  Arrays(const Header& h, const LightGroups& groups)
-      : pixels(static_cast<std::uint64_t>(h.x1 - h.x0) * static_cast<std::uint64_t>(h.y1 - h.y0)),
-        layers{h.layers, (h.options & option_camera_space) != 0},
-        open_round((h.options & option_open_round) != 0),
-        group_bytes(bytes_in_file(groups)),
-        planes(2 + sample_groups + static_cast<std::uint64_t>(h.bins) + sum_planes(layers) +
-               planes_a_group * groups.names.size() +
-               ((h.options & option_splats) != 0 ? sample_groups : 0)) {}
-
-  std::uint64_t pixels;
-  FilmLayers layers;
-  bool open_round;
-  std::uint64_t group_bytes;  // of the light groups' names
-  std::uint64_t planes;       // of sums
-};
-
 // Throws unless the file has as many bytes as its header says.
-void check_size(const Reader& in, const Header& h, const Arrays& arrays) {
-  const std::uint64_t but_for_done =
-      arrays.pixels * (arrays.planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
-                       id_planes(arrays.layers) * sizeof(std::int64_t) +
-                       matte_planes(arrays.layers) * sizeof(MattePixel)) +
-      (matte_planes(arrays.layers) > 0 ? 8 : 0) + h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} +
-      h.about_bytes + 6 * 8 + (h.clamp > 0 ? sizeof(WideSum) : 0) + arrays.group_bytes +
-      (h.version == photon_version ? sizeof(PhotonKey) + 8 + 2 * photon_batches * sizeof(WideSum) : 0) +
-      (arrays.open_round ? arrays.pixels * sizeof(std::uint32_t) + 8 : 0);
-  const std::uint64_t bytes = in.size() - sizeof h;
-  if (bytes < but_for_done || (bytes - but_for_done) % 8 != 0 ||
-      (bytes - but_for_done) / 8 != words_of(h.items))
+void check_size(const Reader& in, const Header& h, const LightGroups& groups) {
+  std::uint64_t bytes = sizeof h;
+  for (const std::uint64_t array : bytes_of_arrays(h, header_of(groups))) bytes += array + sizeof h.checksum;
+  if (in.size() != bytes)
     in.fail(fmt::format("the film file is truncated or has bytes too many: {} bytes", in.size()));
 }
 
@@ -237,7 +167,7 @@ PhotonKey read_photons(Reader& in, const Header& h) {
 }
 
 // All but `more`, which comes last.
-FilmProgress read_progress(Reader& in, const Header& h) {
+FilmProgress read_progress(Reader& in, const Header& h, const Arrays& arrays) {
   FilmProgress read{
       h.items, h.samples_per_pixel, {}, h.render_time_s, {}, {}, (h.options & option_adaptive) != 0, {}};
   in.read_array(read.earlier_ends, h.earlier_ends, "earlier ends");
@@ -246,7 +176,7 @@ FilmProgress read_progress(Reader& in, const Header& h) {
       (!read.earlier_ends.empty() && read.earlier_ends.back() >= h.samples_per_pixel))
     in.fail("the film file is corrupt: it continues from more samples than it has");
   in.read_array(read.about, h.about_bytes, "description");
-  in.read_array(read.done, words_of(h.items), "progress");
+  in.read_array(read.done, arrays.done, "progress");
   if (h.items % 64 != 0 && read.done.back() >> (h.items % 64) != 0)
     in.fail("the film file is corrupt: it has work done beyond its work items");
   return read;
@@ -315,10 +245,8 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   out.write(std::as_bytes(std::span(&h, 1)));
   if (photons) write_array(out, std::array{key.photons});
   if (groups.any()) {
-    const std::vector<char> text = text_of(groups);
-    write_array(out, std::array{GroupsHeader{groups.lights, static_cast<std::uint32_t>(groups.names.size()),
-                                             static_cast<std::uint32_t>(text.size())}});
-    write_array(out, text);
+    write_array(out, std::array{header_of(groups)});
+    write_array(out, text_of(groups));
   }
   write_array(out, progress.earlier_ends);
   write_array(out, progress.about);
@@ -335,10 +263,10 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   Reader in(file);
   const Header h = read_header(in);
   const LightGroups groups = read_groups(in, h);
-  const Arrays arrays(h, groups);
-  check_size(in, h, arrays);
+  check_size(in, h, groups);
+  const Arrays arrays = arrays_of(h, groups.names.size());
   const PhotonKey photons = read_photons(in, h);
-  FilmProgress read = read_progress(in, h);
+  FilmProgress read = read_progress(in, h, arrays);
   Film film;
   film.settings_.crop = {h.x0, h.x1, h.y0, h.y1};
   film.settings_.width = h.full_width, film.settings_.height = h.full_height;
@@ -348,14 +276,13 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   film.key_ = key_of(h, photons, groups);
   film.exponent_ = h.exponent, film.length_exponent_ = h.length_exponent;
   film.refused_ = {h.nonfinite, h.too_large};
-  in.read_array(film.sums_, arrays.planes * arrays.pixels + single_sums(film.key_), "sums");
-  in.read_array(film.counts_, sample_groups * arrays.pixels, "counts");
-  in.read_array(film.ids_, id_planes(arrays.layers) * arrays.pixels, "ids");
-  if (matte_planes(arrays.layers) > 0)
-    in.read_array(film.mattes_, matte_planes(arrays.layers) * arrays.pixels, "mattes");
+  in.read_array(film.sums_, arrays.sums, "sums");
+  in.read_array(film.counts_, arrays.counts, "counts");
+  in.read_array(film.ids_, arrays.ids, "ids");
+  if (arrays.mattes > 0) in.read_array(film.mattes_, arrays.mattes, "mattes");
   if (!std::ranges::all_of(film.mattes_, makes_sense))
     in.fail("the film file is corrupt: its mattes make no sense");
-  if (arrays.open_round) in.read_array(read.more, arrays.pixels, "open round");
+  if (arrays.more > 0) in.read_array(read.more, arrays.more, "open round");
   if (progress) *progress = std::move(read);
   return film;
 }

@@ -102,7 +102,9 @@ void interpret(PartitionArguments& a) {
   }
   require_input(a.input, {InputKind::scene});
   note_input(a.input);
-  require_folder_of(a.output.has_filename() ? a.output : a.output.parent_path());
+  const std::filesystem::path bundle = a.output.has_filename() ? a.output : a.output.parent_path();
+  require_folder_of(bundle);
+  require_short_name(bundle);
   require_no_other(a);
   if (!a.stats.empty()) require_place(a.stats);
   if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);

@@ -17,6 +17,7 @@
 #include "cli/common/switching_glazing.h"
 #include "cli/render/display_server.h"
 #include "cli/render/quality.h"
+#include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/terminal.h"
 
@@ -263,7 +264,9 @@ void RenderArguments::name_outputs() {
   JobOutputs& o = options.outputs;
   o.keeps_film = output.extension() == ".film" || !film.empty();
   if (output.extension() != ".film") o.picture = output;
-  o.film = !film.empty() ? film : o.picture.empty() ? output : std::filesystem::path(output) += ".work";
+  o.film = behind_links(!film.empty()       ? film
+                        : o.picture.empty() ? output
+                                            : std::filesystem::path(output) += ".work");
 }
 
 bool RenderArguments::is_bundle() const {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/files/signals.h"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <csignal>
 
@@ -22,15 +20,6 @@ void on_signal(int number) {
     stop_number.compare_exchange_strong(none, number);
 }
 
-// A mapped file that became shorter, or a disk that fails under it. Nothing can be waited for in here: mpirun
-// ends the other ranks.
-void on_bus_error(int) {
-  constexpr char words[] = "vitrail: a mapped file of the bundle became shorter, or its disk failed\n";
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, words, sizeof words - 1);
-  constexpr int exit_machine = 4;
-  ::_exit(exit_machine);
-}
-
 }  // namespace
 
 void catch_signals() {
@@ -38,8 +27,6 @@ void catch_signals() {
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;
   for (int number : {SIGTERM, SIGINT, SIGUSR1}) ::sigaction(number, &action, nullptr);
-  action.sa_handler = on_bus_error;
-  ::sigaction(SIGBUS, &action, nullptr);
   // A reader of messages that goes away, or a limit to the size of files, does not end the work: what cannot
   // be written says so.
   action.sa_handler = SIG_IGN;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TERM and INT ask a rank to stop cleanly, USR1 to write a checkpoint and go on. BUS ends it with status 4.
+// TERM and INT ask a rank to stop cleanly, USR1 to write a checkpoint and go on.
 #pragma once
 
 namespace vitrail {

@@ -72,6 +72,7 @@ BundleDirectory::BundleDirectory(fs::path target, bool durable)
     : target_(std::move(target)), durable_(durable) {
   if (!target_.has_filename()) target_ = target_.parent_path();  // a slash at the end
   if (target_.empty()) throw UsageError("the bundle has no name");
+  target_ = behind_links(target_);
   temporary_ = beside(target_, "tmp");
   try {
     check_target(target_);

@@ -25,16 +25,19 @@ std::atomic<bool> parts_on_their_way{false};  // to the disk
   throw MachineError(fmt::format("cannot {} {}: {}", what, file.string(), std::strerror(errno)));
 }
 
-// The file that a symbolic link stands for, there or not; another file itself.
+}  // namespace
+
 std::filesystem::path behind_links(std::filesystem::path file) {
   constexpr int most_links = 40;  // as Linux follows
+  const std::filesystem::path named = file;
   std::error_code none;
-  for (int links = 0; links < most_links && std::filesystem::is_symlink(file, none); ++links)
+  for (int links = 0; std::filesystem::is_symlink(file, none); ++links) {
+    if (links == most_links)
+      throw MachineError(fmt::format("cannot write {}: {}", named.string(), std::strerror(ELOOP)));
     file = file.parent_path() / std::filesystem::read_symlink(file);
+  }
   return file;
 }
-
-}  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path target) : target_(behind_links(std::move(target))) {
   if (is_input(target_))

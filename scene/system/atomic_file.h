@@ -36,6 +36,10 @@ class AtomicFile {
   std::uint64_t size_ = 0;
 };
 
+// The file that a symbolic link stands for, there or not; another file itself. What lies beside an output
+// while it is made lies beside that file. Throws MachineError for links that lead to each other.
+std::filesystem::path behind_links(std::filesystem::path file);
+
 // Removes what killed writers of `target` left of their temporary files. Only for who knows that nobody
 // writes it now.
 void remove_temporaries(const std::filesystem::path& target);

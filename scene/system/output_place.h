@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be known of an output before the work for it begins.
+// What can be known of an output before the work for it begins. Of a symbolic link the file behind it counts.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,10 @@ namespace vitrail {
 // for) or cannot be written to.
 void require_folder_of(const std::filesystem::path& file);
 
-// The same, and where the name is a folder's. Throws UsageError where it was read (is_input), and where the
-// name leaves no room for that of the temporary file.
+// Throws UsageError where the name leaves no room for that of the temporary file or folder beside it.
+void require_short_name(const std::filesystem::path& file);
+
+// Both, and MachineError where the name is a folder's. Throws UsageError where it was read (is_input).
 void require_place(const std::filesystem::path& file);
 
 // Throws MachineError where the disk of `file` has less than that left.

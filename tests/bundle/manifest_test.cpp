@@ -225,6 +225,12 @@ TEST_F(ManifestFile, WrongContentIsFound) {
       [](Manifest& m) {
         m.film.filter = BoxFilter{0, 1};
       },
+      [](Manifest& m) {
+        m.film.filter = BoxFilter{1, 1e300};
+      },
+      [](Manifest& m) { std::get<ImageTexture>(m.textures[0].model).filename = "/etc/passwd"; },
+      [](Manifest& m) { std::get<ImageTexture>(m.textures[0].model).filename = "textures/000001.tex"; },
+      [](Manifest& m) { m.domains[1].bytes = ~std::uint64_t{0}; },
       [](Manifest& m) { m.settings.samples_per_pixel = 0; },
       [](Manifest& m) { m.settings.photons->photons = 0; },
       [](Manifest& m) { m.settings.photons->first_radius = -1; },

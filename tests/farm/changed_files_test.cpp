@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of a bundle that are changed while they are rendered.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <functional>
 
+#include "bundle/watched_files.h"
+#include "farm/files/crashes.h"
 #include "film/film_progress.h"
+#include "tests/farm/machine_limits.h"
 #include "tests/support/background.h"
 #include "tests/support/partitioned_box.h"
 
@@ -80,9 +86,96 @@ TEST_F(ChangedFiles, DeletedOrReplacedWhileMappedIsAsItWas) {
 
 TEST_F(ChangedFiles, CutShortEndsTheJob) {
   const CommandResult ended = rendered_while([](const fs::path& file) { fs::resize_file(file, 1); });
-  EXPECT_TRUE(ended.status == 3 || ended.status == 4) << ended.status;
-  EXPECT_THAT(ended.output, ::testing::AnyOf(HasSubstr("became shorter"), HasSubstr("this file changed")));
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_THAT(ended.output, HasSubstr(".dom: this file changed during the render"));
   EXPECT_FALSE(fs::exists(path("a.film")));
+}
+
+// A grid of 800 triangles, whose tree has nodes under nodes.
+class OverwrittenFiles : public ChangedFiles {
+ protected:
+  void SetUp() override {
+    std::ofstream scene(path("grid.pbrt"));
+    scene << "LookAt 0 0 3  0 0 0  0 1 0 Camera \"perspective\" Film \"rgb\" \"integer xresolution\" 64 "
+             "\"integer "
+             "yresolution\" 64 WorldBegin LightSource \"infinite\" Shape \"trianglemesh\" \"point3 P\" [";
+    constexpr int side = 20;
+    for (int y = 0; y <= side; ++y)
+      for (int x = 0; x <= side; ++x)
+        scene << .1 * x - 1 << ' ' << .1 * y - 1 << ' ' << .01 * ((x * x + y) % 7) << ' ';
+    scene << "] \"integer indices\" [";
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const int p = y * (side + 1) + x;
+        scene << p << ' ' << p + 1 << ' ' << p + side + 1 << ' ' << p + 1 << ' ' << p + side + 2 << ' '
+              << p + side + 1 << ' ';
+      }
+    scene << "]";
+    scene.close();
+    const CommandResult made = run(fmt::format("{} '{}' -o '{}' --domains 2 --quiet", vitrail("partition"),
+                                               path("grid.pbrt"), path("box.vit")));
+    ASSERT_EQ(made.status, 0) << made.output;
+  }
+  void expect_named(char byte) const {
+    const CommandResult ended = rendered_while([&](const fs::path& file) {
+      const auto bytes = fs::file_size(file);
+      std::fstream out(file, std::ios::in | std::ios::out | std::ios::binary);
+      out.seekp(512);
+      out << std::string(bytes - 512, byte);
+    });
+    EXPECT_EQ(ended.status, 3) << ended.output;
+    EXPECT_THAT(ended.output, HasSubstr(".dom: this file changed during the render"));
+    EXPECT_FALSE(fs::exists(path("a.film")));
+  }
+};
+
+// Every child is the root: a traversal has no end, and no checkpoint comes.
+TEST_F(OverwrittenFiles, WithoutEndAreNamed) { expect_named('\0'); }
+
+// Children are far outside of the file.
+TEST_F(OverwrittenFiles, ThatCrashAreNamed) { expect_named('\x3f'); }
+
+// Touches the second page of a mapped file of two that was cut; returns what it says and its exit status.
+CommandResult touched_after(const fs::path& folder, const std::function<void(const fs::path&)>& change) {
+  const fs::path file = folder / "two-pages", said = folder / "said";
+  const auto page = static_cast<std::size_t>(::getpagesize());
+  std::ofstream(file) << std::string(2 * page, 'x');
+  CommandResult result;
+  const int status = wait_for(start_child([&] {
+    const int out = ::open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600),
+              in = ::open(file.c_str(), O_RDONLY);
+    ::dup2(out, STDERR_FILENO);
+    watch(file);
+    const void* mapped = ::mmap(nullptr, 2 * page, PROT_READ, MAP_SHARED, in, 0);
+    catch_crashes();
+    change(file);
+    [[maybe_unused]] const char touched = static_cast<const volatile char*>(mapped)[page];
+  }));
+  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  std::ifstream words(said);
+  result.output.assign(std::istreambuf_iterator<char>(words), {});
+  return result;
+}
+
+TEST(Crashes, NameTheFileThatTheyAreOf) {
+  const TemporaryDirectory directory;
+  const CommandResult shorter =
+      touched_after(directory.path(), [](const fs::path& file) { fs::resize_file(file, 1); });
+  EXPECT_EQ(shorter.status, 3);
+  EXPECT_THAT(shorter.output, HasSubstr("two-pages: this file changed during the render"));
+  const CommandResult gone = touched_after(directory.path(), [](const fs::path& file) {
+    fs::resize_file(file, 1);
+    fs::remove(file);
+  });
+  EXPECT_EQ(gone.status, 4);
+  EXPECT_THAT(gone.output, HasSubstr("cannot read " + (directory / "two-pages").string()));
+}
+
+TEST(Crashes, OfOtherReasonsAreAsBefore) {
+  const TemporaryDirectory directory;
+  for (const int number : {SIGSEGV, SIGABRT, SIGBUS})
+    EXPECT_EQ(touched_after(directory.path(), [&](const fs::path&) { ::raise(number); }).status,
+              128 + number);
 }
 
 }  // namespace

@@ -50,6 +50,18 @@ TEST_F(Checkpoint, OfTheSameProgramAndOptionsIsResumed) {
   EXPECT_EQ(resumed.status, 0) << resumed.output;
 }
 
+TEST_F(Checkpoint, LiesBesideTheFileThatALinkStandsFor) {
+  const auto disk = directory_ / "disk";
+  std::filesystem::create_directory(disk);
+  std::filesystem::rename(partial_, disk / "real.film.partial");
+  std::filesystem::create_symlink("disk/real.film", film_);
+  const CommandResult resumed = render("--resume");
+  EXPECT_EQ(resumed.status, 0) << resumed.output;
+  EXPECT_TRUE(std::filesystem::is_symlink(film_));
+  EXPECT_TRUE(std::filesystem::is_regular_file(disk / "real.film"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(disk), {}), 1) << "nothing else stays";
+}
+
 // What is gone on with is in memory once, though a film and a checkpoint lie there.
 TEST_F(Checkpoint, GoingOnKeepsWithinItsMemory) {
   const auto large = directory_ / "large.film", stats = directory_ / "stats.json";

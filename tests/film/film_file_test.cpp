@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "film/film_progress.h"
 #include "scene/system/diagnostics.h"
@@ -249,6 +250,20 @@ TEST_F(FilmFile, RefusesWorkBeyondItsItems) {
   progress_.done[1] = 0x40;
   write_film(file_, film_, progress_);
   expect_error("beyond");
+}
+
+TEST_F(FilmFile, RefusesNumbersThatAreNotFinite) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  FilmKey key = film_.key();
+  key.clamp = infinity;
+  write_film(file_, Film(film_.settings(), key), progress_);
+  expect_error("its header makes no sense");
+  key.clamp = 0, key.threshold = std::numeric_limits<float>::infinity();
+  write_film(file_, Film(film_.settings(), key), progress_);
+  expect_error("its header makes no sense");
+  progress_.render_time_s = infinity;
+  write_film(file_, film_, progress_);
+  expect_error("its header makes no sense");
 }
 
 TEST_F(FilmFile, RefusesToGoOnFromMoreThanItHas) {

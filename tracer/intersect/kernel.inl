@@ -157,7 +157,9 @@ struct Slabs {
       far[a] = (static_cast<std::uint32_t>(a) * 2 + 3) * 8 - near[a];
     }
   }
-  // In an object: ζ is the ray's own s, and the margins grow by its pad.
+  static constexpr float widest = 1e38f;
+  // In an object: ζ is the ray's own s, and the margins grow by its pad. Where a transform leaves the numbers
+  // of floats they are so wide that every child is entered, and finite, so that the box of none is not.
   explicit Slabs(const InstanceRay& ray) {
     for (std::uint32_t a = 0; a < 3; ++a) {
       const float scale_a = static_cast<float>(ray.inverse_direction[a]);
@@ -165,8 +167,8 @@ struct Slabs {
       const float margin = static_cast<float>(ray.pad[a]) * __builtin_fabsf(scale_a) * (1 + 1e-6f) +
                            8 * unit_roundoff * __builtin_fabsf(offset);
       scale[a] = fill(scale_a);
-      entry_offset[a] = fill(offset - margin);
-      exit_offset[a] = fill(offset + margin);
+      entry_offset[a] = fill(offset - margin > -widest ? offset - margin : -widest);
+      exit_offset[a] = fill(offset + margin < widest ? offset + margin : widest);
       near[a] = (__builtin_signbit(scale_a) ? a + 3 : a) * 8;
       far[a] = (a * 2 + 3) * 8 - near[a];
     }

@@ -230,6 +230,16 @@ TEST(Instances, FarAwayAndOfUnlikeSizes) {
 }
 
 // Coinciding instances: of equal t the least id wins, wherever it is found.
+// A ray in such an object has margins that no float holds: it still enters no child that is not there.
+TEST(Instances, FlatterThanFloatsTell) {
+  for (const double thickness : {1e-12, 1e-25, 1e-37}) {
+    Parts parts = forest(1, 12);
+    for (Part::Use& use : parts[3].uses)
+      for (double& x : use.to_parent.m[2]) x *= thickness;
+    expect_equal(parts, 2'000, false);
+  }
+}
+
 TEST(Instances, CoincidingOnesAreDecidedById) {
   Parts parts = forest(1, 6);
   const std::vector<Part::Use> uses = parts[3].uses;

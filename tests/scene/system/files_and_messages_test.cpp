@@ -73,6 +73,24 @@ TEST(OutputPlace, HasRoomForTheTemporaryFilesName) {
   EXPECT_THROW(require_place(directory / std::string(250, 'n')), UsageError);
 }
 
+// Known before the work begins: what is written lies behind the link.
+TEST(OutputPlace, OfALinkIsThatOfTheFileBehindIt) {
+  namespace fs = std::filesystem;
+  const test::TemporaryDirectory directory;
+  fs::create_symlink("nowhere/film", directory / "lost");
+  EXPECT_THROW(require_place(directory / "lost"), MachineError);
+  EXPECT_THROW(require_folder_of(directory / "lost"), MachineError);
+  fs::create_symlink(std::string(250, 'n'), directory / "long");
+  EXPECT_THROW(require_place(directory / "long"), UsageError);
+  fs::create_symlink("other", directory / "one");
+  fs::create_symlink("one", directory / "other");
+  EXPECT_THROW(require_place(directory / "one"), MachineError);
+  fs::create_directory(directory / "disk");
+  fs::create_symlink("disk/film", directory / "link");
+  EXPECT_NO_THROW(require_place(directory / "link"));
+  EXPECT_EQ(behind_links(directory / "link"), directory / "disk/film");
+}
+
 TEST(AtomicFile, LeavesNothingWithoutCommit) {
   const test::TemporaryDirectory directory;
   {

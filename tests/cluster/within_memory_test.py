@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""within_memory_test.py PROGRAMS SOURCE: each integrator and each writer in a memory cgroup of exactly --memory, on one rank and on
+two, with the least --memory that is not refused. Nothing is killed, no rank takes more by its own VmHWM, and the film is that of
+all memory. Groups of version 1 or 2, as root; status 77 where there are none."""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+programs, source = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
+MIB = 1 << 20
+INTO_GROUP = 'echo $$ > {0}.${{OMPI_COMM_WORLD_RANK:-0}}/cgroup.procs; exec "$@"'
+
+INTEGRATORS = {
+    "path": [],
+    "direct": ["--integrator", "direct"],
+    "photon": ["--integrator", "photon", "--photons", 20000, "--spp", 3],
+    "adaptive": ["--adaptive", "--spp", 12],
+    "splat": ["--splat", "--filter", "gaussian:1.5"],
+}
+WRITERS = {
+    "film": [],
+    "checkpoint": ["--checkpoint-every", 0.05],
+    "picture.png": [],
+    "picture.exr": [],
+    "layers.exr": ["--aov", "albedo,position,normal,depth,crypto_object,crypto_material", "--alpha"],
+    "spectral": ["--spectral", 16],
+    "groups": ["--light-groups"],
+    "profile": ["--profile", "profile.json"],
+    "trace": ["--trace", "trace.json"],
+}
+
+
+def group_base():
+    """A folder in which groups can be made, and the file of their limit."""
+    for folder, limit in (("/sys/fs/cgroup/memory", "memory.limit_in_bytes"), ("/sys/fs/cgroup", "memory.max")):
+        base = pathlib.Path(folder, f"vitrail-within-{os.getpid()}")
+        trial = base.with_name(f"{base.name}.try")
+        try:
+            trial.mkdir()
+            usable = (trial / limit).exists()
+            trial.rmdir()
+            if usable:
+                return base, limit
+        except OSError:
+            continue
+    print("skipped: no memory cgroup can be made here (root, version 1 or 2)")
+    sys.exit(77)
+
+
+BASE, LIMIT = group_base()
+
+
+class Limited:
+    """A group a rank."""
+
+    def __init__(self, ranks, limit):
+        self.groups = [BASE.with_name(f"{BASE.name}.{rank}") for rank in range(ranks)]
+        for group in self.groups:
+            group.mkdir()
+            (group / LIMIT).write_text(str(limit))
+
+    def __enter__(self):
+        return ["sh", "-c", INTO_GROUP.format(BASE), "sh"]
+
+    def __exit__(self, *_):
+        for group in self.groups:
+            group.rmdir()
+
+
+def run(folder, ranks, words, limit=None):
+    launcher = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
+    words = [str(w) for w in words]
+    if limit is None:
+        return subprocess.run(launcher + words, capture_output=True, text=True, cwd=folder)
+    with Limited(ranks, limit) as within:
+        return subprocess.run(launcher + within + words, capture_output=True, text=True, cwd=folder)
+
+
+def measure(folder, ranks, name, options):
+    output = name if "." in name else "out.film"
+    words = [programs / "vitrail-render", "city.vit", "-o", output, "--width", 200, "--height", 150, "--spp", 4, "--threads", 2, "--quiet",
+             "--force", "--stats", "stats.json", *options]
+    done = run(folder, ranks, words)
+    assert done.returncode == 0, done.stderr
+    everything = json.loads((folder / "stats.json").read_text())
+    budget, done = MIB, None
+    for _ in range(5):  # what MPI takes differs by a little from run to run
+        done = run(folder, ranks, words + ["--memory", budget], None if budget == MIB else budget)
+        least = re.search(r"at least (\d+)M is needed", done.stderr)
+        if done.returncode != 4 or not least:
+            break
+        budget = int(least[1]) * MIB
+    assert budget > MIB, done.stderr
+    if done.returncode != 0:
+        return f"status {done.returncode} in {budget / MIB:.0f}M: {done.stderr.strip()[:400]}"
+    little = json.loads((folder / "stats.json").read_text())
+    print(f"{name}, {ranks} rank{'s'[:ranks - 1]}: {little['peak_rss_bytes'] / MIB:.1f} MiB of {budget / MIB:.0f}; with all memory "
+          f"{everything['peak_rss_bytes'] / MIB:.1f}; {little['evictions']} evictions", flush=True)
+    if little["film_hash"] != everything["film_hash"]:
+        return "another film"
+    return f"{little['peak_rss_bytes']} bytes of {budget}" if little["peak_rss_bytes"] > budget else None
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder, wrong = pathlib.Path(name), []
+        subprocess.run(["/usr/bin/python3", source / "examples/city/generate.py", "-o", folder / "city", "--triangles", "100000"],
+                       check=True, stdout=subprocess.DEVNULL)
+        scene = next((folder / "city").glob("*.pbrt"))
+        subprocess.run([programs / "vitrail", "partition", scene, "-o", folder / "city.vit", "--domains", "64", "--aov", "crypto_object",
+                        "--quiet"], check=True)
+        for ranks in (1, 2):
+            for what, options in [*INTEGRATORS.items(), *WRITERS.items()]:
+                fault = measure(folder, ranks, what, options)
+                if fault:
+                    wrong.append(f"{what}, {ranks} ranks: {fault}")
+                    print("WRONG:", wrong[-1], flush=True)
+        assert not wrong, "\n".join(wrong)
+    return 0
+
+
+sys.exit(main())
