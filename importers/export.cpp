@@ -25,10 +25,11 @@ struct Format {
   std::string_view extension;
   Diagnostics (*write)(const Scene&, const std::filesystem::path&);
   bool holds_images = false;  // in the file itself
+  bool has_sides = false;     // a material for each
 };
 constexpr std::array<Format, 7> formats{{{".pbrt", write_pbrt},
-                                         {".xml", write_mitsuba},
-                                         {".pov", write_povray},
+                                         {".xml", write_mitsuba, false, true},
+                                         {".pov", write_povray, false, true},
                                          {".glb", write_gltf, true},
                                          {".gltf", write_gltf, true},
                                          {".obj", write_obj},
@@ -93,6 +94,8 @@ Diagnostics export_scene(const Scene& scene, const std::filesystem::path& out) {
   note_motion(scene, format, diagnostics);
   return diagnostics;
 }
+
+bool has_materials_by_side(const std::filesystem::path& out) { return format_of(out).has_sides; }
 
 void require_export_format(const std::filesystem::path& out) { format_of(out); }
 

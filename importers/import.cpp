@@ -39,7 +39,10 @@ ImportedScene read_scene(const std::filesystem::path& file, MeshMemory memory,
                                  formats_with(&Reader::has_many_cameras)));
   ImportedScene imported = reader.read({file, std::move(memory), std::move(progress), options});
   if (!reader.adds_view) add_default_view(imported, file);
-  if (options.replace_missing) replace_missing_images(imported);
+  if (options.replace_missing)
+    replace_missing_images(imported);
+  else
+    require_images(imported.scene);
   return imported;
 }
 

@@ -18,7 +18,7 @@
 #include "cli/convert/report_page.h"
 #include "importers/export.h"
 #include "importers/import.h"
-#include "importers/reading/missing_files.h"
+#include "importers/reading/back_to_back_faces.h"
 #include "importers/writing/packed_files.h"
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/system/input_files.h"
@@ -110,7 +110,7 @@ int run(const Arguments& a) {
   note_input(a.input);
   require_outputs(a);
   ImportedScene imported = import_scene(a.input, MeshMemory{}, {}, import_options(a.imports));
-  require_images(imported.scene);
+  if (has_materials_by_side(a.output)) join_faces_back_to_back(imported);
   note_referenced_files(imported.scene);
   require_outputs(a);  // other than all that was read
   Diagnostics& diagnostics = imported.diagnostics;

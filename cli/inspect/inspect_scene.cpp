@@ -13,7 +13,6 @@
 #include "film/film_seeds.h"
 #include "film/picture_fields.h"
 #include "importers/import.h"
-#include "importers/reading/missing_files.h"
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/placing/flatten.h"
 #include "scene/daylight/sky_model.h"
@@ -261,7 +260,6 @@ std::uint64_t bundle_bytes(const Manifest& m, const Scene& scene) {
 Report inspect_scene(const std::filesystem::path& file, const ImportOptions& options) {
   const ImportedScene imported = import_scene(file, MeshMemory{}, {}, options);
   const Scene& s = imported.scene;
-  require_images(s);
   const Manifest manifest = flatten(s, {}, {.keep_instances = true}).manifest;
   Report r{{"file", file.string()}, {"kind", "scene"}, {"summary", nullptr}};
   r["meshes"] = s.meshes.size();

@@ -22,6 +22,7 @@
 #include "cli/partition/partition_arguments.h"
 #include "cli/partition/partition_report.h"
 #include "importers/import.h"
+#include "importers/reading/back_to_back_faces.h"
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/caching/file_cache.h"
 #include "partitioner/meshes/edit_meshes.h"
@@ -139,6 +140,7 @@ int run(PartitionArguments& a, Stage& stage) {
                                                scene.film.width, scene.film.height}));
     return exit_done;
   }
+  join_faces_back_to_back(imported);
   imported.scene.settings.rgb = rgb_method(a.rgb);
   stage = {"preparing the scene", 0, to_string(ledger_of(imported.scene))};
   Diagnostics diagnostics = std::move(imported.diagnostics);

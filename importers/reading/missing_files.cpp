@@ -9,21 +9,45 @@
 #include <vector>
 
 #include "images/file_part.h"
+#include "importers/bytes/text_cursor.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
 
 namespace {
 
+constexpr std::size_t longest_name = 400;  // of a file, in messages
+
 bool is_missing(const std::string& file) {
   std::error_code ignored;
   return !std::filesystem::is_regular_file(whole_file(file), ignored);
 }
 
-// Whose density is in a file.
-const Grid* grid_of_file(const Medium& medium) {
-  const auto* density = std::get_if<Grid>(&medium.density);
-  return density && !density->filename.empty() ? density : nullptr;
+// The image or the Ptex file of a texture, if it has one.
+const std::string* file_of(const Texture& texture) {
+  if (const auto* image = std::get_if<ImageTexture>(&texture.model)) return &image->filename;
+  if (const auto* ptex = std::get_if<PtexTexture>(&texture.model)) return &ptex->filename;
+  return nullptr;
+}
+
+// The first file where the origin has no line.
+SourceLocation place_of(const Scene& scene, const Origin& origin) {
+  const SourceLocation place = location(scene, origin);
+  return place.file.empty() && !scene.files.empty() ? SourceLocation{scene.files.front()} : place;
+}
+
+// The first of its grids whose file is missing.
+const Grid* lost_grid_of(const Medium& medium) {
+  const auto lost = [](const auto& value) -> const Grid* {
+    const auto* grid = std::get_if<Grid>(&value);
+    return grid && !grid->filename.empty() && is_missing(grid->filename) ? grid : nullptr;
+  };
+  if (const Grid* density = lost(medium.density)) return density;
+  if (const auto* m = std::get_if<AbsorptionScattering>(&medium.coefficients))
+    return lost(m->sigma_a) ? lost(m->sigma_a) : lost(m->sigma_s);
+  if (const auto* m = std::get_if<ExtinctionAlbedo>(&medium.coefficients))
+    return lost(m->sigma_t) ? lost(m->sigma_t) : lost(m->albedo);
+  return nullptr;
 }
 
 class Replacer {
@@ -33,9 +57,9 @@ class Replacer {
   void textures() {
     for (std::size_t i = 0; i < scene_.textures.size(); ++i) {
       Texture& texture = scene_.textures[i];
-      const auto* image = std::get_if<ImageTexture>(&texture.model);
-      if (!image || !is_missing(image->filename)) continue;
-      say(image->filename, "grey 0.5 stands for it", texture.origin, RecordKind::texture);
+      const std::string* file = file_of(texture);
+      if (!file || !is_missing(*file)) continue;
+      say(*file, "grey 0.5 stands for it", texture.origin, RecordKind::texture);
       texture.model = ProductTexture{ConstantSpectrum{0.5f}, ConstantSpectrum{1}};
       missing_.insert(static_cast<std::uint32_t>(i));
     }
@@ -59,8 +83,8 @@ class Replacer {
 
   void media() {
     for (const Medium& medium : scene_.media)
-      if (const Grid* density = grid_of_file(medium); density && is_missing(density->filename))
-        say(density->filename, "light passes the medium unchanged", medium.origin, RecordKind::medium);
+      if (const Grid* grid = lost_grid_of(medium))
+        say(grid->filename, "light passes the medium unchanged", medium.origin, RecordKind::medium);
   }
 
   void lights() {
@@ -80,9 +104,11 @@ class Replacer {
 
  private:
   void say(const std::string& file, const char* what, const Origin& origin, RecordKind kind) {
-    const SourceLocation place = location(scene_, origin);
+    const SourceLocation place = place_of(scene_, origin);
     diagnostics_.push_back(
-        {Fidelity::dropped, fmt::format("cannot find the file \"{}\": {}", file, what), place, place, kind});
+        {Fidelity::dropped,
+         fmt::format("cannot find the file \"{}\": {}", printable(file, longest_name), what), place, place,
+         kind});
   }
 
   Scene& scene_;
@@ -98,24 +124,25 @@ void require_images(const Scene& scene) {
     if (model && is_missing(model->filename)) missing.emplace_back(model->filename, origin);
   };
   for (const Texture& texture : scene.textures)
-    look_at(std::get_if<ImageTexture>(&texture.model), texture.origin);
+    if (const std::string* file = file_of(texture); file && is_missing(*file))
+      missing.emplace_back(*file, texture.origin);
   for (const Material& material : scene.materials)
     look_at(std::get_if<TabulatedMaterial>(&material.model), material.origin);
   for (const Light& light : scene.lights) {
     look_at(std::get_if<EnvironmentLight>(&light.model), light.origin);
     look_at(std::get_if<GoniometricLight>(&light.model), light.origin);
   }
-  for (const Medium& medium : scene.media) look_at(grid_of_file(medium), medium.origin);
+  for (const Medium& medium : scene.media) look_at(lost_grid_of(medium), medium.origin);
   if (missing.empty()) return;
   const auto& [file, origin] = missing.front();
   std::error_code ignored;
   std::string message = std::filesystem::exists(file, ignored)
-                            ? fmt::format("\"{}\" is not a file", file)
-                            : fmt::format("cannot find the file \"{}\"", file);
+                            ? fmt::format("\"{}\" is not a file", printable(file, longest_name))
+                            : fmt::format("cannot find the file \"{}\"", printable(file, longest_name));
   for (std::size_t i = 1; i < missing.size(); ++i)
-    message +=
-        fmt::format(", nor \"{}\" of {}", missing[i].first, to_string(location(scene, missing[i].second)));
-  throw Error(message + how_to_replace_missing, location(scene, origin));
+    message += fmt::format(", nor \"{}\" of {}", printable(missing[i].first, longest_name),
+                           to_string(place_of(scene, missing[i].second)));
+  throw Error(message + how_to_replace_missing, place_of(scene, origin));
 }
 
 void replace_missing_images(ImportedScene& imported) {

@@ -48,4 +48,9 @@ std::string find_named_file(std::string name, const std::filesystem::path& folde
   return "";
 }
 
+std::string named_file(const std::string& name, const std::filesystem::path& folder) {
+  const std::string found = find_named_file(name, folder);
+  return found.empty() ? std::filesystem::absolute(folder / name).lexically_normal().string() : found;
+}
+
 }  // namespace vitrail

@@ -15,4 +15,8 @@ char lower_case(char letter);
 // there is none. An example: "C:\models\Red.png" is red.png in `folder`.
 std::string find_named_file(std::string name, const std::filesystem::path& folder);
 
+// The same; where there is none, the absolute place in `folder` where it would be as it stands, so that
+// missing_files.h finds it missing.
+std::string named_file(const std::string& name, const std::filesystem::path& folder);
+
 }  // namespace vitrail

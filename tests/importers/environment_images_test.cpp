@@ -8,6 +8,7 @@
 
 #include "images/image_files.h"
 #include "importers/images/cube_faces.h"
+#include "importers/images/mean_intensity.h"
 #include "scene/system/diagnostics.h"
 #include "tests/importers/temporary_folder.h"
 
@@ -177,6 +178,22 @@ TEST(ImageFiles, RoundTripAndErrors) {
   EXPECT_THROW(read_stored_image(folder / "b.exr"), Error);
   EXPECT_THROW(read_image_layout(folder / "none.png"), Error);
   EXPECT_THROW(write_exr_image(folder / "none" / "a.exr", image), MachineError);
+}
+
+// A lamp that shines up alone, as a point light of the same flux.
+TEST(MeanIntensity, IsThatOfTheSameFlux) {
+  const TemporaryFolder folder;
+  for (const EnvironmentProjection projection : projections) {
+    GoniometricLight light;
+    light.filename = (folder / "lamp.exr").string();
+    light.latitude_longitude = projection == EnvironmentProjection::latitude_longitude;
+    write_exr_image(light.filename, image_of(projection, 64, [](Vector3d d) { return d.z > 0 ? 8.0 : 0.0; }));
+    EXPECT_NEAR(mean_intensity(light).mean, 4, .2) << "half a pixel at the edge";
+    EXPECT_EQ(mean_intensity(light).greatest, 8);
+    light.power = static_cast<float>(4 * pi * 3);
+    EXPECT_NEAR(mean_intensity(light).mean, 3, 1e-5);
+    EXPECT_NEAR(mean_intensity(light).greatest, 6, .2);
+  }
 }
 
 }  // namespace

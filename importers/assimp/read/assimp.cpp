@@ -13,7 +13,6 @@
 #include "importers/assimp/read/asset_lights.h"
 #include "importers/assimp/read/asset_materials.h"
 #include "importers/reading/default_view.h"
-#include "importers/reading/missing_files.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -226,7 +225,6 @@ ImportedScene read_assimp(const std::filesystem::path& file, MeshMemory memory,
                           const ImportOptions& options) {
   assimp::SceneReader reader(file, memory, options);
   ImportedScene imported = reader.read();
-  if (!options.replace_missing) require_images(imported.scene);
   reader.has_camera() ? add_default_light(imported, file) : add_default_view(imported, file);
   return imported;
 }

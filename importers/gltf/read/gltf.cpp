@@ -13,7 +13,6 @@
 #include "importers/gltf/read/node_tree.h"
 #include "importers/gltf/units.h"
 #include "importers/reading/default_view.h"
-#include "importers/reading/missing_files.h"
 
 namespace vitrail {
 
@@ -224,7 +223,6 @@ bool is_gltf(std::string_view first_bytes) { return gltf::is_gltf(first_bytes); 
 ImportedScene read_gltf(const std::filesystem::path& file, MeshMemory memory, const ImportOptions& options) {
   gltf::SceneReader reader(file, memory, options);
   ImportedScene imported = reader.read();
-  if (!options.replace_missing) require_images(imported.scene);
   reader.has_camera() ? add_default_light(imported, file) : add_default_view(imported, file);
   return imported;
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/gltf/write/write_view.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
 #include "importers/gltf/write/values.h"
+#include "importers/images/mean_intensity.h"
 #include "importers/reading/sensor_view.h"
 #include "importers/writing/export_colors.h"
 #include "importers/writing/physical_light.h"
@@ -78,8 +81,17 @@ struct Punctual {
                          std::min(static_cast<double>(l.cutoff_deg), 90.0) * radians};
   }
   Result operator()(const GoniometricLight& l) const {
-    notes.approximated("a goniometric light: the same in all directions");
-    return PunctualLight{"point", l.intensity,
+    MeanIntensity intensity;
+    try {
+      intensity = mean_intensity(l);
+      notes.approximated(
+          fmt::format("a goniometric light: of the same flux, equal in all directions; its brightest "
+                      "direction has {:.3g} times that",
+                      intensity.mean > 0 ? intensity.greatest / intensity.mean : 0));
+    } catch (const Error& error) {
+      notes.approximated(fmt::format("a goniometric light: equal in all directions: {}", error.what()));
+    }
+    return PunctualLight{"point", scaled(l.intensity, intensity.mean),
                          translate(transform_point(l.light_to_world, {0, 0, 0}) - Point3d{})};
   }
   Result operator()(const ProjectionLight&) const { return lost("a projector"); }

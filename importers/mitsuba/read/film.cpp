@@ -94,14 +94,12 @@ void read_film(Builder& builder, const Object& sensor) {
     report.approximated(fmt::format("film \"{}\" is not known and read as \"hdrfilm\"{}", film->type,
                                     suggestion(film->type, film_kinds)),
                         film->origin);
-  if (film->type == "specfilm")
-    report.dropped("the bands of a spectral film: only its colours are kept", film->origin);
   settings.width = pixels(*film, "width", 768, report);
   settings.height = pixels(*film, "height", 576, report);
   settings.crop = read_crop(*film, settings.width, settings.height, report);
   settings.filter = read_filter(*film, report);
   if (has_alpha(film->text("pixel_format", "rgb", report))) settings.layers.add(Layer::alpha);
-  film->children("spectrum");
+  if (film->type == "specfilm") read_bands(builder, *film);
   film->ignore({"filename", "file_format", "component_format", "sample_border", "compensate", "banner",
                 "attach_log", "high_quality_edges", "gamma", "variable", "digits", "channel_names"});
   report_unused_in_one(*film, report,

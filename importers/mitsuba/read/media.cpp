@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "importers/mitsuba/read/builder.h"
@@ -76,8 +77,11 @@ Grid read_grid(MediumReader& reader, const Object& volume) {
   Report& report = reader.builder.report;
   const std::string file = existing_file(reader.builder, volume, "filename");
   Grid grid;
+  std::error_code ignored;
+  const bool is_there = std::filesystem::is_regular_file(file, ignored);
+  grid.filename = file;  // replace_missing_images speaks of one that is not there
   try {
-    grid = read_volume_header(file);
+    if (is_there) grid = read_volume_header(file);
   } catch (const std::runtime_error& error) {
     report.fail(error.what(), place_of(volume, "filename"));
   }

@@ -114,9 +114,22 @@ Camera orthographic(const Object& sensor, const FilmSettings& film, const Report
   return camera;
 }
 
+// Meters have a to_world, or say where they are and look.
+std::optional<Transform> place_of_meter(const Object& sensor, const Report& report) {
+  const auto origin = sensor.vector("origin", report), direction = sensor.vector("direction", report);
+  if (!origin || !direction) return std::nullopt;
+  const double long_enough = length(*direction);
+  if (!(long_enough > 0) || !std::isfinite(long_enough))
+    report.fail("the meter's \"direction\" has no length", place_of(sensor, "direction"));
+  const Point3d from = Point3d{} + *origin;
+  const Vector3d up = std::abs(direction->y) > 0.9 * long_enough ? Vector3d{1, 0, 0} : Vector3d{0, 1, 0};
+  return look_at(from, from + *direction, up);
+}
+
 // A camera of the sensor's place that looks along its axis.
 Camera stand_in(const Object& sensor, double fov_deg, const FilmSettings& film, const Report& report) {
-  PerspectiveCamera camera{read_camera_to_world(sensor, report), {}, {}};
+  const auto place = place_of_meter(sensor, report);
+  PerspectiveCamera camera{place ? *place : read_camera_to_world(sensor, report), {}, {}};
   camera.screen = screen_window(half_screen_of_width(tan_half(fov_deg), aspect_of(film)), 0, 0);
   return camera;
 }
@@ -159,8 +172,8 @@ Camera read_camera(const Object& sensor, const FilmSettings& film, Report& repor
     return orthographic(sensor, film, report);
   }
   if (kind == "radiancemeter" || kind == "mradiancemeter") {
-    nearest("a perspective camera of 1 degree");
-    return stand_in(sensor, 1, film, report);
+    nearest("a perspective camera of 0.01 degrees");
+    return stand_in(sensor, 0.01, film, report);
   }
   if (kind == "irradiancemeter" || kind == "fluencemeter") {
     nearest("a perspective camera of 90 degrees");

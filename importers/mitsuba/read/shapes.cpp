@@ -9,6 +9,7 @@
 #include "importers/mitsuba/read/subsurface.h"
 #include "importers/reading/suggestion.h"
 #include "importers/shapes/vertex_normals.h"
+#include "scene/shapes/curve.h"
 
 namespace vitrail::mitsuba {
 
@@ -97,6 +98,27 @@ Transform to_world(Builder& builder, const Object& object) {
   return t;
 }
 
+// Mitsuba's spheres are round whatever their to_world does: the radius is that along x (measured with 3.9.1).
+// Its z and y are turned as far as they have to be.
+Transform round(Builder& builder, const Object& sphere, const Transform& to_world,
+                const Transform& to_object) {
+  const Transform t = to_world * to_object;
+  if (is_similarity(t)) return t;
+  builder.report.approximated(
+      "a sphere that to_world stretches: Mitsuba shows it round, with its radius along x", sphere.origin);
+  const Vector3d x = transform_vector(t, {1, 0, 0}), side = transform_vector(t, {0, 1, 0});
+  const double radius = length(x);
+  const Vector3d z = normalize(cross(x, side)) * radius;
+  const Vector3d y = cross(z, x) * (1 / radius);
+  const double handed = swaps_handedness(t) ? -1 : 1;
+  Transform ball = translate(transform_point(t, {0, 0, 0}) - Point3d{});
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto at = [&](const Vector3d& v) { return row == 0 ? v.x : row == 1 ? v.y : v.z; };
+    ball.m[row][0] = at(x), ball.m[row][1] = at(y), ball.m[row][2] = handed * at(z);
+  }
+  return ball;
+}
+
 // A sensor of a shape measures the mean irradiance of it: for a rectangle the report says how it is measured
 // here.
 void report_sensors(Builder& builder, const Object& shape, const Transform& to_world) {
@@ -126,7 +148,9 @@ void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& g
   shape.origin = object.origin;
   shape.object_to_world = geometry.in_world ? Transform{} : to_world;
   if (!in_group) report_sensors(builder, object, shape.object_to_world);
-  if (geometry.mesh_to_object != Transform{})
+  if (kind_of(object) == "sphere")
+    shape.object_to_world = round(builder, object, to_world, geometry.mesh_to_object);
+  else if (geometry.mesh_to_object != Transform{})
     shape.object_to_world = shape.object_to_world * geometry.mesh_to_object;
   shape.material = material_of(builder, object, geometry);
   if (const auto inside = subsurface_material(builder, object, shape.material)) shape.material = *inside;

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <stdexcept>
 
 #include "importers/mitsuba/read/builder.h"
 #include "importers/mitsuba/read/png_gamma.h"
+#include "importers/mitsuba/read/properties.h"
+#include "importers/mitsuba/read/volume_file.h"
 #include "importers/reading/suggestion.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail::mitsuba {
 
@@ -50,9 +54,6 @@ TextureModel bitmap(Builder& b, const Object& o, bool as_float) {
   ImageTexture image;
   image.filename = o.text("filename", "", b.report);
   if (image.filename.empty()) b.report.fail("a bitmap needs a \"filename\"", o.origin);
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(image.filename, ignored))
-    b.report.approximated(fmt::format("cannot find the file \"{}\"", image.filename), o.origin);
   if (o.boolean("raw", false, b.report)) image.encoding = Encoding::linear;
   double gamma = o.number("gamma", 0, b.report);  // 0.6: 0 stands for the file's own
   if (o.boolean("gamma_of_file", false, b.report) && gamma == 0)
@@ -112,6 +113,50 @@ TextureModel scaled_texture(Builder& b, const Object& o, bool as_float) {
   return ProductTexture{first, input(b, o, "scale", 1, as_float)};
 }
 
+// A grid that surfaces cut through is its mean: textures here go by (u,v).
+TextureModel mean_of_grid(Builder& b, const Object& volume, bool as_float) {
+  const std::string file = existing_file(b, volume, "filename");
+  volume.ignore({"to_world", "use_grid_bbox", "wrap_mode", "filter_type", "raw", "accel"});
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) {  // and may be replaced
+    b.report.dropped(fmt::format("cannot find the file \"{}\": grey 0.5 stands for it", file), volume.origin);
+    return ProductTexture{ConstantSpectrum{0.5f}, ConstantSpectrum{1}};
+  }
+  std::vector<VolumeValues> values;
+  try {
+    values = values_of_volume(read_volume_header(file));
+  } catch (const std::runtime_error& error) {
+    b.report.fail(error.what(), place_of(volume, "filename"));
+  }
+  const auto mean = [&](std::size_t i) { return values[std::min(i, values.size() - 1)].mean; };
+  const VolumeValues& first = values.front();
+  b.report.approximated(
+      fmt::format("texture \"volume\": the mean of its grid, {:.4g} in its first channel, of "
+                  "values from {:.4g} to {:.4g}",
+                  first.mean, first.least, first.greatest),
+      volume.origin);
+  const bool is_number = as_float || values.size() < 3;
+  const Spectrum color = is_number ? Spectrum{ConstantSpectrum{static_cast<float>(mean(0))}}
+                                   : Spectrum{unbounded_from_rgb({mean(0), mean(1), mean(2)})};
+  return ProductTexture{color, ConstantSpectrum{1}};
+}
+
+TextureModel volume_texture(Builder& b, const Object& o, bool as_float) {
+  const Object* volume = o.child("volume");
+  if (!volume) b.report.fail("a \"volume\" texture needs a volume", o.origin);
+  if (volume->type == "gridvolume") {
+    TextureModel mean = mean_of_grid(b, *volume, as_float);
+    report_unused(*volume, b.report, {"filename"});
+    return mean;
+  }
+  if (volume->type != "constvolume")
+    b.report.dropped(fmt::format("texture \"volume\" of a \"{}\": 1 stands for it", volume->type),
+                     volume->origin);
+  const SpectrumParameter value = input(b, *volume, "value", 1, as_float);
+  volume->ignore({"to_world"});
+  return ProductTexture{value, ConstantSpectrum{1}};
+}
+
 // 0.6's lines of a width on each side of whole u and v, and the edges of triangles.
 TextureModel lines(Builder& b, const Object& o, bool as_float) {
   const bool is_grid = o.type == "gridtexture";
@@ -133,7 +178,8 @@ struct Kind {
   std::string_view name;
   TextureModel (*make)(Builder&, const Object&, bool);
 };
-constexpr std::array<Kind, 7> kinds{{{"bitmap", bitmap},
+constexpr std::array<Kind, 8> kinds{{{"bitmap", bitmap},
+                                     {"volume", volume_texture},
                                      {"checkerboard", checkerboard},
                                      {"mesh_attribute", mesh_attribute},
                                      {"vertexcolors", mesh_attribute},

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -74,6 +75,28 @@ Grid read_volume_header(const std::filesystem::path& path) {
   const auto b = [&](std::size_t i) { return static_cast<double>(h.bounds[i]); };
   grid.bounds = {{b(0), b(1), b(2)}, {b(3), b(4), b(5)}};
   return grid;
+}
+
+std::vector<VolumeValues> values_of_volume(const Grid& grid) {
+  const auto channels = static_cast<std::size_t>(grid.channels);
+  const std::size_t cells = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny) *
+                            static_cast<std::size_t>(grid.nz);
+  std::ifstream file = open_input(grid.filename);
+  file.seekg(volume_header_bytes);
+  std::vector<float> cell(channels);
+  std::vector<VolumeValues> values(channels, {HUGE_VAL, 0, -HUGE_VAL});
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (!file.read(reinterpret_cast<char*>(cell.data()),
+                   static_cast<std::streamsize>(channels * sizeof(float))))
+      fail(grid.filename, "it is too short");
+    for (std::size_t c = 0; c < channels; ++c) {
+      const double value = static_cast<double>(cell[c]);
+      values[c].least = std::min(values[c].least, value);
+      values[c].mean += value / static_cast<double>(cells);
+      values[c].greatest = std::max(values[c].greatest, value);
+    }
+  }
+  return values;
 }
 
 }  // namespace vitrail::mitsuba

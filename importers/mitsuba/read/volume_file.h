@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "scene/records/medium.h"
 
@@ -15,5 +16,12 @@ inline constexpr int volume_header_bytes = 48;
 // bounds of the grid; its values stay in the file. Throws std::runtime_error that says what is wrong, also
 // where the file is too short for its counts.
 Grid read_volume_header(const std::filesystem::path& path);
+
+// The least, mean and greatest value of a channel, over the cells.
+struct VolumeValues {
+  double least = 0, mean = 0, greatest = 0;
+};
+// Of each channel of a file whose header is `grid`. Throws std::runtime_error where it is too short.
+std::vector<VolumeValues> values_of_volume(const Grid& grid);
 
 }  // namespace vitrail::mitsuba

@@ -50,12 +50,25 @@ void write(Context& context, Element film, const SincFilter& filter) {
   add_integer(add(film, "rfilter", "lanczos"), "lobes", lobes);
 }
 
+// A band's value is ∫ L·response dλ: the mean radiance of the interval, as here.
+void add_bands(Context& context, Element film, const SpectralBins& bins) {
+  context.approximated(
+      "spectral bins become the bands of a specfilm: it has no colours, and Mitsuba's rgb variants refuse "
+      "it");
+  const double height = 1 / bins.width_nm();
+  const auto edge = [&](int i) { return i == bins.count ? bins.max_nm : bins.min_nm + i * bins.width_nm(); };
+  for (int i = 0; i < bins.count; ++i)
+    add_value(film, "spectrum", fmt::format("band_{:04}", i),
+              fmt::format("{}:{}, {}:{}", edge(i), height, edge(i + 1), height));
+}
+
 }  // namespace
 
 void write_film(Context& context, Element sensor) {
   const FilmSettings& settings = context.scene.film;
   context.begin(RecordKind::film, context.scene.film_origin);
-  Element film = add(sensor, "film", "hdrfilm");
+  const bool spectral = settings.spectrum.count > 0;
+  Element film = add(sensor, "film", spectral ? "specfilm" : "hdrfilm");
   add_integer(film, "width", settings.width);
   add_integer(film, "height", settings.height);
   const PixelRect& crop = settings.crop;
@@ -65,12 +78,12 @@ void write_film(Context& context, Element sensor) {
     add_integer(film, "crop_width", crop.x1 - crop.x0);
     add_integer(film, "crop_height", crop.y1 - crop.y0);
   }
-  add_string(film, "file_format", "openexr");
-  add_string(film, "pixel_format", settings.layers.has(Layer::alpha) ? "rgba" : "rgb");
+  if (!spectral) add_string(film, "file_format", "openexr");
+  if (!spectral) add_string(film, "pixel_format", settings.layers.has(Layer::alpha) ? "rgba" : "rgb");
   add_string(film, "component_format", "float32");
   add_boolean(film, "sample_border", false);
-  if (settings.spectrum.count > 0)
-    context.dropped("the film's spectral bins: a film of Mitsuba's \"rgb\" stands for it");
+  if (spectral) add_bands(context, film, settings.spectrum);
+  if (spectral && settings.layers.has(Layer::alpha)) context.dropped("alpha: a specfilm of Mitsuba has none");
   std::visit([&](const auto& filter) { write(context, film, filter); }, settings.filter);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -200,6 +201,21 @@ double greatest_above_one(const VolumeParameter& sigma_t) {
   return greatest;
 }
 
+// Mitsuba 3.9's spectral variants make no numbers of an extinction that is 0 at some wavelengths alone: there
+// it is next to nothing.
+VolumeParameter nowhere_zero(const VolumeParameter& sigma_t) {
+  const auto* spectrum = std::get_if<Spectrum>(&sigma_t);
+  if (!spectrum || is_constant(*spectrum)) return sigma_t;
+  const Spectrum values = resolved(*spectrum);
+  double least = HUGE_VAL, greatest = 0;
+  for (int i = 0; i < table_size; ++i) {
+    const double value = evaluate(values, lambda_min_nm + i);
+    least = std::min(least, value), greatest = std::max(greatest, value);
+  }
+  if (least > 0 || !(greatest > 0)) return sigma_t;
+  return tabulated([&](double lambda) { return std::max(evaluate(values, lambda), 1e-9 * greatest); });
+}
+
 void write_medium(Context& context, Element root, const Medium& medium, const std::string& id) {
   report_rest(context, medium);
   const ExtinctionAlbedo coefficients = extinction_and_albedo(context, medium);
@@ -210,7 +226,7 @@ void write_medium(Context& context, Element root, const Medium& medium, const st
   const double greatest = greatest_above_one(coefficients.sigma_t);
   VolumeParameter sigma_t = coefficients.sigma_t;
   if (greatest > 1) sigma_t = scaled(std::get<Spectrum>(sigma_t), 1 / greatest);
-  add_volume(context, element, "sigma_t", sigma_t, medium.medium_to_world);
+  add_volume(context, element, "sigma_t", nowhere_zero(sigma_t), medium.medium_to_world);
   add_volume(context, element, "albedo", coefficients.albedo, medium.medium_to_world);
   add_float(element, "scale", static_cast<float>(greatest * static_cast<double>(medium.scale)));
   add_phase(element, medium.g);

@@ -212,6 +212,9 @@ void write(Context& context, Element parent, ElementId id, const DiffuseTransmis
   context.approximated(
       "diffuse transmission is written as principledthin: one colour, the sum, for both sides, and Disney's "
       "diffuse lobe, which darkens towards grazing angles");
+  if (const double most = std::max({sum.r, sum.g, sum.b}); most > 1.0001)
+    context.approximated(fmt::format(
+        "diffuse transmission that gives back {:.3g} of the light: Mitsuba's gives back 1 at most", most));
   PrincipledMaterial sheet{.base_color = reflectance_from_rgb(sum)};
   sheet.roughness = 0.5f;
   sheet.diff_trans = static_cast<float>(2 * through);
@@ -287,7 +290,8 @@ void write(Context& context, Element parent, ElementId id, const HairMaterial& m
 void write(Context& context, Element parent, ElementId id, const MeasuredMaterial& m) {
   if (m.sheet)
     context.approximated("Mitsuba does not read tables of measured glass: it keeps the file's name");
-  add_string(add(parent, "bsdf", "measured", "", id), "filename", context.relative(m.filename));
+  const char* const type = m.sheet ? "measured" : "measured_polarized";
+  add_string(add(parent, "bsdf", type, "", id), "filename", context.relative(m.filename));
 }
 
 void write(Context& context, Element parent, ElementId id, const TabulatedMaterial& m) {

@@ -104,14 +104,12 @@ class MtlReader {
     if (found == maps.end()) return false;
     const auto report = [this](std::string message) { note(Fidelity::dropped, std::move(message)); };
     const std::string word(keyword);
-    const auto map = obj::read_map(cursor_, word, folder_, report);
+    MtlMap map = obj::read_map(cursor_, word, folder_, report);
     MtlMaterial& material = materials_.back();
-    if (!map && keyword == "map_Kd") material.has_missing_map_kd = true;
-    if (!map) return true;
     if (keyword == "disp" && material.maps.contains("bump")) {
       drop("disp");
     } else {
-      material.maps[found->second] = *map;
+      material.maps[found->second] = std::move(map);
     }
     if (found->second == "bump")
       note(Fidelity::approximated,

@@ -33,11 +33,10 @@ struct MtlMaterial {
   std::int64_t illum = 2;
   // By keyword: map_Kd map_Ks map_Ke map_d map_Pr map_Pm map_Ps bump norm.
   std::map<std::string, MtlMap> maps;
-  bool has_missing_map_kd = false;
 };
 
 // The materials of an MTL library, in its order. What would show and is not kept in them is reported, each
-// with its place; so are images that are not there. Throws Error on what is not a number where one has to be,
+// with its place. Throws Error on what is not a number where one has to be,
 // and where the file cannot be opened.
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path& file, Diagnostics& diagnostics);
 

@@ -114,16 +114,14 @@ class MapReader {
 
 }  // namespace
 
-std::optional<MtlMap> read_map(TextCursor& cursor, const std::string& keyword,
-                               const std::filesystem::path& folder, const Drop& drop) {
+MtlMap read_map(TextCursor& cursor, const std::string& keyword, const std::filesystem::path& folder,
+                const Drop& drop) {
   MtlMap map = MapReader(cursor, keyword, drop).read_options();
   std::string name(cursor.rest_of_line());
   if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
   if (name.empty()) cursor.fail(fmt::format("{} without a file name", keyword));
-  map.filename = find_named_file(name, folder);
-  if (!map.filename.empty()) return map;
-  drop(fmt::format("{} '{}': there is no such file", keyword, printable(name)));
-  return {};
+  map.filename = named_file(name, folder);
+  return map;
 }
 
 }  // namespace vitrail::obj

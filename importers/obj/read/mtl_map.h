@@ -9,10 +9,10 @@
 
 namespace vitrail::obj {
 
-// Reads the options and the name that follow a keyword such as map_Kd. The name is sought in `folder`;
-// nothing is returned where it is not there. `drop(message)` reports.
+// Reads the options and the name that follow a keyword such as map_Kd. The name is sought in `folder`.
+// `drop(message)` reports.
 using Drop = std::function<void(std::string)>;
-std::optional<MtlMap> read_map(TextCursor& cursor, const std::string& keyword,
-                               const std::filesystem::path& folder, const Drop& drop);
+MtlMap read_map(TextCursor& cursor, const std::string& keyword, const std::filesystem::path& folder,
+                const Drop& drop);
 
 }  // namespace vitrail::obj

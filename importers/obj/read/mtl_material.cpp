@@ -128,10 +128,7 @@ class Builder {
     return reflectance_from_rgb(color.value_or(RGB{}));
   }
 
-  SpectrumParameter kd() {
-    if (!mtl_.kd && mtl_.has_missing_map_kd) return reflectance_from_rgb({0.5, 0.5, 0.5});
-    return reflectance("Kd", "map_Kd", mtl_.kd);
-  }
+  SpectrumParameter kd() { return reflectance("Kd", "map_Kd", mtl_.kd); }
   SpectrumParameter ks() { return reflectance("Ks", "map_Ks", mtl_.ks); }
 
   // ---- Models -----------------------------------------------------------------------------------

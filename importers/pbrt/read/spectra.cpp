@@ -197,9 +197,6 @@ Spectrum read_refraction(const Parameter& parameter, SpectrumScope scope) {
 
 std::string find_file(const Parameter& parameter, Context& context) {
   const std::filesystem::path path = std::filesystem::absolute(context.resolve(parameter.strings.front()));
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    context.report.approximated(fmt::format("cannot find the file \"{}\"", path.string()), parameter.place);
   return path.lexically_normal().string();
 }
 

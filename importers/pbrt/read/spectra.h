@@ -29,7 +29,7 @@ Spectrum read_emission(const Parameter& parameter, double factor, SpectrumScope 
 // An index of refraction; held constant outside of its samples.
 Spectrum read_refraction(const Parameter& parameter, SpectrumScope scope);
 
-// Where an image file that a parameter names is; a diagnostic where it is not there.
+// Where the file that a parameter names has to be (missing_files.h asks whether it is there).
 std::string find_file(const Parameter& parameter, Context& context);
 
 }  // namespace vitrail::pbrt

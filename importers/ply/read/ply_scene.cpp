@@ -23,14 +23,9 @@ std::optional<TextureModel> image_of(const std::filesystem::path& file, const Tr
   if (names.size() > 1)
     lose(fmt::format("TextureFile: only the first of {} images counts, '{}'", names.size(), shown));
   ImageTexture image;
-  image.filename = find_named_file(names.front(), std::filesystem::absolute(file).parent_path());
-  if (image.filename.empty()) {
-    lose(fmt::format("TextureFile '{}': there is no such file", shown));
-  } else if (mesh.uvs.empty()) {
-    lose(fmt::format("TextureFile '{}': the mesh has no (u,v)", shown));
-  } else {
-    return image;
-  }
+  image.filename = named_file(names.front(), std::filesystem::absolute(file).parent_path());
+  if (!mesh.uvs.empty()) return image;
+  lose(fmt::format("TextureFile '{}': the mesh has no (u,v)", shown));
   return {};
 }
 
@@ -39,6 +34,7 @@ std::optional<TextureModel> image_of(const std::filesystem::path& file, const Tr
 ImportedScene read_ply_scene(const std::filesystem::path& file, MeshMemory memory) {
   ImportedScene imported;
   Scene& scene = imported.scene;
+  scene.files = {file.string()};
   TriangleMesh mesh = read_ply(file, &imported.diagnostics, PlyAttributes::look);
   scene.materials.push_back({DiffuseMaterial{}});
   std::optional<TextureModel> look = image_of(file, mesh, imported.diagnostics);

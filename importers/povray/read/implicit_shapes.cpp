@@ -298,7 +298,7 @@ SolidShape height_field(Reader& reader, const Place& place) {
     while (reader.peek().kind == TokenKind::word && reader.peek().symbol->word != Word::none &&
            !names_text(reader.peek().symbol->word))
       reader.next();  // the format, which the file itself says
-    file = reader.find_file(reader.text("the name of an image"), place).string();
+    file = reader.find_image(reader.text("the name of an image"), place);
   }
   for (;;) {
     reader.comma();
@@ -326,6 +326,8 @@ SolidShape height_field(Reader& reader, const Place& place) {
         const double height = evaluate(*function, at);
         field.heights.push_back(std::clamp(height, 0.0, 1.0));
       }
+  } else if (file.empty()) {
+    field.columns = field.rows = 2, field.heights.assign(4, 0.5);
   } else {
     read_heights(file, field, reader, place);
   }

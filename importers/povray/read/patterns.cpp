@@ -303,7 +303,7 @@ ImageMap read_image_map(Reader& reader, double* bump_size) {
         (token.kind == TokenKind::word && names_text(token.symbol->word))) {
       reader.put_back(token);
       const std::string name = reader.text("the name of an image");
-      image.filename = reader.find_file(name, token.place).string();
+      image.filename = reader.find_image(name, token.place);
       continue;
     }
     if (token.is(',')) continue;

@@ -140,8 +140,11 @@ class Reader {
   // A number of a colour, factor or light, as light.
   double linear(double value) const;
 
-  // A file of the scene, written by it or found by the search; throws Error at `place`.
-  std::filesystem::path find_file(const std::string& name, const Place& place);
+  // A file of the scene, written by it or found by the search; throws Error at `place`, with the hint.
+  std::filesystem::path find_file(const std::string& name, const Place& place, const char* hint = "");
+  // The same of an image; "", with a note, where it is missing and grey 0.5 may stand for it.
+  std::string find_image(const std::string& name, const Place& place);
+  bool replace_missing = false;
   const std::deque<std::string>& files() const { return files_; }
   std::uint64_t tokens_read() const { return tokens_; }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "importers/povray/read/reader.h"
+#include "importers/reading/missing_files.h"
 #include "importers/reading/suggestion.h"
 
 namespace vitrail::pov {
@@ -64,7 +65,7 @@ void Reader::unexpected(const Token& token, const std::string& wanted) {
   fail(fmt::format("{} is expected, not {}", wanted, describe(token)), token.place);
 }
 
-std::filesystem::path Reader::find_file(const std::string& name, const Place& place) {
+std::filesystem::path Reader::find_file(const std::string& name, const Place& place, const char* hint) {
   if (const auto path = find(search_, name)) return *path;
   if (const auto path = find(search_, name + ".ttf")) return *path;  // fonts without their extension
   std::string folders;
@@ -72,9 +73,15 @@ std::filesystem::path Reader::find_file(const std::string& name, const Place& pl
     if (std::filesystem::is_directory(folder)) folders += (folders.empty() ? "" : ", ") + folder.string();
   fail(fmt::format(
            "there is no file \"{}\" in {}; POV-Ray's own are in the package povray-includes, others are "
-           "found in the folders of --include and $POV_INC",
-           name, folders.empty() ? "the working directory" : folders),
+           "found in the folders of --include and $POV_INC{}",
+           name, folders.empty() ? "the working directory" : folders, hint),
        place);
+}
+
+std::string Reader::find_image(const std::string& name, const Place& place) {
+  if (!replace_missing || find(search_, name)) return find_file(name, place, how_to_replace_missing).string();
+  notes.dropped(fmt::format("cannot find the file \"{}\": grey 0.5 stands for it", name), location(place));
+  return "";
 }
 
 // Scenes of version 3.7 without assumed_gamma have 1. Before, colours went to the screen as they were.

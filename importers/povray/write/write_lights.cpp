@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "importers/images/mean_intensity.h"
 #include "importers/images/sky_image.h"
 #include "importers/povray/write/write_environment.h"
 #include "importers/writing/export_colors.h"
@@ -77,12 +78,19 @@ std::string text_of(Context& context, const ProjectionLight&, const Origin& orig
 }
 
 std::string text_of(Context& context, const GoniometricLight& light, const Origin& origin) {
-  if (light.power) {
-    context.dropped("goniometric light of given power: POV-Ray has no images of intensity", origin);
-    return "";
+  MeanIntensity intensity;
+  try {
+    intensity = mean_intensity(light);
+    context.approximated(
+        fmt::format("goniometric light: of the same flux, equal in all directions; its brightest "
+                    "direction has {:.3g} times that",
+                    intensity.mean > 0 ? intensity.greatest / intensity.mean : 0),
+        origin);
+  } catch (const Error& error) {
+    context.approximated(fmt::format("goniometric light: equal in all directions: {}", error.what()), origin);
   }
-  context.approximated("goniometric light: equal in all directions, without its image", origin);
-  return point(context, transform_point(light.light_to_world, {0, 0, 0}), emission_rgb(light.intensity));
+  return point(context, transform_point(light.light_to_world, {0, 0, 0}),
+               emission_rgb(scaled(light.intensity, intensity.mean)));
 }
 
 std::string text_of(Context&, const InfiniteLight& light, const Origin&) {

@@ -52,7 +52,7 @@ class Assimp : public testing::Test {
   }
   std::string error_of(const std::string& name, const std::string& bytes) {
     try {
-      read_assimp(folder_.write(name, bytes));
+      import_scene(folder_.write(name, bytes));
     } catch (const Error& error) {
       return error.what();
     }

@@ -121,6 +121,19 @@ TEST_F(MitsubaCamera, NothingNearOrFarIsCutAway) {
   EXPECT_NE(text().find(R"(name="far_clip" value="10000000")"), std::string::npos) << text();
 }
 
+// Each band is the mean radiance of its interval.
+TEST_F(MitsubaOracle, BinsAreBandsOfMeanRadiance) {
+  Scene scene = empty_scene();
+  scene.film.spectrum = {3, 400, 700};
+  scene.film.filter = BoxFilter{};
+  const Spectrum steps = tabulate({{300, 1}, {500, 1}, {500.5, 3}, {900, 3}}, true);
+  scene.lights = {{InfiniteLight{steps}}};
+  const Json picture = ask(scene, {{{"op", "render"}, {"spp", 1024}}}).at(0);
+  expect_near(picture.at("shape"), {4, 8, 3}, 0);
+  expect_near(picture.at("mean"), {1, 3, 3}, 0.02);
+  EXPECT_THAT(diagnostics_, testing::SizeIs(1));
+}
+
 TEST_F(MitsubaOracle, FilmAndIntegrator) {
   Scene scene = square_scene({});
   scene.film.crop = {2, 6, 1, 3};

@@ -67,6 +67,24 @@ class MitsubaMedia : public testing::Test {
   Diagnostics diagnostics_;
 };
 
+// Surfaces that cut through a grid show its mean.
+TEST_F(MitsubaMedia, VolumeTexturesAreTheirMean) {
+  std::string bytes = volume({2, 1, 1, 1}, 2);
+  const std::array<float, 2> cells{0.25f, 1};
+  bytes.replace(48, sizeof cells, reinterpret_cast<const char*>(cells.data()), sizeof cells);
+  folder_.write("a.vol", bytes);
+  const auto texture = [&](const std::string& inside) {
+    read(load_objects_of_text("<bsdf type='diffuse' id='m'><texture type='volume' name='reflectance'>" +
+                              inside + "</texture></bsdf>"));
+    return std::get<ProductTexture>(scene_.textures.at(0).model).first;
+  };
+  EXPECT_EQ(texture(grid("volume")), (SpectrumParameter{ConstantSpectrum{0.625f}}));
+  EXPECT_THAT(diagnostics_, SizeIs(1));
+  EXPECT_THAT(diagnostics_, says("from 0.25 to 1"));
+  texture("<volume type='constvolume' name='volume'><rgb name='value' value='.1,.2,.3'/></volume>");
+  EXPECT_THAT(diagnostics_, IsEmpty());
+}
+
 TEST_F(MitsubaMedia, WrittenMediaComeBack) {
   Scene original = empty_scene();
   folder_.write("a.vol", volume({2, 3, 4, 1}, 24));

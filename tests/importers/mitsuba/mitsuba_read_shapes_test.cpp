@@ -109,6 +109,32 @@ TEST(MitsubaShapes, QuadricsAreKept) {
   EXPECT_THAT(reading.report.take(), testing::IsEmpty());
 }
 
+// Mitsuba 3.9.1 shows a ball around to_world · centre, as wide as to_world · x is long.
+TEST(MitsubaShapes, SpheresAreRoundWhateverStretchesThem) {
+  Transform askew;
+  askew.m = {{{1, .5, 0, 4}, {2, -1, .25, 5}, {.5, 0, 3, 6}, {0, 0, 0, 1}}};
+  for (const Transform& to_world :
+       {scale({3, 2, 1}), translate({1, 2, 3}) * rotate(1, {0, 0, 1}) * scale({-.5, .9, .3}), askew}) {
+    Reading reading;
+    reading.add(shape("sphere",
+                      {{"radius", 2.0, {}}, {"center", Vector3d{1, 2, 3}, {}}, {"to_world", to_world, {}}}));
+    const Transform& t = reading.scene.shapes.at(0).object_to_world;
+    const double radius = 2 * length(transform_vector(to_world, {1, 0, 0}));
+    EXPECT_LT(length(transform_point(t, {0, 0, 0}) - transform_point(to_world, {1, 2, 3})), 1e-12);
+    const Vector3d axes[] = {transform_vector(t, {1, 0, 0}), transform_vector(t, {0, 1, 0}),
+                             transform_vector(t, {0, 0, 1})};
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(length(axes[i]), radius, 1e-12);
+      EXPECT_NEAR(dot(axes[i], axes[(i + 1) % 3]), 0, 1e-12);
+    }
+    EXPECT_EQ(swaps_handedness(t), swaps_handedness(to_world));
+    EXPECT_THAT(reading.report.take(), ElementsAre(testing::Field(&Diagnostic::message, HasSubstr("round"))));
+  }
+  Reading turned;
+  turned.add(shape("sphere", {{"to_world", rotate(1, {1, 2, 3}) * scale({2, 2, -2}), {}}}));
+  EXPECT_THAT(turned.report.take(), testing::IsEmpty());
+}
+
 TEST(MitsubaShapes, AnalyticShapesFaceOutwards) {
   const std::pair<const char*, double> areas[] = {
       {"rectangle", 4}, {"cube", 24}, {"disk", pi}, {"sphere", 4 * pi}, {"cylinder", 2 * pi}};

@@ -431,7 +431,17 @@ TEST(MitsubaFilm, TheCropLiesInside) {
 }
 
 TEST(MitsubaSensor, OtherSensorsBecomeTheNearest) {
-  EXPECT_THAT(read_text(sensor("radiancemeter", "")).diagnostics, says("1 degree"));
+  EXPECT_THAT(read_text(sensor("radiancemeter", "")).diagnostics, says("0.01 degrees"));
+  for (const bool down : {false, true}) {
+    const Reading meter = read_text(sensor(
+        "radiancemeter", std::string("<point name='origin' x='1' y='2' z='3'/><vector name='direction' ") +
+                             (down ? "x='0' y='-2' z='0'/>" : "x='0' y='3' z='4'/>")));
+    EXPECT_EQ(meter.diagnostics.size(), 1u) << "where it is and looks is used";
+    const Transform& place = std::get<PerspectiveCamera>(meter.scene.camera).camera_to_world;
+    EXPECT_EQ(transform_point(place, {0, 0, 0}), (Point3d{1, 2, 3}));
+    const Vector3d along = transform_vector(place, {0, 0, 1});
+    EXPECT_LT(length(along - (down ? Vector3d{0, -1, 0} : Vector3d{0, .6, .8})), 1e-12);
+  }
   EXPECT_THAT(read_text(sensor("irradiancemeter", "")).diagnostics, says("90 degrees"));
   EXPECT_THAT(read_text(sensor("distant", "")).diagnostics, says("an orthographic camera"));
   EXPECT_THAT(read_text(sensor("perspectiv", "")).diagnostics, says("did you mean \"perspective\""));
@@ -439,6 +449,46 @@ TEST(MitsubaSensor, OtherSensorsBecomeTheNearest) {
       "batch", sensor("thinlens", "<float name='aperture_radius' value='1'/>") + sensor("perspective", "")));
   EXPECT_THAT(batch.diagnostics, says("all but the first of the 2"));
   EXPECT_EQ(std::get<PerspectiveCamera>(batch.scene.camera).lens, (Lens{1, 1e4}));
+}
+
+Reading with_bands(const std::string& bands) {
+  return read_text("<sensor type='perspective'><film type='specfilm'>" + bands + "</film></sensor>");
+}
+
+TEST(MitsubaFilm, BandsSideBySideAreBins) {
+  const Reading bins = with_bands(
+      "<spectrum name='b' value='500:.01, 600:.01'/><spectrum name='a' value='400:.01, 500:.01'/>"
+      "<spectrum name='c' value='600:.01, 700:.01'/>");
+  EXPECT_EQ(bins.scene.film.spectrum, (SpectralBins{3, 400, 700}));
+  EXPECT_THAT(bins.diagnostics, IsEmpty());
+  const Reading sums = with_bands("<spectrum name='a' value='400:1, 500:1'/>");
+  EXPECT_EQ(sums.scene.film.spectrum, (SpectralBins{1, 400, 500}));
+  EXPECT_THAT(sums.diagnostics, says("100 times"));
+  const Reading infrared = with_bands("<spectrum name='a' value='800:.01, 900:.01'/>");
+  EXPECT_EQ(infrared.scene.film.spectrum, (SpectralBins{1, 800, 900}));
+  EXPECT_THAT(infrared.diagnostics, says("black when they are rendered"));
+}
+
+TEST(MitsubaFilm, OtherBandsAreSumsOfNarrowBins) {
+  const Reading curve = with_bands(
+      "<spectrum name='a' value='400:0, 450:1, 500:0'/><spectrum name='b' type='regular'>"
+      "<string name='values' value='1, 2, 1'/><float name='wavelength_min' value='480'/>"
+      "<float name='wavelength_max' value='605'/></spectrum>");
+  EXPECT_EQ(curve.scene.film.spectrum, (SpectralBins{21, 400, 605}));
+  EXPECT_THAT(curve.diagnostics, says("21 intervals of 9.762 nm"));
+  EXPECT_THAT(with_bands("").diagnostics, says("without bands"));
+}
+
+// As many and as wide, to the bit.
+TEST(MitsubaFilm, BinsComeBack) {
+  for (const SpectralBins& bins :
+       {SpectralBins{47, 360, 830}, SpectralBins{7, 400.1, 699.7}, SpectralBins{1, 500, 501}}) {
+    Scene scene;
+    scene.film.spectrum = bins;
+    const Reading back = written_and_read(scene);
+    EXPECT_EQ(back.scene.film.spectrum, bins);
+    EXPECT_THAT(back.diagnostics, IsEmpty());
+  }
 }
 
 TEST(MitsubaFilm, UnknownFilters) {

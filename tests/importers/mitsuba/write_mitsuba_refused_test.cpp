@@ -96,6 +96,21 @@ TEST_F(RefusedByMitsuba, ExtinctionsAboveOneAreScaled) {
   EXPECT_NEAR(std::stod(values.substr(values.find(':') + 1)), 3.6 / 8.3, 1e-6);
 }
 
+// Mitsuba's spectral variants make NaN of an extinction that is 0 at some wavelengths.
+TEST_F(RefusedByMitsuba, ExtinctionsOfLinesAreNowhereZero) {
+  Scene scene = square_scene({});
+  Medium medium;
+  medium.coefficients = AbsorptionScattering{tabulate({{500, .1}}, false), ConstantSpectrum{0}};
+  scene.media = {medium};
+  scene.shapes[0].exterior = Id<Medium>{0};
+  const std::string values = value(write(scene).child("medium"), "sigma_t");  // 360:1e-10, … 830:1e-10
+  for (std::size_t at = values.find(':'); at != values.npos; at = values.find(':', at + 1)) {
+    const double sigma_t = std::stod(values.substr(at + 1));
+    EXPECT_GT(sigma_t, 0) << values;
+    EXPECT_TRUE(sigma_t > .09 || sigma_t < 1e-9) << values;
+  }
+}
+
 // Mitsuba's rgb variants know no scale of a d65: said of lamps, which have none of their own.
 TEST_F(RefusedByMitsuba, ScalesOfLampsImages) {
   Scene scene = square_scene({});

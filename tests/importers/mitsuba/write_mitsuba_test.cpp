@@ -268,6 +268,7 @@ TEST_F(WriteMitsuba, ExactModels) {
   using Format = TabulatedMaterial::Format;
   EXPECT_STREQ(write_material(TabulatedMaterial{Format::adaptive, "/m.bsdf"}).attribute("type").value(),
                "measured");
+  EXPECT_STREQ(write_material(MeasuredMaterial{"/m.pbsdf"}).attribute("type").value(), "measured_polarized");
   EXPECT_THAT(diagnostics_, IsEmpty());
 }
 

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/records/light.h"
+
+namespace vitrail {
+
+// What a goniometric light sends into its directions, as multiples of its `intensity`.
+struct MeanIntensity {
+  double mean = 1;      // over all directions: a point light of this intensity has the same flux
+  double greatest = 1;  // in one direction
+};
+
+// Throws Error where the light's image cannot be read.
+MeanIntensity mean_intensity(const GoniometricLight& light);
+
+}  // namespace vitrail
