@@ -222,6 +222,17 @@ TEST_F(Partition, ReplacesAnOlderBundleAndLeavesNothingElse) {
   EXPECT_EQ(names_in(directory.path()), std::vector<std::string>{"scene.vit"});
 }
 
+TEST_F(Partition, OfALinkTheBundleBehindItIsReplaced) {
+  fs::create_directory(directory / "disk");
+  fs::create_directory_symlink("disk/real.vit", out);
+  for (const std::uint32_t domains : {2u, 3u}) {
+    partition(scene_of(bumpy_torus(10)), out, {.domains = domains});
+    EXPECT_TRUE(fs::is_symlink(out));
+    EXPECT_EQ(read_manifest(directory / "disk/real.vit").domains.size(), domains);
+    EXPECT_EQ(names_in(directory / "disk"), std::vector<std::string>{"real.vit"});
+  }
+}
+
 TEST_F(Partition, NeverTouchesWhatIsNotABundle) {
   fs::create_directory(out);
   std::ofstream(out / "thesis.txt") << "years of work";
