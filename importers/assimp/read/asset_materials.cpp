@@ -60,7 +60,8 @@ class MaterialReader {
 
   void add_map(MtlMaterial& mtl, const char* keyword, const AssetImage& image) {
     MtlMap map;
-    map.filename = image.is_inside ? part_with(image.bytes) : file_of(image.name);
+    map.filename = image.is_inside ? part_with(image.bytes)
+                                   : named_file(image.name, std::filesystem::absolute(file_).parent_path());
     map.wrap = image.clamps ? Wrap::clamp : image.mirrors ? Wrap::mirror : Wrap::repeat;
     if (map.filename.empty())
       note(Fidelity::dropped,
@@ -68,13 +69,6 @@ class MaterialReader {
                        keyword));
     else
       mtl.maps.emplace(keyword, std::move(map));
-  }
-
-  // A file that is not there keeps its name: who reads the scene refuses it, or replaces it.
-  std::string file_of(const std::string& name) const {
-    const std::filesystem::path folder = std::filesystem::absolute(file_).parent_path();
-    const std::string found = find_named_file(name, folder);
-    return found.empty() ? (folder / name).lexically_normal().string() : found;
   }
 
   // The part of this file that has these bytes.
