@@ -20,4 +20,10 @@ struct LightNames {
 // "medium-2", those of the manifest.
 LightNames light_names(const Manifest& manifest);
 
+// By kind and number alone, whatever names the file gives.
+LightNames numbered_light_names(const Manifest& manifest);
+
+// "Desk_lamp" of "Desk lamp": as names of lights are shown and typed.
+std::string typed_name(std::string name);
+
 }  // namespace vitrail

@@ -42,7 +42,9 @@ RenderStats run(Transport& transport, const RenderOptions& options, const Job& j
   add_plan(stats, job, options, transport.size());
   stats.finished_before = finished_before;
   if (is_root && !options.outputs.quiet && !has_light(manifest))
-    say("vitrail: the scene has no light: its picture is black\n");
+    say("vitrail: the scene has no light: its picture is black; add a lamp, or give --sky "
+        "LATITUDE,LONGITUDE,TIME "
+        "where the scene is partitioned\n");
   if (finished_before) {
     stats.ending = Ending::finished;
   } else {

@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
+#include <string_view>
 #include <vector>
 
+#include "cli/help/headings.h"
+#include "cli/help/verbs.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {
@@ -27,7 +31,6 @@ constexpr std::array foreign_options{
     ForeignOption{"--quick", "here it is a small --spp, --scale 0.25 and --decimate 0.1"},
     ForeignOption{"--resolution", "here it is render --width and --height"},
     ForeignOption{"--samples", "here it is render --spp"},
-    ForeignOption{"--display-server", "it is one of render"},
     ForeignOption{"--mse-reference-image", "here it is vitrail compare"},
     ForeignOption{"--write-partial-images", "here it is render --preview PICTURE"},
     ForeignOption{"--toply", "here it is vitrail convert IN OUT.pbrt"},
@@ -43,6 +46,19 @@ constexpr std::array foreign_options{
     ForeignOption{"-v", "vitrail has one level of messages; --stats F.json has more"},
     ForeignOption{"--verbose", "vitrail has one level of messages; --stats F.json has more"},
 };
+
+// "develop, measure" where other verbs have the option; "" where none has.
+std::string verbs_with(std::string_view option) {
+  std::string found;
+  for (const Verb& verb : verbs())
+    for (const Heading& heading : headings(verb.name)) {
+      std::istringstream words{std::string(heading.options)};
+      for (std::string word; words >> word;)
+        if ("--" + word.substr(0, word.find('=')) == option)
+          found += fmt::format("{}{}", found.empty() ? "" : ", ", verb.name);
+    }
+  return found;
+}
 
 std::vector<std::string> names_of(const CLI::App& app) {
   std::vector<std::string> names{"--help"};
@@ -63,6 +79,11 @@ std::string about_unexpected(const CLI::App& app) {
   const std::string name = option->substr(0, option->find('='));
   for (const ForeignOption& foreign : foreign_options)
     if (name == foreign.name) return fmt::format("there is no option {}: {}", name, foreign.here);
+  if (const std::string others = verbs_with(name); !others.empty())
+    return fmt::format("there is no option {}: it is one of vitrail {}{}", name, others,
+                       others == "develop" && app.get_name() == "vitrail render"
+                           ? ", of the film that --film NAME.film keeps"
+                           : "");
   const std::string meant = closest_word(name, names_of(app));
   return meant.empty() ? fmt::format("there is no option {}", name)
                        : fmt::format("there is no option {}; did you mean {}?", name, meant);

@@ -152,7 +152,8 @@ int run(PartitionArguments& a, Stage& stage) {
   require_sense(a, imported.scene);
   if (a.layers) imported.scene.film.layers.bits = a.layers->bits;
   if (!a.quiet && a.summary && imported.scene.lights.empty() && imported.scene.area_lights.empty())
-    say("vitrail: {} has no light: its picture is black\n", a.input.string());
+    say("vitrail: {} has no light: its picture is black; add a lamp, or give --sky LATITUDE,LONGITUDE,TIME\n",
+        a.input.string());
   const MeshResources resources{kept_bytes, a.options.memory_bytes, a.options.threads};
   const Diagnostics edits = apply_mesh_options(a.meshes, imported.scene, resources);
   if (!a.quiet) say("{}", summarise(edits));

@@ -95,9 +95,21 @@ double longest_work_s(const Arguments& a, const RayProfile& profile, const Homes
   return std::ranges::max(work_s) * pictures / a.threads;
 }
 
+// A profile is of few samples, and a job of so few is soon done on any cluster.
+void warn_of_few_samples(const Arguments& a, const Manifest& m, const RayProfile& profile) {
+  const PixelRect& c = m.film.crop;
+  const double pixels = static_cast<double>(c.x1 - c.x0) * (c.y1 - c.y0);
+  const double samples = static_cast<double>(profile.cost.camera_rays) * a.pictures / pixels;
+  if (samples < 1.5)
+    say("vitrail: this plans {:.2g} samples a pixel, those of the profile; --times 256 plans 256 times as "
+        "many\n",
+        samples);
+}
+
 int plan(const Arguments& a) {
   const Manifest manifest = read_manifest(a.bundle);
   const RayProfile profile = read_ray_profile(a.profile);
+  warn_of_few_samples(a, manifest, profile);
   Machine machine;
   machine.workers = a.threads;
   machine.latency_s = a.latency_us * 1e-6;

@@ -27,6 +27,25 @@ bool is_option(const std::string& word) {
          (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
 }
 
+// What stands around "%04d".
+struct NumberedName {
+  std::string before, after;
+  std::size_t digits = 0;
+};
+
+NumberedName parts_of(const std::filesystem::path& name) {
+  const std::string text = name.string();
+  const std::size_t begin = text.find('%');
+  std::size_t end = begin == text.npos ? begin : begin + 1;
+  while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])) != 0) ++end;
+  if (end == text.npos || end >= text.size() || text[end] != 'd' || text.find('%', end) != text.npos ||
+      end - begin > 3)
+    throw UsageError("--frames numbers its pictures: --output needs one %04d, as in day%04d.png: " + text);
+  NumberedName parts{text.substr(0, begin), text.substr(end + 1)};
+  std::from_chars(text.data() + begin + 1, text.data() + end, parts.digits);
+  return parts;
+}
+
 }  // namespace
 
 std::vector<Frame> read_frames(const std::filesystem::path& file) {
@@ -51,15 +70,13 @@ std::vector<Frame> read_frames(const std::filesystem::path& file) {
 }
 
 std::filesystem::path numbered(const std::filesystem::path& name, std::size_t number) {
-  const std::string text = name.string();
-  const std::size_t begin = text.find('%');
-  std::size_t end = begin == text.npos ? begin : begin + 1, digits = 0;
-  while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])) != 0) ++end;
-  if (end == text.npos || end >= text.size() || text[end] != 'd' || text.find('%', end) != text.npos ||
-      end - begin > 3)
-    throw UsageError("--frames numbers its pictures: --output needs one %04d, as in day%04d.png: " + text);
-  std::from_chars(text.data() + begin + 1, text.data() + end, digits);
-  return text.substr(0, begin) + fmt::format("{:0{}}", number, digits) + text.substr(end + 1);
+  const NumberedName parts = parts_of(name);
+  return parts.before + fmt::format("{:0{}}", number, parts.digits) + parts.after;
+}
+
+std::filesystem::path record_path(const std::filesystem::path& name) {
+  const NumberedName parts = parts_of(name);
+  return parts.before + "frames" + parts.after + ".json";
 }
 
 }  // namespace vitrail

@@ -21,4 +21,7 @@ std::vector<Frame> read_frames(const std::filesystem::path& file);
 // "%04d" in the name becomes the number. Throws UsageError where there is not one such place.
 std::filesystem::path numbered(const std::filesystem::path& name, std::size_t number);
 
+// Where it is kept what the pictures are of (frame_record.h): "dayframes.png.json" of "day%04d.png".
+std::filesystem::path record_path(const std::filesystem::path& name);
+
 }  // namespace vitrail

@@ -4,17 +4,21 @@
 #include <algorithm>
 #include <cctype>
 #include <csignal>
+#include <functional>
 #include <new>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "cli/common/main_guard.h"
 #include "cli/common/run_program.h"
 #include "cli/common/switching_glazing.h"
 #include "cli/help/describe.h"
 #include "cli/render/display_server.h"
+#include "cli/render/frame_record.h"
 #include "cli/render/frames.h"
 #include "cli/render/job_limits.h"
 #include "cli/render/other_camera.h"
@@ -31,6 +35,7 @@
 #include "farm/run/patience.h"
 #include "farm/run/progress.h"
 #include "farm/run/watchdog.h"
+#include "farm/run/work_words.h"
 #include "farm/transport/agreement.h"
 #include "farm/transport/doing.h"
 #include "film/develop.h"
@@ -45,6 +50,17 @@ namespace fs = std::filesystem;
 void set_glazing(RenderArguments& a) {
   const fs::path& bundle = a.options.bundle;
   a.options.picture.sheets = sheets_under(parse_settings(a.glazing), bundle, read_manifest(bundle));
+}
+
+// What of the picture is known from the bundle alone, or from another scene's camera.
+void complete_picture(Transport& transport, RenderArguments& a) {
+  agree(transport, [&] {
+    if (transport.rank() == 0 && !a.glazing.empty()) set_glazing(a);
+  });
+  share_from_root(transport, a.options.picture.sheets);
+  if (!a.camera_file.empty())
+    a.options.picture.view.view = view_of_scene(
+        transport, a.camera_file, fs::path(a.options.outputs.film).replace_extension(".tmp.camera"));
 }
 
 int number_of(Ending ending) {
@@ -86,13 +102,7 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   a.options.bundle = a.is_bundle() ? a.input : beside_the_film;
   std::optional<TemporaryBundle> temporary;
   if (!a.is_bundle()) temporary.emplace(transport, a.input, beside_the_film, partition_arguments(a));
-  agree(transport, [&] {
-    if (first && !a.glazing.empty()) set_glazing(a);
-  });
-  share_from_root(transport, a.options.picture.sheets);
-  if (!a.camera_file.empty())
-    a.options.picture.view.view = view_of_scene(
-        transport, a.camera_file, fs::path(a.options.outputs.film).replace_extension(".tmp.camera"));
+  complete_picture(transport, a);
   agree(transport, [] {
     if (stop_signal()) throw Interrupted(stop_signal(), "interrupted before rendering began");
   });
@@ -130,11 +140,11 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
 }
 
 // A job of several ranks says which one speaks.
-int guarded_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
+int guarded(const Transport& transport, const std::function<int()>& job) {
   const std::string who =
       transport.size() > 1 ? fmt::format("rank {} of {}: ", transport.rank(), transport.size()) : "";
   try {
-    return render_job(app, transport, a);
+    return job();
   } catch (const OtherRankFailed& failed) {
     if (stop_signal()) return 128 + stop_signal();
     return failed.bad_input ? exit_bad_input : exit_machine;
@@ -168,13 +178,68 @@ std::string typed_command(int argc, char** argv) {
   return line;
 }
 
-bool is_there(Transport& transport, const fs::path& picture) {
-  std::uint64_t there[] = {transport.rank() == 0 && fs::exists(picture)};
-  transport.broadcast_from_root(std::span(there));
-  return there[0] != 0;
+// The job of one frame, by the words of the command and those of its line.
+class FrameJob {
+ public:
+  FrameJob(std::span<char* const> typed, const Frame& frame, const fs::path& frames, const fs::path& output) {
+    declare(app_, arguments_);
+    let_the_last_count(app_);
+    std::vector<std::string> words(typed.begin() + 1, typed.end());
+    words.insert(words.end(), frame.words.begin(), frame.words.end());
+    words.insert(words.end(), {"-o", output.string()});
+    arguments_.options.outputs.command = fmt::format("vitrail render {}", fmt::join(words, " "));
+    std::ranges::reverse(words);
+    try {
+      app_.parse(words);
+    } catch (const CLI::ParseError& e) {
+      throw Error(e.what(), {frames.string(), static_cast<int>(frame.line), 1});
+    }
+  }
+
+  int render(Transport& transport) { return render_job(app_, transport, arguments_); }
+
+  // On rank 0; elsewhere nothing. The job renders nothing afterwards.
+  WorkWords words(Transport& transport) {
+    RenderArguments& a = arguments_;
+    agree(transport, [&] { interpret(app_, a); });
+    a.options.bundle = a.input;
+    complete_picture(transport, a);
+    WorkWords work;
+    agree(transport, [&] {
+      if (transport.rank() != 0) return;
+      work = words_of_work(a.options);
+      work.fields.emplace_back("--denoise", a.denoised ? "yes" : "no");
+    });
+    return work;
+  }
+
+ private:
+  CLI::App app_{"a frame", "vitrail render"};
+  RenderArguments arguments_;
+};
+
+// Where pictures are there that no checkpoint says to be unfinished: on all ranks as on rank 0.
+std::vector<std::uint64_t> which_are_whole(Transport& transport, const std::vector<fs::path>& pictures) {
+  std::vector<std::uint64_t> whole(pictures.size());
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    whole[i] = transport.rank() == 0 && fs::exists(pictures[i]) &&
+               !fs::exists(checkpoint_path(fs::path(pictures[i]) += ".work"));
+  transport.broadcast_from_root(std::span(whole));
+  return whole;
 }
 
-// A job for each frame that is missing.
+// Says of the first, and how many more there are.
+[[noreturn]] void refuse_other_pictures(const std::vector<std::pair<fs::path, std::string>>& others) {
+  const auto& [picture, difference] = others.front();
+  throw Error(
+      fmt::format("this picture is not what its line asks for: {}{}; --force renders all frames anew, and "
+                  "another --output keeps it",
+                  difference, others.size() > 1 ? fmt::format(" ({} more differ)", others.size() - 1) : ""),
+      {picture.string()});
+}
+
+// A job for each frame that is missing. Before the first, pictures that are there are held to their lines;
+// films tell by themselves what they are of.
 int render_frames(Transport& transport, const RenderArguments& all, std::span<char* const> typed) {
   if (!all.is_bundle())
     throw UsageError(
@@ -183,28 +248,45 @@ int render_frames(Transport& transport, const RenderArguments& all, std::span<ch
     throw UsageError(
         "--frames keeps a film for each picture: leave out --film, or let --output end in %04d.film");
   const std::vector<Frame> frames = read_frames(all.frames);
+  std::vector<fs::path> outputs;
+  for (std::size_t i = 0; i < frames.size(); ++i) outputs.push_back(numbered(all.output, i + 1));
+  const auto job = [&](std::size_t i) { return FrameJob(typed, frames[i], all.frames, outputs[i]); };
+  const JobOutputs& o = all.options.outputs;
+  const bool first = transport.rank() == 0, of_films = all.output.extension() == ".film";
+  std::vector<std::uint64_t> stays(frames.size());
+  if (!of_films && !o.force) stays = which_are_whole(transport, outputs);
+  std::optional<FrameRecord> record;
+  agree(transport, [&] {
+    if (first && !of_films) record.emplace(record_path(all.output));
+  });
+  std::vector<std::pair<fs::path, std::string>> others;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const fs::path output = numbered(all.output, i + 1);
-    const bool stays = !all.options.outputs.force && is_there(transport, output);
-    if (transport.rank() == 0 && !all.quiet)
-      say("vitrail: frame {} of {}: {}{}\n", i + 1, frames.size(), output.string(),
-          stays ? " is there and stays; --force renders it anew" : "");
-    if (stays) continue;
-    RenderArguments a;
-    CLI::App app("a frame", "vitrail render");
-    declare(app, a);
-    let_the_last_count(app);
-    std::vector<std::string> words(typed.begin() + 1, typed.end());
-    words.insert(words.end(), frames[i].words.begin(), frames[i].words.end());
-    words.insert(words.end(), {"-o", output.string()});
-    a.options.outputs.command = fmt::format("vitrail render {}", fmt::join(words, " "));
-    std::ranges::reverse(words);
-    try {
-      app.parse(words);
-    } catch (const CLI::ParseError& e) {
-      throw Error(e.what(), {all.frames.string(), static_cast<int>(frames[i].line), 1});
-    }
-    if (const int status = guarded_job(app, transport, a); status != exit_done) return status;
+    if (stays[i] == 0) continue;
+    const WorkWords asked = job(i).words(transport);
+    if (!first) continue;
+    if (const std::string d = record->differences(outputs[i], asked); !d.empty())
+      others.emplace_back(outputs[i], d);
+  }
+  agree(transport, [&] {
+    if (!others.empty()) refuse_other_pictures(others);
+  });
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (first && !all.quiet)
+      say("vitrail: frame {} of {}: {}{}\n", i + 1, frames.size(), outputs[i].string(),
+          stays[i] != 0 ? " is there and stays" : "");
+    if (stays[i] != 0) continue;
+    const bool recorded = !of_films && !o.dry_run;
+    const WorkWords work = recorded ? job(i).words(transport) : WorkWords();
+    const auto note = [&](bool of_old_picture) {
+      agree(transport, [&] {
+        if (!first || !recorded) return;
+        // Killed between, a job leaves the old picture: nobody takes that for the new one.
+        of_old_picture ? record->remove(outputs[i]) : record->put(outputs[i], work);
+      });
+    };
+    note(o.force && fs::exists(outputs[i]));
+    if (const int status = job(i).render(transport); status != exit_done) return status;
+    note(false);
   }
   return exit_done;
 }
@@ -240,8 +322,10 @@ int main(int argc, char** argv) {
     const auto transport = make_transport(&argc, &argv);
     Patience patience(*transport, watchdog, patience_s);
     const int end = run_guarded([&] {
-      if (arguments.frames.empty()) return guarded_job(app, *transport, arguments);
-      return render_frames(*transport, arguments, std::span(argv, static_cast<std::size_t>(argc)));
+      return guarded(*transport, [&] {
+        if (arguments.frames.empty()) return render_job(app, *transport, arguments);
+        return render_frames(*transport, arguments, std::span(argv, static_cast<std::size_t>(argc)));
+      });
     });
     patience.leave(/*failed=*/end == exit_usage || end == exit_bad_input || end == exit_machine);
     return end;

@@ -92,7 +92,8 @@ void declare_picture(CLI::App& app, RenderArguments& a) {
       ->check(CLI::Range(0.001, 179.999));
   app.add_option("--set", a.settings,
                  "change the scene without partitioning it again; may repeat. Lights, by the names of "
-                 "inspect: NAME.scale=2; a sky: NAME.sun=X:Y:Z (towards it) and NAME.turbidity=3. Materials: "
+                 "inspect or of their material: NAME.scale=2; a sky: NAME.sun=X:Y:Z (towards it) and "
+                 "NAME.turbidity=3. Materials: "
                  "NAME.color=R:G:B, NAME.roughness=0.2. Glass that switches: NAME.state=0.6, "
                  "NAME.temperature (°C), NAME.uv (W/m²), NAME.seconds")
       ->allow_extra_args(false);
@@ -198,10 +199,12 @@ void declare_outputs(CLI::App& app, RenderArguments& a) {
   app.add_option("--sensors", o.picture.sensors,
                  "measure irradiance instead of rendering a picture. The text has lines of x y z nx ny nz, "
                  "or plane O U V NXxNY. Each sensor gets 16 times --spp samples; develop writes the .csv");
-  app.add_option("--frames", a.frames,
-                 "render a picture of a bundle for each line of this text: --camera, --look-at, --fov, "
-                 "--set, --seed or --spp. "
-                 "--output has %04d for its number, from 1. Existing pictures stay, unless --force");
+  app.add_option(
+      "--frames", a.frames,
+      "render a picture of a bundle for each line of this text: --camera, --look-at, --fov, "
+      "--set, --seed or --spp. "
+      "--output has %04d for its number, from 1. A picture that is there stays; if it is not what its line "
+      "asks for, the difference is named");
   app.add_option("--preview", a.preview,
                  "write the picture so far to this file, .png or another: soon, after twice the time and so "
                  "on, and when the render is stopped");

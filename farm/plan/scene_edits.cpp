@@ -117,19 +117,40 @@ void edit_light(Light& light, const SceneEdit& edit) {
   }
 }
 
+bool is_called(const std::string& name, const SceneEdit& edit) {
+  return !name.empty() && (name == edit.name || typed_name(name) == typed_name(edit.name));
+}
+
 // Whether some light has the name.
-bool edit_lights(Manifest& m, const SceneEdit& edit) {
-  const LightNames names = light_names(m);
+bool edit_lights(Manifest& m, const LightNames& names, const SceneEdit& edit) {
   bool any = false;
   for (std::size_t i = 0; i < m.area_lights.size(); ++i) {
-    if (names.area_lights[i] != edit.name) continue;
+    if (!is_called(names.area_lights[i], edit)) continue;
     if (edit.property != "scale") refuse(edit.text, "a light has a scale");
     scale_surface(m.area_lights[i], edit.values[0]);
     any = true;
   }
   for (std::size_t i = 0; i < m.lights.size(); ++i)
-    if (names.lights[i] == edit.name) edit_light(m.lights[i], edit), any = true;
+    if (is_called(names.lights[i], edit)) edit_light(m.lights[i], edit), any = true;
   return any;
+}
+
+// Area lights by a material of theirs that the edit names; "" of the others.
+LightNames shining_materials(const Manifest& m, const SceneEdit& edit) {
+  LightNames names;
+  names.area_lights.resize(m.area_lights.size());
+  names.lights.resize(m.lights.size());
+  for (const Surface& surface : m.surfaces) {
+    const std::string& name = m.materials[surface.material].name;
+    if (surface.area_light >= 0 && is_called(name, edit))
+      names.area_lights[static_cast<std::size_t>(surface.area_light)] = name;
+  }
+  return names;
+}
+
+bool edit_any_light(Manifest& m, const SceneEdit& edit) {
+  return edit_lights(m, light_names(m), edit) || edit_lights(m, shining_materials(m, edit), edit) ||
+         edit_lights(m, numbered_light_names(m), edit);
 }
 
 // ---- Materials
@@ -200,7 +221,7 @@ bool edit_material(Manifest& m, std::size_t material, const SceneEdit& edit) {
 bool edit_materials(Manifest& m, const SceneEdit& edit) {
   bool any = false;
   for (std::size_t i = 0; i < m.materials.size(); ++i) {
-    if (m.materials[i].name != edit.name) continue;
+    if (!is_called(m.materials[i].name, edit)) continue;
     if (!edit_material(m, i, edit)) refuse(edit.text, fmt::format("this material has no {}", edit.property));
     any = true;
   }
@@ -208,7 +229,7 @@ bool edit_materials(Manifest& m, const SceneEdit& edit) {
 }
 
 // Of lights, or of materials that have one.
-std::string list_of_names(const Manifest& m, bool of_lights) {
+std::set<std::string> names_of(const Manifest& m, bool of_lights) {
   std::set<std::string> names;
   const LightNames lights = light_names(m);
   if (of_lights)
@@ -216,12 +237,31 @@ std::string list_of_names(const Manifest& m, bool of_lights) {
   else
     for (const Material& material : m.materials) names.insert(material.name);
   names.erase("");
-  constexpr std::size_t most = 20;
+  return names;
+}
+
+// "there is Desk, Lamp; did you mean Lamp? vitrail inspect lists all".
+std::string words_about_names(const Manifest& m, const SceneEdit& edit, bool of_lights) {
+  const std::set<std::string> names = names_of(m, of_lights);
   std::vector<std::string> shown(names.begin(), names.end());
+  const std::string meant = closest_word(edit.name, shown);
+  constexpr std::size_t most = 20;
   const std::size_t more = shown.size() - std::min(shown.size(), most);
   shown.resize(shown.size() - more);
   if (more > 0) shown.push_back(fmt::format("{} more", more));
-  return shown.empty() ? "none with a name" : fmt::format("{}", fmt::join(shown, ", "));
+  return fmt::format("there is {}; {}vitrail inspect lists all",
+                     shown.empty() ? "none with a name" : fmt::format("{}", fmt::join(shown, ", ")),
+                     meant.empty() ? "" : fmt::format("did you mean {}? ", meant));
+}
+
+[[noreturn]] void refuse_name(const Manifest& m, const SceneEdit& edit, bool of_lights) {
+  const std::set<std::string> others = names_of(m, !of_lights);
+  const bool is_other =
+      std::ranges::any_of(others, [&](const std::string& name) { return is_called(name, edit); });
+  const char* const other =
+      of_lights ? "this is a material that does not shine, and " : "this is a light, and ";
+  refuse(edit.text, fmt::format("{}no {} has this name; {}", is_other ? other : "",
+                                of_lights ? "light" : "material", words_about_names(m, edit, of_lights)));
 }
 
 }  // namespace
@@ -257,9 +297,8 @@ void edit_scene(std::span<const SceneEdit> edits, Manifest& m) {
   hasher.add(std::as_bytes(std::span(&m.scene_hash, 1)));
   for (const SceneEdit& edit : edits) {
     const bool of_material = edit.property == "color" || edit.property == "roughness";
-    if (!(of_material ? edit_materials(m, edit) : edit_lights(m, edit)))
-      refuse(edit.text, fmt::format("no {} has this name; there is {}", of_material ? "material" : "light",
-                                    list_of_names(m, !of_material)));
+    if (!(of_material ? edit_materials(m, edit) : edit_any_light(m, edit)))
+      refuse_name(m, edit, !of_material);
     hasher.add(std::as_bytes(std::span(edit.text)));
     hasher.add(std::as_bytes(std::span("\n", 1)));
   }

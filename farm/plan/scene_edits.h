@@ -11,7 +11,8 @@
 
 namespace vitrail {
 
-// NAME.PROPERTY=VALUE. Of a light (bundle/light_names.h):
+// NAME.PROPERTY=VALUE. Of a light, by its name (bundle/light_names.h), else by the name of a material that
+// shines, else by kind and number (area-1):
 // - scale, at least 0: times its light;
 // - sun=x:y:z, towards the sun in the world, of a sky or a distant light;
 // - turbidity, 1 … 10, of a sky.
@@ -28,8 +29,9 @@ bool is_scene_edit(const std::string& text);
 // Throws UsageError.
 SceneEdit parse_scene_edit(const std::string& text);
 
-// In the order in which they are given. Throws UsageError where nothing has that name or property, and where
-// the bundle would have to be made anew. The manifest's scene_hash becomes another one.
+// In the order in which they are given. A blank of a name may be given as "_". Throws UsageError where
+// nothing has that name or property, with the names that there are, and where the bundle would have to be
+// made anew. The manifest's scene_hash becomes another one.
 void edit_scene(std::span<const SceneEdit> edits, Manifest& manifest);
 
 }  // namespace vitrail

@@ -7,10 +7,9 @@
 #include <array>
 #include <cstdio>
 
-#include "farm/run/scene_parts.h"
+#include "farm/run/work_words.h"
 #include "farm/transport/agreement.h"
 #include "film/film_progress.h"
-#include "film/picture_fields.h"
 #include "scene/records/pixel_place.h"
 #include "scene/system/say.h"
 
@@ -114,21 +113,13 @@ struct Asked {
 // In what this is other work than what is asked for: "depth: 3, this command has 4; …"; "" where it is the
 // same.
 std::string differences(const Held& held, const Asked& asked) {
-  std::string text;
-  const auto add = [&](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
-  const auto compare = [&](const char* name, const std::string& has, const std::string& wanted) {
-    if (has != wanted) add(fmt::format("{}: {}, this command has {}", name, has, wanted));
-  };
   const FilmProgress& p = held.progress;
-  const FilmKey &key = held.film.key(), &wanted = asked.film.key();
-  if (key.scene_hash != wanted.scene_hash) add(differences_of_scenes(p.about, asked.about));
-  const std::vector<PictureField> mine = picture_fields(key, held.film.settings()),
-                                  theirs = picture_fields(wanted, asked.film.settings());
-  for (std::size_t i = 1; i < mine.size(); ++i) compare(mine[i].name, mine[i].value, theirs[i].value);
-  compare("seed", std::to_string(key.seed), std::to_string(wanted.seed));
+  std::string text = differences(words_of_work(held.film.key(), held.film.settings(), p.about),
+                                 words_of_work(asked.film.key(), asked.film.settings(), asked.about));
+  const auto add = [&](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
   if (text.empty()) text = difference(held.film, asked.film);
   if (p.samples_per_pixel > asked.goal.samples)
-    compare("samples a pixel", std::to_string(p.samples_per_pixel), std::to_string(asked.goal.samples));
+    add(fmt::format("samples a pixel: {}, this command has {}", p.samples_per_pixel, asked.goal.samples));
   if (p.adaptive && !asked.goal.adaptive)
     add("samples: adaptive, this command has the same number everywhere (--adaptive continues it)");
   if (text.empty() && !makes_sense(held)) text = "it does not say which samples it holds";

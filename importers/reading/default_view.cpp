@@ -90,8 +90,7 @@ void add_default_light(ImportedScene& imported, const std::filesystem::path& fil
   scene.lights.push_back({InfiniteLight{emission_from_rgb({sky, sky, sky})}});
   scene.lights.push_back(
       {DistantLight{normalize(Vector3d{0.5, -1, -0.7}), emission_from_rgb({sun, sun, sun})}});
-  imported.diagnostics.push_back(
-      {Fidelity::approximated, "there is no light: a white sky and a sun are added", {file.string()}});
+  imported.diagnostics.push_back({Fidelity::approximated, sky_is_added, {file.string()}});
 }
 
 }  // namespace vitrail

@@ -8,6 +8,7 @@
 #include <functional>
 #include <set>
 
+#include "importers/reading/default_view.h"
 #include "scene/daylight/photometry.h"
 #include "scene/records/light_traits.h"
 
@@ -151,12 +152,16 @@ void note_lamps(ImportedScene& imported) {
 
 void replace_sky(ImportedScene& imported, const GivenSky& sky) {
   Scene& scene = imported.scene;
+  // Where there was no light, the scene loses none.
+  const bool was_added =
+      std::erase_if(imported.diagnostics, [](const Diagnostic& d) { return d.message == sky_is_added; }) > 0;
   std::vector<Light> kept;
   for (Light& light : scene.lights) {
     if (!traits_of(light.model).is_far()) {
       kept.push_back(std::move(light));
       continue;
     }
+    if (was_added) continue;
     const SourceLocation place = location(scene, light.origin);
     imported.diagnostics.push_back({Fidelity::dropped, "light from infinitely far: --sky stands for it",
                                     place, place, RecordKind::light});

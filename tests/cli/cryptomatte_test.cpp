@@ -141,5 +141,25 @@ TEST_F(CryptomatteTyped, ABundleHasToTellShapesApart) {
   EXPECT_EQ(render("b.vit", "cryptomatte").status, 3);
 }
 
+// Of one material, one of them in two parts of the file.
+TEST_F(CryptomatteTyped, ObjectsOfAnObjAreMasks) {
+  const auto square = [](double x) {
+    return fmt::format("v {0} 0 0\nv {1} 0 0\nv {1} 1 0\nv {0} 1 0\nf -4 -3 -2 -1\n", x, x + 1);
+  };
+  std::ofstream(directory_ / "a.obj") << "o chair\nusemtl oak\n"
+                                      << square(0) << "o table\n"
+                                      << square(1.2) << "o chair\n"
+                                      << square(2.4);
+  const CommandResult made =
+      run(fmt::format("{} {} -o {} --aov cryptomatte --width 48 --height 32 --spp 4 --quiet",
+                      vitrail("render"), path("a.obj"), path("o.exr")));
+  ASSERT_EQ(made.status, 0) << made.output;
+  const Json read = masks("o.exr");
+  const Json& objects = read.at("masks").at("CryptoObject");
+  ASSERT_EQ(objects.size(), 2u) << objects.dump();
+  EXPECT_GT(sum(objects.at("table")), 30);
+  EXPECT_NEAR(sum(objects.at("chair")), 2 * sum(objects.at("table")), .1 * sum(objects.at("chair")));
+}
+
 }  // namespace
 }  // namespace vitrail::test

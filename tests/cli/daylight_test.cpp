@@ -5,6 +5,8 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 #include <sstream>
 
 #include "tests/support/command.h"
@@ -14,6 +16,7 @@ namespace vitrail::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr const char* paris = "48.8566,2.3522,2026-06-21T12:00+02:00";
 
@@ -34,6 +37,37 @@ class Daylight : public ::testing::Test {
   }
   TemporaryDirectory directory_;
 };
+
+// docs/reference/sky.md lists each key of `sky --json`.
+TEST_F(Daylight, JsonIsAsDocumented) {
+  std::ifstream page(VITRAIL_SOURCE_DIR "/docs/reference/sky.md");
+  std::set<std::string> documented, found;
+  static const std::regex key("`([a-z0-9_]+)`");
+  for (std::string line; std::getline(page, line);) {
+    const std::string cell = line.starts_with("| `") ? line.substr(0, line.find('|', 1)) : "";
+    for (std::sregex_iterator k(cell.begin(), cell.end(), key), end; k != end; ++k)
+      documented.insert((*k)[1]);
+  }
+  const auto json = nlohmann::json::parse(verb("sky", fmt::format("{} --json", paris)).output);
+  for (const auto& [name, value] : json.items()) {
+    found.insert(name);
+    if (value.is_object())
+      for (const auto& part : value.items()) found.insert(part.key());
+  }
+  EXPECT_EQ(found, documented);
+}
+
+// What it lacks is not what the user gives.
+TEST_F(Daylight, AnObjWithoutALampTakesTheSkyThatIsGiven) {
+  std::ofstream(directory_ / "bare.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 .2\nf 1 2 3\n";
+  const CommandResult without = verb("partition", "bare.obj -o bare.vit");
+  EXPECT_THAT(without.output,
+              HasSubstr("there is no light: a white sky and a sun are added; --sky LATITUDE"));
+  const CommandResult with = verb("partition", fmt::format("bare.obj -o bare.vit --force --sky {}", paris));
+  EXPECT_EQ(with.status, 0) << with.output;
+  EXPECT_THAT(with.output, Not(HasSubstr("no light")));
+  EXPECT_THAT(with.output, Not(HasSubstr("infinitely far")));
+}
 
 // The printed illuminance is what a sensor in the open measures.
 TEST_F(Daylight, IlluminanceIsAsPrinted) {

@@ -61,13 +61,78 @@ TEST_F(Frames, GoOnAtTheFirstThatIsMissing) {
   write_frames("--seed 1\n--seed 2\n--seed 3\n");
   ASSERT_EQ(render_frames().status, 0);
   const std::string second = bytes("f002.png");
-  fs::remove(directory_ / "f002.png");
-  std::ofstream(directory_ / "f003.png") << "somebody's";
-  const CommandResult again = render_frames();
-  EXPECT_EQ(again.status, 0) << again.output;
-  EXPECT_THAT(again.output, AllOf(HasSubstr("f001.png is there"), HasSubstr("f003.png is there")));
-  EXPECT_EQ(bytes("f002.png"), second);
-  EXPECT_EQ(bytes("f003.png"), "somebody's");
+  for (const int ranks : {1, 2}) {
+    fs::remove(directory_ / "f002.png");
+    const CommandResult again = render_frames("--threads 1", ranks);
+    EXPECT_EQ(again.status, 0) << again.output;
+    EXPECT_THAT(again.output,
+                AllOf(HasSubstr("f001.png is there and stays"), HasSubstr("f003.png is there")));
+    EXPECT_EQ(bytes("f002.png"), second);
+  }
+}
+
+TEST_F(Frames, ThatAreThereHaveToBeWhatTheirLinesAskFor) {
+  const std::string lines = "--seed 1\n--set area-1.scale=.5\n";
+  write_frames(lines);
+  ASSERT_EQ(render_frames().status, 0);
+  const std::string first = bytes("f001.png"), second = bytes("f002.png");
+  const auto expect_refused = [&](const std::string& more, const std::string& words, int ranks = 1) {
+    const CommandResult refused = render_frames(more, ranks);
+    EXPECT_EQ(refused.status, 3) << more;
+    EXPECT_THAT(refused.output, AllOf(HasSubstr(words), HasSubstr("--force"))) << more;
+    EXPECT_EQ(bytes("f001.png"), first) << more;
+    EXPECT_EQ(bytes("f002.png"), second) << more;
+  };
+  expect_refused("--spp 4", "f001.png: this picture is not what its line asks for: samples a pixel: 2, this");
+  expect_refused("--max-depth 3", "this command has 3 (1 more differ)", 2);
+  expect_refused("--look-at=.5,1.5,-2.9,0,1,0", "camera: ");
+  expect_refused("--denoise", "--denoise: no, this command has yes");
+  expect_refused("--target-error .1 --spp 64", "64 at most, until 0.1 relMSE");
+  write_frames("--seed 2\n--set area-1.scale=.5\n");
+  expect_refused("", "f001.png: this picture is not what its line asks for: seed: 1, this command has 2;");
+  write_frames("--seed 1\n--set area-1.scale=.25\n");
+  expect_refused("", "f002.png: this picture is not what its line asks for: values of --set: ");
+  write_frames(lines);
+  EXPECT_THAT(render_frames().output, HasSubstr("f002.png is there and stays"));
+  const CommandResult other = run(fmt::format(
+      "{} {}/examples/cornell-box/cornell-box.pbrt -o {} --quiet --force --sky 48,2,2026-06-21T12:00+02:00",
+      vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit")));
+  ASSERT_EQ(other.status, 0) << other.output;
+  expect_refused("", "lights: ");
+  fs::remove(directory_ / "fframes.png.json");
+  expect_refused("", "does not know it");
+  ASSERT_EQ(render_frames("--force").status, 0);
+  EXPECT_NE(bytes("f001.png"), first);
+  EXPECT_THAT(render_frames().output, HasSubstr("f001.png is there and stays"));
+}
+
+TEST_F(Frames, OfFilmsGetMoreSamplesAndAreRefusedWhereTheyDiffer) {
+  write_frames("--seed 1\n--seed 2\n");
+  const auto films = [&](const std::string& more) {
+    return render(fmt::format("--frames {} -o {} {}", path("frames.txt"), path("f%d.film"), more));
+  };
+  ASSERT_EQ(films("").status, 0);
+  EXPECT_THAT(films("").output, HasSubstr("f2.film is finished already"));
+  EXPECT_THAT(films("--spp 3").output, HasSubstr("going on from"));
+  const CommandResult refused = films("--spp 3 --max-depth 2");
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.output, AllOf(HasSubstr("f1.film"), HasSubstr("depth: ")));
+}
+
+// The picture so far is no picture of the frame.
+TEST_F(Frames, ThatWereStoppedGoOn) {
+  write_frames("--seed 1\n");
+  const auto stopped_after = [&](const std::string& sign) {
+    return run(fmt::format(
+        "{0} {1} --width 32 --spp 1000000 --checkpoint-every .2 --progress lines --frames {2} -o {3} > {4} "
+        "2>&1 & "
+        "p=$!; for i in $(seq 600); do {5} && break; sleep .1; done; kill -TERM $p; wait $p; cat {4}",
+        vitrail("render"), path("box.vit"), path("frames.txt"), path("f%03d.png"), path("log"), sign));
+  };
+  stopped_after(fmt::format("[ -e {} ]", path("f001.png.partial")));
+  ASSERT_TRUE(fs::exists(directory_ / "f001.png"));
+  EXPECT_THAT(stopped_after(fmt::format("grep -qE 'going on|stays' {}", path("log"))).output,
+              HasSubstr("going on from " + path("f001.png.partial")));
 }
 
 TEST_F(Frames, WhatIsWrongIsSaidWithItsLine) {

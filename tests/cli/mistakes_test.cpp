@@ -46,6 +46,12 @@ TEST_F(Mistakes, MisspelledWordsAreRecognised) {
   const CommandResult option = render("--treads 2");
   EXPECT_EQ(option.status, 2);
   EXPECT_THAT(option.output, HasSubstr("there is no option --treads; did you mean --threads?"));
+  EXPECT_THAT(
+      render("--exposure 2").output,
+      HasSubstr(
+          "no option --exposure: it is one of vitrail develop, of the film that --film NAME.film keeps"));
+  EXPECT_THAT(verb("develop", "a.film -o a.png --spp 4").output,
+              HasSubstr("it is one of vitrail render, measure"));
   EXPECT_THAT(verb("convert", "a b c").output, HasSubstr("'c' is one argument too many"));
   EXPECT_THAT(verb("convert", "a b --reprot c").output, HasSubstr("did you mean --report?"));
 }
@@ -213,8 +219,10 @@ TEST_F(Mistakes, WithoutImagesLinearPicturesAreWritten) {
 
 TEST_F(Mistakes, DarknessIsAnnounced) {
   write("in.pbrt", "WorldBegin Shape \"sphere\"\n");
-  EXPECT_THAT(render("").output, HasSubstr("the scene has no light"));
-  EXPECT_THAT(verb("partition", path("in.pbrt") + " -o " + path("a.vit")).output, HasSubstr("has no light"));
+  EXPECT_THAT(render("").output,
+              HasSubstr("the scene has no light: its picture is black; add a lamp, or give --sky"));
+  EXPECT_THAT(verb("partition", path("in.pbrt") + " -o " + path("a.vit")).output,
+              HasSubstr("has no light: its picture is black; add a lamp, or give --sky"));
   EXPECT_EQ(render("--quiet").output, "");
 }
 

@@ -15,6 +15,7 @@ namespace vitrail::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Plan : public ::testing::Test {
  protected:
@@ -64,6 +65,17 @@ TEST_F(Plan, ProfilesCountEveryRayOnItsWay) {
     for (const auto& domain : profile["domains"]) seconds += domain[2].get<double>();
     EXPECT_NEAR(seconds, profile["cost"]["trace_s"], 1e-6 * seconds);
   }
+}
+
+TEST_F(Plan, WarnsOfFewSamples) {
+  ASSERT_EQ(render("whole.json", "--crop 0,320,0,320 --scale .3125 --spp 1", 1).status, 0);
+  const auto planned = [&](const std::string& options) {
+    return run(fmt::format("{} '{}' --profile '{}' --ranks 1 {}", vitrail("plan"), path("box.vit"),
+                           path("whole.json"), options));
+  };
+  EXPECT_THAT(planned("").output,
+              HasSubstr("samples a pixel, those of the profile; --times 256 plans 256 times"));
+  EXPECT_THAT(planned("--times 256").output, Not(HasSubstr("those of the profile")));
 }
 
 // One rank takes what was recorded, more take their share, and the picture is drawn.

@@ -105,6 +105,32 @@ TEST_F(SetScene, LightsAndMaterialsAndTheAngleOfView) {
               {.lamp = "2", .roughness = ".1", .fov = "45"});
 }
 
+// By the names of objects, of the material, and by number.
+TEST_F(SetScene, LampsOfAnObj) {
+  const std::string obj =
+      "mtllib lamps.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 .2\nv 1 1 0\nv 2 1 1\no Desk lamp\nusemtl Glow\nf 1 2 3\n"
+      "o Floor.001\nusemtl Wood\nf 2 3 4\no Ceiling\nusemtl Glow\nf 3 4 5\n";
+  const auto library = [&](const char* glow) {
+    std::ofstream(directory_ / "lamps.mtl") << "newmtl Glow\nKe " << glow << "\nnewmtl Wood\nKd .5 .4 .3\n";
+  };
+  library("2 2 2");
+  const std::string bright = bundle("bright.obj", obj);
+  library("4 4 4");
+  const std::string twice = hash(bundle("twice.obj", obj), "--width 32 --height 24 --spp 2");
+  const auto set = [&](const std::string& options) {
+    return hash(bright, "--width 32 --height 24 --spp 2 " + options);
+  };
+  EXPECT_NE(set(""), twice);
+  EXPECT_EQ(set("--set Glow.scale=2"), twice);
+  EXPECT_EQ(set("--set Desk_lamp.scale=2 --set Ceiling.scale=2"), twice);
+  EXPECT_EQ(set("--set 'Desk lamp.scale=2' --set area-2.scale=2"), twice);
+  EXPECT_NE(set("--set Ceiling.scale=2"), twice);
+  expect_refused(bright, "--set Cieling.scale=2", "there is Ceiling, Desk_lamp; did you mean Ceiling?");
+  expect_refused(bright, "--set Cieling.scale=2", "vitrail inspect lists all");
+  expect_refused(bright, "--set Wood.scale=2", "this is a material that does not shine");
+  expect_refused(bright, "--set Ceiling.color=1:0:0", "this is a light, and no material has this name");
+}
+
 TEST_F(SetScene, SkyAndPlaceOfTheCamera) {
   const std::string plain = bundle("plain.xml", mitsuba_scene({}));
   const std::string before = hash(plain);

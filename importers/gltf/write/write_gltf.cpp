@@ -2,6 +2,7 @@
 #include "importers/gltf/write/write_gltf.h"
 
 #include <sstream>
+#include <unordered_map>
 
 #include "importers/gltf/write/write_meshes.h"
 #include "importers/gltf/write/write_view.h"
@@ -52,16 +53,18 @@ class Writer {
  private:
   using Group = std::vector<const Shape*>;
 
-  // Shapes that follow each other and are one thing of several materials: of one name and one place.
+  // Shapes of one name and one place are one thing of several materials.
   static std::vector<Group> groups(const std::vector<Shape>& shapes) {
     std::vector<Group> all;
+    std::unordered_map<std::string, std::size_t> last;  // group of a name
     for (const Shape& shape : shapes) {
-      const Shape* before = all.empty() ? nullptr : all.back().front();
-      if (before && !shape.name.empty() && shape.name == before->name &&
-          shape.object_to_world == before->object_to_world)
-        all.back().push_back(&shape);
-      else
-        all.push_back({&shape});
+      const auto known = shape.name.empty() ? last.end() : last.find(shape.name);
+      if (known != last.end() && all[known->second].front()->object_to_world == shape.object_to_world) {
+        all[known->second].push_back(&shape);
+        continue;
+      }
+      if (!shape.name.empty()) last[shape.name] = all.size();
+      all.push_back({&shape});
     }
     return all;
   }

@@ -7,6 +7,7 @@
 
 #include "importers/gltf/write/values.h"
 #include "importers/images/converted_images.h"
+#include "importers/writing/alike_lights.h"
 #include "importers/writing/export_colors.h"
 #include "scene/records/curve_uses.h"
 
@@ -38,9 +39,23 @@ std::optional<double> cutoff_of(const Texture& texture) {
 
 }  // namespace
 
+// Of those that are written with the material, the first that shines alike.
+std::uint32_t MaterialWriter::known_light(const Shape& shape) const {
+  if (!shape.area_light) return none;
+  const std::uint32_t material = shape.material.value;
+  for (auto at = known_.lower_bound({material, 0, {}, 0}); at != known_.end(); ++at) {
+    const auto& [its_material, its_light, its_opacity, its_interior] = at->first;
+    if (its_material != material) break;
+    if (its_light != none &&
+        shine_alike(area_lights_.at(its_light), area_lights_.at(shape.area_light->value)))
+      return its_light;
+  }
+  return shape.area_light->value;
+}
+
 int MaterialWriter::write(const Shape& shape) {
-  const Key key{shape.material.value, shape.area_light ? shape.area_light->value : none,
-                opacity_key(shape.opacity), shape.interior ? shape.interior->value : none};
+  const Key key{shape.material.value, known_light(shape), opacity_key(shape.opacity),
+                shape.interior ? shape.interior->value : none};
   const auto [known, is_new] = known_.try_emplace(key, 0);
   if (!is_new) return known->second;
   out_ = {}, extensions_.clear(), attribute_.clear(), base_ = {};

@@ -32,6 +32,7 @@ class MaterialWriter {
 
  private:
   using Key = std::tuple<std::uint32_t, std::uint32_t, OpacityKey, std::uint32_t>;
+  std::uint32_t known_light(const Shape& shape) const;
 
   // ---- Values
   struct Color {

@@ -3,12 +3,12 @@
 
 namespace vitrail::obj {
 
-void FaceSink::add(std::span<Corner> corners, std::size_t material, bool has_uvs, bool has_normals,
+void FaceSink::add(std::span<Corner> corners, std::size_t use, bool has_uvs, bool has_normals,
                    std::uint32_t smoothing_group) {
   const bool is_smooth = smoothing_group != 0 && !has_normals;
   if (is_smooth)
     for (Corner& corner : corners) corner.normal = smoothing_group;
-  Group& group = group_of(material, has_uvs, has_normals, is_smooth);
+  Group& group = group_of(use, has_uvs, has_normals, is_smooth);
   if (corners.size() == 3) return add_triangle(group, corners[0], corners[1], corners[2]);
   points_.clear();
   cut_.clear();
@@ -17,14 +17,15 @@ void FaceSink::add(std::span<Corner> corners, std::size_t material, bool has_uvs
   for (const auto& [a, b, c] : cut_) add_triangle(group, corners[a], corners[b], corners[c]);
 }
 
-Group& FaceSink::group_of(std::size_t material, bool has_uvs, bool has_normals, bool is_smooth) {
+Group& FaceSink::group_of(std::size_t use, bool has_uvs, bool has_normals, bool is_smooth) {
   const std::size_t kind = (has_uvs ? 1u : 0u) + (has_normals ? 2u : is_smooth ? 4u : 0u);
-  if (groups_of_material_.size() <= material) groups_of_material_.resize(material + 1);
-  std::optional<std::size_t>& group = groups_of_material_[material][kind];
+  if (groups_of_use_.size() <= use) groups_of_use_.resize(use + 1);
+  std::optional<std::size_t>& group = groups_of_use_[use][kind];
   if (!group) {
     group = geometry_.groups.size();
     geometry_.groups.emplace_back();
-    geometry_.groups.back().material = material;
+    geometry_.groups.back().object = geometry_.uses[use].object;
+    geometry_.groups.back().material = geometry_.uses[use].material;
     geometry_.groups.back().has_uvs = has_uvs;
     geometry_.groups.back().has_normals = has_normals;
     geometry_.groups.back().is_smooth = is_smooth;

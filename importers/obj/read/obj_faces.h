@@ -15,16 +15,17 @@ class FaceSink {
  public:
   explicit FaceSink(Geometry& geometry) : geometry_(geometry) {}
 
-  // At least three corners whose positions are there. The group has texture coordinates or normals if all
-  // corners have. Faces without normals get some where they are in a smoothing group, which is not 0.
-  void add(std::span<Corner> corners, std::size_t material, bool has_uvs, bool has_normals,
+  // At least three corners whose positions are there; `use`: of the Geometry's. The group has texture
+  // coordinates or normals if all corners have. Faces without normals get some where they are in a smoothing
+  // group, which is not 0.
+  void add(std::span<Corner> corners, std::size_t use, bool has_uvs, bool has_normals,
            std::uint32_t smoothing_group);
 
  private:
-  Group& group_of(std::size_t material, bool has_uvs, bool has_normals, bool is_smooth);
+  Group& group_of(std::size_t use, bool has_uvs, bool has_normals, bool is_smooth);
 
   Geometry& geometry_;
-  std::vector<std::array<std::optional<std::size_t>, 6>> groups_of_material_;
+  std::vector<std::array<std::optional<std::size_t>, 6>> groups_of_use_;
   std::vector<Point3d> points_;
   std::vector<CornerTriple> cut_;
 };

@@ -25,9 +25,9 @@ struct VertexTable {
   std::vector<std::uint32_t> first;                     // of each hash; as many as a power of two
 };
 
-// The triangles of one material that have texture coordinates and normals, or have not.
+// The triangles of one object and material that have texture coordinates and normals, or have not.
 struct Group {
-  std::size_t material = 0;
+  std::size_t object = 0, material = 0;
   bool has_uvs = false, has_normals = false;
   // Normals are made, of all triangles that share a vertex and a smoothing group: Corner::normal is the
   // number of that group.

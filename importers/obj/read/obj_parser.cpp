@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
+#include <tuple>
 
 #include "importers/obj/read/obj_chunk.h"
 #include "importers/obj/read/obj_statements.h"
@@ -76,7 +78,7 @@ class Merger {
       if (face.has_normals) corner.normal = resolve(2);
     }
     if (valid)
-      statements_.faces().add(corners_, statements_.material(), face.has_uvs, face.has_normals,
+      statements_.faces().add(corners_, statements_.use(), face.has_uvs, face.has_normals,
                               statements_.smoothing_group());
     return valid;
   }
@@ -123,7 +125,22 @@ void parse_in_parallel(InputBytes& bytes, Vector3d offset, Merger& merger) {
                              tbb::make_filter<Chunk*, void>(in_order, join));
 }
 
+// So triangles come in the order that they have without objects, where the file has an object at a time.
+void order_by_material(std::vector<Group>& groups) {
+  const auto kind = [](const Group& g) {
+    return std::tuple(g.material, g.has_uvs, g.has_normals, g.is_smooth);
+  };
+  std::map<decltype(kind(groups[0])), std::size_t> places;
+  for (const Group& group : groups) places.try_emplace(kind(group), places.size());
+  std::ranges::stable_sort(groups, {}, [&](const Group& group) { return places.at(kind(group)); });
+}
+
 }  // namespace
+
+std::string name_of(const Object& object, const Geometry& geometry) {
+  const bool by_o = object.g.empty() || (geometry.several_named && !object.o.empty());
+  return by_o ? object.o : object.g;
+}
 
 std::optional<Geometry> parse(InputBytes& bytes, const std::string& file, const ParseOptions& options) {
   Geometry geometry;
@@ -139,6 +156,7 @@ std::optional<Geometry> parse(InputBytes& bytes, const std::string& file, const 
   }
   if (!merger.counts_from_zero()) merger.finish();
   if (merger.counts_from_zero()) return {};
+  order_by_material(geometry.groups);
   return geometry;
 }
 

@@ -19,24 +19,46 @@ struct Mention {
   SourceLocation location;
 };
 
+// Of faces that follow o or g.
+struct Object {
+  std::string o, g;
+  SourceLocation location;  // of the statement
+};
+
+// What statements say of the faces that follow them: indices of Geometry's.
+struct Use {
+  std::size_t object = 0, material = 0;
+};
+
 struct ParseOptions {
   int base = 1;               // of vertex indices: 1 or 0
   Vector3d offset;            // is subtracted from positions while they are doubles
   bool one_material = false;  // usemtl means nothing
-  bool bare = false;          // nor do smoothing groups and colours of vertices
+  bool bare = false;          // nor do objects, smoothing groups and colours of vertices
 };
 
 struct Geometry {
   GrowingArray<Point3f> positions;
   GrowingArray<Point2f> uvs;
   GrowingArray<Normal3f> normals;
-  std::vector<float> colors;       // red, green, blue of the first positions, linear; white behind them
-  Bounds3d bounds;                 // of the positions in the file
-  std::vector<Group> groups;       // in the order of their first face
+  std::vector<float> colors;  // red, green, blue of the first positions, linear; white behind them
+  Bounds3d bounds;            // of the positions in the file
+  // Those of one material and kind one after the other, otherwise in the order of their first face.
+  std::vector<Group> groups;
   std::vector<Mention> materials;  // of usemtl; the first stands for faces without one
+  std::vector<Object> objects;     // the first stands for faces before any o or g
+  std::vector<Use> uses;
+  bool several_named = false;      // o has several names
   std::vector<Mention> libraries;  // what follows each mtllib
   Diagnostics diagnostics;
 };
+
+// More objects than these are one: each takes about 2 kB while the file is read, and its own mesh.
+inline constexpr std::size_t most_objects = 20'000;
+
+// What an object is called: by o where the file has several of those, else by g where there is one. (Programs
+// write one o for all and a g for each object, or an o for each and a g for parts of them.)
+std::string name_of(const Object& object, const Geometry& geometry);
 
 // Nothing if indices count from 1 and a face has vertex index 0. The result does not depend on the number of
 // threads. Throws Error.

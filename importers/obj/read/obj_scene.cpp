@@ -38,9 +38,8 @@ std::vector<std::string> split_names(const std::string& text) {
 using Library = std::map<std::string, MtlMaterial>;
 
 // In the OBJ file, which is the first of the Scene's.
-Origin origin_of(const Mention& mention) {
-  return {0, static_cast<std::uint32_t>(mention.location.line),
-          static_cast<std::uint32_t>(mention.location.column)};
+Origin origin_of(const SourceLocation& where) {
+  return {0, static_cast<std::uint32_t>(where.line), static_cast<std::uint32_t>(where.column)};
 }
 
 void add_library(const std::filesystem::path& file, Library& library, Diagnostics& diagnostics) {
@@ -107,9 +106,46 @@ MtlSurface add_surface(const Mention& use, const Library& library, bool has_colo
   }
   Material material{colors ? DiffuseMaterial{*colors} : DiffuseMaterial{}};
   material.name = printable(use.name, longest_mtl_name);
-  material.origin = origin_of(use);
+  material.origin = origin_of(use.location);
   return {append(result.scene.materials, std::move(material)), {}};
 }
+
+// The lamps of objects: each object that shines is one of its own, though others have its material.
+class Lamps {
+ public:
+  explicit Lamps(Scene& scene) : scene_(scene) {}
+
+  Id<AreaLight> of(std::size_t object, Id<AreaLight> light_of_material, Id<Material> material) {
+    const auto [known, is_new] = lamps_.try_emplace({object, light_of_material.value});
+    if (!is_new) return known->second.light;
+    const bool first = taken_.insert(light_of_material.value).second;
+    known->second = {first
+                         ? light_of_material
+                         : append(scene_.area_lights, AreaLight(scene_.area_lights[light_of_material.value])),
+                     material};
+    return known->second.light;
+  }
+
+  // By the object, or by the material where the object has no name or shines by several.
+  void name_all(const std::vector<std::string>& objects) {
+    std::vector<std::size_t> lamps_of(objects.size());
+    for (const auto& [key, lamp] : lamps_) ++lamps_of[key.first];
+    for (const auto& [key, lamp] : lamps_) {
+      const bool by_object = lamps_of[key.first] == 1 && !objects[key.first].empty();
+      scene_.area_lights[lamp.light.value].name =
+          by_object ? objects[key.first] : scene_.materials[lamp.material.value].name;
+    }
+  }
+
+ private:
+  struct Lamp {
+    Id<AreaLight> light;
+    Id<Material> material;
+  };
+  Scene& scene_;
+  std::map<std::pair<std::size_t, std::uint32_t>, Lamp> lamps_;  // by object and light of the material
+  std::set<std::uint32_t> taken_;
+};
 
 bool is_of(std::optional<Id<Texture>> colors, const Material& material) {
   const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model);
@@ -129,7 +165,11 @@ ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesyst
         return !library.contains(geometry.materials[group.material].name);
       }))
     colors = append(result.scene.textures, Texture{MeshAttributeTexture{std::string(vertex_color)}});
+  std::vector<std::string> objects;
+  for (const Object& object : geometry.objects)
+    objects.push_back(printable(name_of(object, geometry), longest_mtl_name));
   MtlTextures textures;
+  Lamps lamps(result.scene);
   std::vector<std::optional<MtlSurface>> surfaces(geometry.materials.size());
   for (const Group& group : geometry.groups) {
     std::optional<MtlSurface>& surface = surfaces[group.material];
@@ -139,11 +179,14 @@ ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesyst
     Shape shape;
     shape.mesh = {static_cast<std::uint32_t>(result.scene.shapes.size())};
     shape.material = surface->material;
-    shape.area_light = surface->light;
+    if (surface->light) shape.area_light = lamps.of(group.object, *surface->light, surface->material);
     shape.object_to_world = translate(offset);
-    shape.origin = origin_of(geometry.materials[group.material]);
+    shape.name = objects[group.object];
+    shape.origin = origin_of(shape.name.empty() ? geometry.materials[group.material].location
+                                                : geometry.objects[group.object].location);
     result.scene.shapes.push_back(shape);
   }
+  lamps.name_all(objects);
   result.scene.meshes = to_meshes(std::move(geometry));
   for (const Shape& shape : result.scene.shapes)
     if (!is_of(colors, result.scene.materials[shape.material.value]))

@@ -20,6 +20,9 @@ StatementReader::StatementReader(const std::string& file, const ParseOptions& op
       cursor_(file, nullptr, nullptr),
       start_(cursor_) {
   geometry_.materials.push_back({});
+  geometry_.objects.push_back({});
+  object_of_names_.emplace("\n", 0);
+  choose_use();
 }
 
 int StatementReader::read(const char* begin, const char* end, int line) {
@@ -32,7 +35,7 @@ void StatementReader::finish() {
   is_last_chance_ = true;
   for (const ForwardFace& face : forward_) {
     if (counts_from_zero_) return;
-    material_ = face.material;
+    use_ = face.use;
     smoothing_group_ = face.smoothing_group;
     cursor_ = start_ = face.at;
     read_face(face.counts);
@@ -73,8 +76,10 @@ void StatementReader::read_rare(std::string_view keyword) {
     geometry_.libraries.push_back({std::string(cursor_.rest_of_line()), start_.location()});
   } else if (keyword == "s") {
     use_smoothing_group();
+  } else if (keyword == "o" || keyword == "g") {
+    use_object(keyword == "g");
   } else {
-    if (keyword != "o" && keyword != "g") drop(keyword);
+    drop(keyword);
     skip_statement();
   }
 }
@@ -108,6 +113,40 @@ void StatementReader::use_material() {
   const auto [entry, is_new] = material_of_name_.try_emplace(name, geometry_.materials.size());
   if (is_new) geometry_.materials.push_back({name, start_.location()});
   material_ = entry->second;
+  choose_use();
+}
+
+// Where o has several names, those of g are parts of objects.
+void StatementReader::use_object(bool is_group) {
+  const std::string name(cursor_.rest_of_line());
+  if (options_.bare || (is_group && geometry_.several_named)) return;
+  if (!is_group) {
+    if (first_o_.empty()) first_o_ = name;
+    geometry_.several_named |= !name.empty() && name != first_o_;
+    o_ = name;
+  }
+  g_ = is_group ? name : "";
+  const auto [entry, is_new] =
+      object_of_names_.try_emplace(fmt::format("{}\n{}", o_, g_), geometry_.objects.size());
+  if (is_new && geometry_.objects.size() <= most_objects) {
+    geometry_.objects.push_back({o_, g_, start_.location()});
+  } else if (is_new) {
+    object_of_names_.erase(entry);
+    object_ = 0;
+    note("objects", Fidelity::approximated,
+         fmt::format("objects after the first {} have no names: those of one material are one shape",
+                     most_objects));
+    return choose_use();
+  }
+  object_ = entry->second;
+  choose_use();
+}
+
+void StatementReader::choose_use() {
+  const auto [entry, is_new] =
+      use_of_.try_emplace(std::uint64_t{object_} << 32 | material_, geometry_.uses.size());
+  if (is_new) geometry_.uses.push_back({object_, material_});
+  use_ = entry->second;
 }
 
 // A number, "off" or, of some programs, "on".
@@ -183,7 +222,7 @@ StatementReader::Counts StatementReader::counts() const {
 
 // Negative indices count back from `before`.
 void StatementReader::read_face(const Counts& before) {
-  const ForwardFace face{start_, before, material_, smoothing_group_};
+  const ForwardFace face{start_, before, use_, smoothing_group_};
   if (is_last_chance_) cursor_.word();
   corners_.clear();
   bool forward = false;
@@ -259,7 +298,7 @@ void StatementReader::add_face() {
     note("mixed corners", Fidelity::dropped,
          "normals or texture coordinates of faces where not all corners have them");
   }
-  faces_.add(corners_, material_, uvs == all, normals == all, smoothing_group_);
+  faces_.add(corners_, use_, uvs == all, normals == all, smoothing_group_);
 }
 
 }  // namespace vitrail::obj

@@ -27,7 +27,7 @@ class StatementReader {
 
   // A face with vertex index 0 came where indices count from 1: nothing more is read.
   bool counts_from_zero() const { return counts_from_zero_; }
-  std::size_t material() const { return material_; }
+  std::size_t use() const { return use_; }
   std::uint32_t smoothing_group() const { return smoothing_group_; }  // 0: none
   FaceSink& faces() { return faces_; }
 
@@ -41,7 +41,7 @@ class StatementReader {
   struct ForwardFace {
     TextCursor at;
     Counts counts;
-    std::size_t material;
+    std::size_t use;
     std::uint32_t smoothing_group;
   };
 
@@ -52,7 +52,9 @@ class StatementReader {
   bool at_end() { return cursor_.at_line_end() || cursor_.sees('#'); }
   void skip_statement();
   void use_material();
+  void use_object(bool is_group);
   void use_smoothing_group();
+  void choose_use();
 
   double finite_number(const char* what);
   // Of a normal or of texture coordinates: what is not finite is 0, and the rest of the file is kept.
@@ -75,9 +77,11 @@ class StatementReader {
   FaceSink faces_;
   TextCursor cursor_, start_;  // start_: of the present statement
 
-  std::size_t material_ = 0;
+  std::size_t object_ = 0, material_ = 0, use_ = 0;
+  std::string first_o_, o_, g_;
   std::uint32_t smoothing_group_ = 0;
-  std::unordered_map<std::string, std::size_t> material_of_name_;
+  std::unordered_map<std::string, std::size_t> material_of_name_, object_of_names_;
+  std::unordered_map<std::uint64_t, std::size_t> use_of_;  // by object and material
   std::vector<ForwardFace> forward_;
   bool is_last_chance_ = false;  // all has been read: what is not there now never will be
   bool counts_from_zero_ = false;

@@ -8,6 +8,7 @@
 
 #include "importers/obj/read/obj_meshes.h"
 #include "importers/obj/write/mtl_text.h"
+#include "importers/writing/alike_lights.h"
 #include "importers/writing/unique_names.h"
 #include "scene/records/curve_uses.h"
 #include "scene/shapes/deferred_mesh.h"
@@ -281,6 +282,20 @@ bool is_vertex_coloured(const Scene& scene, const Shape& shape) {
          vertex_colors(scene.meshes.at(shape.mesh.value));
 }
 
+// One that differs in the names of its light alone.
+MtlNames::const_iterator same_surface(const Scene& scene, const MtlKey& key, const MtlNames& names) {
+  const auto& [material, light, opacity] = key;
+  if (!light) return names.end();
+  for (auto at = names.lower_bound({material, std::nullopt, {}}); at != names.end(); ++at) {
+    const auto& [its_material, its_light, its_opacity] = at->first;
+    if (its_material != material) break;
+    if (its_light && its_opacity == opacity &&
+        shine_alike(scene.area_lights.at(*its_light), scene.area_lights.at(*light)))
+      return at;
+  }
+  return names.end();
+}
+
 }  // namespace
 
 const MeshAttribute* vertex_colors(const TriangleMesh& mesh) {
@@ -300,6 +315,10 @@ MtlNames write_mtl(const std::vector<FlatShape>& shapes, const std::filesystem::
   for (const FlatShape& flat : shapes) {
     const MtlKey key = surface_key(flat.shape);
     if (names.contains(key)) continue;
+    if (const auto alike = same_surface(notes.scene, key, names); alike != names.end()) {
+      names.emplace(key, alike->second);
+      continue;
+    }
     std::string name = cleaned(notes.scene.materials.at(std::get<0>(key)).name);
     if (name.empty()) name = fmt::format("material_{}", std::get<0>(key));
     name = taken.take(name);

@@ -83,9 +83,12 @@ void put_faces(const TriangleMesh& mesh, bool flip, const Counts& before, TextSi
   }
 }
 
-std::string object_name(const Shape& shape, std::size_t index) {
-  if (shape.name.empty()) return fmt::format("shape_{}", index);
-  std::string name = shape.name;
+// Shapes without names that are one lamp are one object: readers take each object for a lamp.
+std::string object_name(const Scene& scene, const Shape& shape, std::size_t index) {
+  const AreaLight* const light = shape.area_light ? &scene.area_lights.at(shape.area_light->value) : nullptr;
+  std::string name = !shape.name.empty() || !light ? shape.name : light->name;
+  if (name.empty())
+    return light ? fmt::format("lamp_{}", shape.area_light->value + 1) : fmt::format("shape_{}", index);
   std::ranges::replace_if(
       name, [](char c) { return static_cast<unsigned char>(c) <= ' '; }, '_');
   return name;
@@ -109,7 +112,7 @@ void put_geometry(const Scene& scene, const std::vector<FlatShape>& shapes, cons
     const bool lacking = lacks_uvs(shared, uvs_show[shape.mesh.value]);
     if (lacking) apart = with_uvs(shared);
     const TriangleMesh& mesh = lacking ? apart : shared;
-    out.put(FMT_COMPILE("o {}\n"), object_name(shape, i));
+    out.put(FMT_COMPILE("o {}\n"), object_name(scene, shape, i));
     put_vertices(mesh, shapes[i].object_to_world, out);
     const auto [first_uv, is_new] = first_uvs.emplace(shape.mesh.value, counts.uvs);
     if (is_new)

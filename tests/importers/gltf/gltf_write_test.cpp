@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is written as glTF, and read again.
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
 #include "images/image_files.h"
 #include "importers/export.h"
 #include "importers/gltf/units.h"
@@ -60,6 +64,24 @@ TEST_F(WriteGltf, WhatIsReadComesBack) {
     EXPECT_EQ(second.scene.film.width, first.scene.film.width);
     EXPECT_EQ(difference(first.scene, second.scene), "") << name;
   }
+}
+
+// A chair of two materials is one node, and lamps of one material have one.
+TEST_F(WriteGltf, ObjectsOfAnObjAreNodes) {
+  folder_.write("m.mtl", "newmtl oak\nKd .5 .4 .3\nnewmtl glow\nKd 0 0 0\nKe 1 1 1\n");
+  const ImportedScene scene = import_scene(folder_.write(
+      "in.obj",
+      "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\no chair\nusemtl oak\nf 1 2 3\nusemtl glow\nf 1 2 4\n"
+      "o lamp\nf 1 3 4\no table\nusemtl oak\nf 2 3 4\n"));
+  ASSERT_EQ(scene.scene.shapes.size(), 4u);
+  export_scene(scene.scene, folder_ / "out.gltf");
+  std::ifstream in(folder_ / "out.gltf");
+  const auto json = nlohmann::json::parse(in);
+  std::multiset<std::string> nodes;
+  for (const auto& node : json.at("nodes"))
+    if (node.contains("mesh")) nodes.insert(node.at("name").get<std::string>());
+  EXPECT_EQ(nodes, (std::multiset<std::string>{"chair", "lamp", "table"}));
+  EXPECT_EQ(json.at("materials").size(), 2u);
 }
 
 TEST_F(WriteGltf, OneFileGivesTheSameBytesTwice) {

@@ -51,6 +51,11 @@ class Obj : public testing::Test {
     return std::get<ImageTexture>(imported_.scene.textures.at(std::get<Id<Texture>>(parameter).value).model);
   }
 
+  static std::vector<std::string> names_of(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Shape& shape : scene.shapes) names.push_back(shape.name);
+    return names;
+  }
   static auto says(const std::string& text) { return Contains(Field(&Diagnostic::message, HasSubstr(text))); }
 
   const std::string tetrahedron =
@@ -112,20 +117,89 @@ TEST_F(Obj, VerticesAreSharedWhereAllIndicesAgree) {
   EXPECT_NE(mesh.uvs[2], mesh.uvs[3]);
 }
 
-TEST_F(Obj, OneMeshAMaterialAndItsFacesInOrder) {
+TEST_F(Obj, OneMeshAnObjectAndMaterialAndItsFacesInOrder) {
   const ImportedScene imported =
       read(square +
            "o one\ng a b\nf 1 2 3\nusemtl red\nf 1 2 4\ng c\nusemtl\tgreen \nf 2 3 4\nusemtl red\nf 1 3 4\n");
   const Scene& scene = imported.scene;
-  ASSERT_THAT(scene.meshes, SizeIs(3));
-  ASSERT_THAT(scene.shapes, SizeIs(3));
+  ASSERT_THAT(scene.meshes, SizeIs(4));
+  ASSERT_THAT(scene.shapes, SizeIs(4));
   EXPECT_THAT(scene.materials, SizeIs(3));
-  EXPECT_THAT(scene.meshes[1].triangles, SizeIs(2));
-  EXPECT_EQ(scene.shapes[2].mesh.value, 2u);
-  EXPECT_THAT(scene.meshes[2].positions, ElementsAre(Point3f{1, 0, 0}, Point3f{1, 1, 0}, Point3f{0, 1, 0}));
+  // Those of one material are one after the other.
+  EXPECT_EQ(scene.shapes[1].material, scene.shapes[2].material);
+  EXPECT_THAT(scene.meshes[1].triangles, SizeIs(1));
+  EXPECT_EQ(scene.shapes[3].mesh.value, 3u);
+  EXPECT_THAT(scene.meshes[3].positions, ElementsAre(Point3f{1, 0, 0}, Point3f{1, 1, 0}, Point3f{0, 1, 0}));
+  EXPECT_THAT(names_of(scene), ElementsAre("a b", "a b", "c", "c"));
+  EXPECT_EQ(scene.shapes[3].origin.line, 10u);
   EXPECT_THAT(imported.diagnostics, SizeIs(2));  // red and green are not defined
   EXPECT_THAT(imported.diagnostics, says("'green' is not defined"));
   EXPECT_EQ(imported.diagnostics[0].location.line, 8);
+}
+
+TEST_F(Obj, ObjectsHaveTheirNames) {
+  const auto names = [&](const std::string& text) { return names_of(read(square + text).scene); };
+  EXPECT_THAT(names("f 1 2 3\n"), ElementsAre(""));
+  EXPECT_THAT(names("o chair\nf 1 2 3\no table\ng leg\nf 1 2 4\ng top\nf 2 3 4\no chair\nf 1 3 4\n"),
+              ElementsAre("chair", "table"));
+  EXPECT_THAT(names("o all\ng chair\nf 1 2 3\ng table top\nf 1 2 4\n"), ElementsAre("chair", "table top"));
+  EXPECT_THAT(names("o all\nf 1 2 3\n"), ElementsAre("all"));
+  EXPECT_THAT(names("f 1 2 3\no chair\nf 1 2 4\no\nf 2 3 4\n"), ElementsAre("", "chair"));
+}
+
+// Where the file has an object at a time.
+TEST_F(Obj, ObjectsDoNotChangeTheOrderOfTriangles) {
+  const std::string vertices = square + "v 2 2 2\n";
+  const std::vector<std::string> objects{"usemtl red\nf 1 2 3\nusemtl blue\nf 2 3 4\n",
+                                         "usemtl blue\nf 1 2 5\nusemtl red\nf 2 3 5\n", "f 3 4 5\n"};
+  const auto corners = [&](const std::string& word) {
+    std::string text = vertices;
+    for (std::size_t i = 0; i < objects.size(); ++i)
+      text += (word.empty() ? "" : word + " " + std::to_string(i) + "\n") + objects[i];
+    const Scene scene = read(text).scene;
+    std::vector<std::pair<std::string, Point3f>> all;
+    for (const Shape& shape : scene.shapes)
+      for (const Triangle& t : scene.meshes[shape.mesh.value].triangles)
+        for (const std::uint32_t i : t)
+          all.emplace_back(scene.materials[shape.material.value].name,
+                           scene.meshes[shape.mesh.value].positions[i]);
+    return all;
+  };
+  const auto plain = corners("");
+  EXPECT_THAT(plain, SizeIs(15));
+  EXPECT_EQ(corners("o"), plain);
+  EXPECT_EQ(corners("g"), plain);
+}
+
+TEST_F(Obj, LampsAreObjects) {
+  folder_.write("m.mtl", "newmtl glow\nKe 1 1 1\nnewmtl red\nKe 2 0 0\nnewmtl wall\nKd .5 .5 .5\n");
+  const auto lamps = [&](const std::string& text) {
+    imported_ = read("mtllib m.mtl\n" + square + text);
+    std::vector<std::string> names;
+    for (const AreaLight& light : imported_.scene.area_lights) names.push_back(light.name);
+    return names;
+  };
+  EXPECT_THAT(lamps("usemtl glow\nf 1 2 3\nusemtl red\nf 1 2 4\n"), ElementsAre("glow", "red"));
+  EXPECT_THAT(
+      lamps("o left\nusemtl glow\nf 1 2 3\no wall\nusemtl wall\nf 2 3 4\no right\nusemtl glow\nf 1 2 4\n"),
+      ElementsAre("left", "right"));
+  EXPECT_EQ(imported_.scene.area_lights[1].radiance, imported_.scene.area_lights[0].radiance);
+  EXPECT_EQ(imported_.scene.shapes[1].area_light->value, 1u);
+  EXPECT_THAT(lamps("o lamp\nusemtl glow\nf 1 2 3\nusemtl red\nf 1 2 4\n"), ElementsAre("glow", "red"));
+}
+
+TEST_F(Obj, ObjectsBeyondAllMeasureAreOne) {
+  constexpr std::size_t most = 20'000;
+  std::string text = square;
+  for (std::size_t i = 0; i < most + 5; ++i) text += "g part" + std::to_string(i) + "\nf 1 2 3\n";
+  const ImportedScene imported = read(text);
+  ASSERT_THAT(imported.scene.shapes, SizeIs(most + 1));
+  EXPECT_EQ(imported.scene.shapes[most - 1].name, "part19999");
+  EXPECT_EQ(imported.scene.shapes[most].name, "");
+  EXPECT_THAT(imported.scene.meshes[most].triangles, SizeIs(5));
+  ASSERT_THAT(imported.diagnostics, SizeIs(1));
+  EXPECT_THAT(imported.diagnostics, says("objects after the first 20000"));
+  EXPECT_EQ(imported.diagnostics[0].location.line, 5 + 2 * static_cast<int>(most));
 }
 
 TEST_F(Obj, FacesWithAndWithoutNormalsAreApart) {
