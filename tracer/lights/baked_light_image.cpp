@@ -22,6 +22,7 @@ class BakedLightImage final : public LightImage {
     return image_.bilinear(s, t, Wrap::repeat, 0, wavelengths);
   }
   double luminance(int x, int y, int level) const override { return image_.luminance(x, y, level); }
+  const BakedImage* baked() const override { return &image_; }
 
  private:
   BakedImage image_;

@@ -21,20 +21,6 @@ constexpr int min_table_width = 64, min_table_height = 32;  // of images that ar
 // Of the mean density, in every cell: it is an estimate that decides where to look, not what is there.
 constexpr double density_floor = 0.01;
 
-struct TexelPlace {
-  double s = 0, t = 0;  // bilinear lookup
-  int x = 0, y = 0;     // nearest, y up
-};
-
-TexelPlace place_of(Point2d point, int width, int height) {
-  TexelPlace place;
-  place.s = point.x;
-  place.t = 1 - (point.y * (height - 1) + 0.5) / height;
-  place.x = std::clamp(static_cast<int>(point.x * width), 0, width - 1);
-  place.y = height - 1 - std::clamp(static_cast<int>(point.y * height), 0, height - 1);
-  return place;
-}
-
 }  // namespace
 
 DirectionFrame::DirectionFrame(const Transform& light_to_world) {
@@ -50,8 +36,7 @@ DirectionFrame::DirectionFrame(const Transform& light_to_world) {
 
 SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Point2d at,
                         const SampledWavelengths& wavelengths) {
-  const int width = image.width(0), height = image.height(0);
-  const TexelPlace place = place_of(at, width, height);
+  const auto place = lanes::detail::place_in_image<double>({at.x, at.y}, image.width(0), image.height(0));
   return projection == equal_area ? image.texel(place.x, place.y, wavelengths)
                                   : image.bilinear(place.s, place.t, wavelengths);
 }
@@ -234,8 +219,19 @@ Environment make_environment(const SkyLight& light) {
 }
 
 SampledSpectrum radiance_of_image(const Environment& e, Point2d at, const SampledWavelengths& wavelengths) {
-  return look_up(*e.image, e.projection, at, wavelengths) * evaluate(e.scale, wavelengths) * e.factor;
+  return look_up(*e.image, e.projection, at, wavelengths) * scale_of(e, wavelengths) * e.factor;
 }
+
+SampledSpectrum scale_of(const Environment& e, const SampledWavelengths& wavelengths) {
+  return evaluate(e.scale, wavelengths);
+}
+
+const float* constant_scale_of(const Environment& e) {
+  const auto* const constant = std::get_if<ConstantSpectrum>(&e.scale);
+  return constant ? &constant->value : nullptr;
+}
+
+const BakedImage* baked_image_of(const Environment& e) { return e.image->baked(); }
 
 EnvironmentValue value_towards(const Environment& e, Vector3d direction,
                                const SampledWavelengths& wavelengths) {

@@ -58,6 +58,10 @@ SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Po
 // Of an environment's image, all factors included.
 SampledSpectrum radiance_of_image(const Environment& environment, Point2d at,
                                   const SampledWavelengths& wavelengths);
+SampledSpectrum scale_of(const Environment& environment, const SampledWavelengths& wavelengths);
+// The scale where it is a constant, else null; the image where it is a baked one, else null.
+const float* constant_scale_of(const Environment& environment);
+const BakedImage* baked_image_of(const Environment& environment);
 
 // A density for sampling that image, with a floor: about its luminance, or `beside_bsdf` about what it has
 // above its mean, since samples of the BSDF find the rest as well (Karlík et al., "MIS Compensation", 2019).

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions to environments and what is seen there, for any number of lanes. Texels and the sky's curves are
-// read lane by lane.
+// Directions to environments and what is seen there, for any number of lanes. The sky's curves are read lane
+// by lane.
 #pragma once
 
 #include "tracer/lights/direction_table_lanes.h"
 #include "tracer/lights/environment.h"
 #include "tracer/lights/light_sampler.h"
+#include "tracer/textures/image_lanes.h"
 
 namespace vitrail::lanes {
 namespace {
@@ -39,6 +40,49 @@ VITRAIL_LANES Vector<D> to_light(const DirectionFrame& frame, Vector<D> d) {
 template <class D>
 VITRAIL_LANES Vector<D> to_world(const DirectionFrame& frame, Vector<D> d) {
   return fill<D>(frame.x) * d.x + fill<D>(frame.y) * d.y + fill<D>(frame.z) * d.z;
+}
+
+// Where an image of so many texels is looked up for a point of the sphere's picture.
+template <class D>
+struct ImagePlace {
+  D s, t;            // by latitude and longitude, bilinear
+  IntsLike<D> x, y;  // of an equal-area map: the nearest texel, y up
+};
+template <class D>
+VITRAIL_LANES ImagePlace<D> place_in_image(PicturePoint<D> at, int width, int height) {
+  using I = IntsLike<D>;
+  const auto nearest = [](D x, int count) __attribute__((always_inline)) {
+    return lanes::clamp<I>(convert<std::int32_t>(x * static_cast<double>(count)), 0, count - 1);
+  };
+  return {at.x, 1.0 - (at.y * static_cast<double>(height - 1) + 0.5) / static_cast<double>(height),
+          nearest(at.x, width), height - 1 - nearest(at.y, height)};
+}
+
+// vitrail::radiance_of_image, of the lanes that are `on`.
+template <class D, class WavelengthsOf>
+VITRAIL_LANES Four<FloatsLike<D>> radiance_of_image(const Environment& e, PicturePoint<D> at, Mask<D> on,
+                                                    const WavelengthsOf& wavelengths) {
+  using F = FloatsLike<D>;
+  const unsigned lanes = bits(on);
+  const BakedImage* const image = baked_image_of(e);
+  if (!image)
+    return lane_by_lane<F>(
+        lanes, [&](int j) __attribute__((always_inline)) {
+          return vitrail::radiance_of_image(e, {lane(at.x, j), lane(at.y, j)}, wavelengths(j));
+        });
+  const BakedImage::Size size = image->size(0);
+  const ImagePlace<D> place = place_in_image(at, size.width, size.height);
+  Four<F> radiance = e.projection == SphereProjection::equal_area
+                         ? texel(*image, place.x, place.y, 0, lanes, wavelengths)
+                         : bilinear(*image, place.s, place.t, Wrap::repeat, 0, lanes, wavelengths);
+  Four<F> scale;
+  if (const float* const constant = constant_scale_of(e))
+    for (int i = 0; i < hero_count; ++i) scale[i] = fill<F>(*constant);
+  else
+    scale = lane_by_lane<F>(
+        lanes, [&](int j) __attribute__((always_inline)) { return scale_of(e, wavelengths(j)); });
+  for (int i = 0; i < hero_count; ++i) radiance[i] = radiance[i] * scale[i] * e.factor;
+  return radiance;
 }
 
 }  // namespace detail
@@ -92,8 +136,7 @@ VITRAIL_LANES Seen<D> value_towards(const Environment& e, Vector<D> direction, M
     for (int i = 0; i < hero_count; ++i) set_lane(seen.radiance[i], j, radiance.v[i]);
   };
   if (!e.sky) {
-    for (int j = 0; j < width<D>; ++j)
-      if (is_set(on, j)) set(j, radiance_of_image(e, {lane(at.x, j), lane(at.y, j)}, wavelengths(j)));
+    seen.radiance = detail::radiance_of_image(e, at, on, wavelengths);
     return seen;
   }
   const SkyModel& sky = *e.sky;

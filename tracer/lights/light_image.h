@@ -8,6 +8,7 @@
 
 namespace vitrail {
 
+class BakedImage;
 class TileCache;
 
 // What lights ask of an image. Texel (0,0) is the lower left one; level 0 is the finest, each next one has
@@ -23,6 +24,8 @@ class LightImage {
   virtual SampledSpectrum bilinear(double s, double t, const SampledWavelengths& wavelengths) const = 0;
   // About the Y of a texel.
   virtual double luminance(int x, int y, int level) const = 0;
+  // Itself, where lanes may read it; else null.
+  virtual const BakedImage* baked() const { return nullptr; }
 };
 
 }  // namespace vitrail

@@ -8,7 +8,7 @@
 
 #include "scene/geometry/portable_math.h"
 #include "tracer/textures/baked_image.h"
-#include "tracer/textures/texel_places.h"
+#include "tracer/textures/texel_places_lanes.h"
 #include "tracer/textures/texture_ranges.h"
 
 namespace vitrail {
@@ -47,12 +47,13 @@ class FrameAxis {
         if (share > 0) places_[texel].push_back({s, share * weight});
       };
       if (image.filter == TextureFilter::nearest) {
-        if (const int texel = single_at(a * s + c, texels, image.wrap); texel >= 0)
+        if (const int texel = lanes::single_at(a * s + c, texels, image.wrap); texel >= 0)
           add(static_cast<std::size_t>(texel), 1);
         continue;
       }
-      const TexelPair pair = pair_at(a * s + c, texels, image.wrap);
-      for (std::size_t k = 0; k < 2; ++k) add(pair.texel[k], static_cast<double>(pair.weight[k]));
+      const lanes::TexelPair<double> pair = lanes::pair_at(a * s + c, texels, image.wrap);
+      for (int k = 0; k < 2; ++k)
+        add(static_cast<std::size_t>(pair.texel[k]), static_cast<double>(pair.weight[k]));
     }
   }
   const std::vector<Place>& operator[](int texel) const { return places_[static_cast<std::size_t>(texel)]; }

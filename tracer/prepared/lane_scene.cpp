@@ -55,14 +55,29 @@ void set(const DielectricMaterial& m, LaneSurface& s) {
   s.eta_behind = behind->value, s.eta_before = before->value;
 }
 
-LaneSurface lane_surface(const Manifest& manifest, const Interiors& interiors, const Surface& surface) {
+// What is nothing but an image.
+LaneTexture lane_texture(const Manifest& manifest, const Textures& images,
+                         const SpectrumParameter& reflectance) {
+  const auto* id = std::get_if<Id<Texture>>(&reflectance);
+  const auto* image = id ? std::get_if<ImageTexture>(&manifest.textures[id->value].model) : nullptr;
+  const auto* mapping = image ? std::get_if<UvMapping>(&image->mapping) : nullptr;
+  if (!mapping || image->filter != TextureFilter::bilinear) return {};
+  return {&images.image(*id), id->value, *mapping, image->wrap};
+}
+
+LaneSurface lane_surface(const Manifest& manifest, const Textures& images, const Interiors& interiors,
+                         const Surface& surface) {
   const Material& material = manifest.materials[surface.material];
   LaneSurface s;
   s.two_sided = material.two_sided;
   s.emits = surface.area_light >= 0;
   if (material.displacement || material.normal_map || material.bump_shadowing) return s;
   if (surface.opacity != FloatParameter{1.0f} || interiors.has_priority(surface)) return s;
-  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model)) set(*diffuse, s);
+  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model)) {
+    set(*diffuse, s);
+    if (s.kind == LaneKind::diffuse) s.texture = lane_texture(manifest, images, diffuse->reflectance);
+    if (s.texture.image) s.is_textured = s.has_parameters = false;
+  }
   if (const auto* metal = std::get_if<ConductorMaterial>(&material.model)) set(*metal, s);
   if (const auto* plastic = std::get_if<PlasticMaterial>(&material.model)) set(*plastic, s);
   if (const auto* glass = std::get_if<DielectricMaterial>(&material.model)) set(*glass, s);
@@ -106,14 +121,16 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf) {
   return l;
 }
 
-LaneScene::LaneScene(const Manifest& manifest, const Interiors& interiors, const Materials& materials,
-                     const LightSampler& lights) {
+LaneScene::LaneScene(const Manifest& manifest, const Textures& images, const Interiors& interiors,
+                     const Materials& materials, const LightSampler& lights) {
   const Requirements& r = manifest.requirements;
   is_enabled = !manifest.settings.direct_only;
   has_connections = r.see_through || r.media || (materials.have_panes() && !lights.distant.empty());
   divides_space = interiors.divide_space();
-  for (const Surface& surface : manifest.surfaces)
-    surfaces.push_back(lane_surface(manifest, interiors, surface));
+  for (const Surface& surface : manifest.surfaces) {
+    surfaces.push_back(lane_surface(manifest, images, interiors, surface));
+    has_textures = has_textures || surfaces.back().texture.image != nullptr;
+  }
   for (const LightSampler::Slot& slot : lights.slots) lamps.push_back(lane_lamp(lights, slot));
 }
 

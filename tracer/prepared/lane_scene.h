@@ -24,6 +24,14 @@ enum class LaneKind : std::uint8_t {
 };
 inline constexpr std::size_t lane_kinds = 7;
 
+// An image that lanes look up: by (u,v), bilinear, the finest level.
+struct LaneTexture {
+  const BakedImage* image = nullptr;
+  std::uint32_t id = 0;  // of Manifest::textures
+  UvMapping mapping;
+  Wrap wrap = Wrap::repeat;
+};
+
 struct LaneSurface {
   LaneKind kind = LaneKind::none;
   bool two_sided = false;
@@ -33,6 +41,7 @@ struct LaneSurface {
   // Of `diffuse`: the reflectance, constant or, where that is < 0, a sigmoid.
   float constant = -1;
   SigmoidSpectrum sigmoid;
+  LaneTexture texture;  // or this, where it has an image
   // Of `glass`: the indices on its back and on its front.
   float eta_behind = 1, eta_before = 1;
 };
@@ -56,6 +65,7 @@ struct LaneScene {
   bool is_enabled = false;       // all but where direct light alone is asked for
   bool has_connections = false;  // light may pass something straight on: a connection may be no shadow ray
   bool divides_space = false;    // as Interiors
+  bool has_textures = false;     // some surface has a LaneTexture
   std::vector<LaneSurface> surfaces;  // of all Manifest::surfaces
   std::vector<LaneLamp> lamps;        // of each of LightSampler::slots
   // Stand for what a path does not have.
@@ -63,8 +73,8 @@ struct LaneScene {
   LightSampler::Face no_face;
   PlacedQuadric no_sphere{{}, {}};
 
-  LaneScene(const Manifest& manifest, const Interiors& interiors, const Materials& materials,
-            const LightSampler& lights);
+  LaneScene(const Manifest& manifest, const Textures& images, const Interiors& interiors,
+            const Materials& materials, const LightSampler& lights);
 };
 
 }  // namespace vitrail

@@ -58,7 +58,7 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
       materials(manifest, textures),
       media(prepare(manifest.media)),
       lights(make_light_sampler(light_scene(manifest, textures), bundle, the_sampling.lights)),
-      lanes(manifest, interiors, materials, lights),
+      lanes(manifest, textures, interiors, materials, lights),
       bundle_to_camera(inverse(camera_to_bundle(manifest))),
       pixel_angle(vitrail::pixel_angle(manifest)),
       pixel(pixel_of(manifest)),

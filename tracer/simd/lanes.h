@@ -262,6 +262,8 @@ VITRAIL_LANES V sqrt(V x) {
 #if defined(__AVX512F__)
   } else if constexpr (sizeof(V) == 64 && width<V> == 8) {
     return reinterpret_cast<V>(_mm512_sqrt_pd(reinterpret_cast<__m512d>(x)));
+  } else if constexpr (sizeof(V) == 64 && width<V> == 16) {
+    return reinterpret_cast<V>(_mm512_sqrt_ps(reinterpret_cast<__m512>(x)));
 #endif
 #if defined(__AVX2__)
   } else if constexpr (sizeof(V) == 32 && width<V> == 4) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tracer/textures/texel_places.h"
+#include "tracer/textures/image_lanes.h"
 #include "tracer/textures/texel_value.h"
 #include "tracer/textures/tile_cache.h"
 
@@ -14,6 +14,10 @@ namespace vitrail {
 namespace {
 
 constexpr int shift_of(std::uint32_t size) { return std::countr_zero(size); }
+
+auto one_lane(const SampledWavelengths& wavelengths) {
+  return [&](int) __attribute__((always_inline))->const SampledWavelengths& { return wavelengths; };
+}
 
 }  // namespace
 
@@ -29,10 +33,11 @@ struct BakedImage::Implementation {
 
   // Texels x[i % 2], y[i / 2] for i in [0, 4), which often lie in one tile.
   void read(int level, const std::array<std::uint32_t, 2>& x, const std::array<std::uint32_t, 2>& y,
-            std::array<TexelWords, 4>& words) const {
+            const TileCache::Words& words) const {
     const TextureLevel& of = levels[level];
     if (((x[0] ^ x[1]) >> shift_x | (y[0] ^ y[1]) >> shift_y) != 0) {
-      for (std::size_t i = 0; i < 4; ++i) words[i] = one(x[i % 2], y[i / 2], level);
+      for (std::size_t i = 0; i < 4; ++i)
+        read_one(level, x[i % 2], y[i / 2], {words.first + 3 * i * words.stride, words.stride});
       return;
     }
     const std::uint32_t tile_x = x[0] >> shift_x, tile_y = y[0] >> shift_y;
@@ -41,25 +46,25 @@ struct BakedImage::Implementation {
     const std::uint32_t row0 = (y[0] - first_y) * row, row1 = (y[1] - first_y) * row;
     const std::array<std::uint32_t, 4> index{row0 + x[0] - first_x, row0 + x[1] - first_x,
                                              row1 + x[0] - first_x, row1 + x[1] - first_x};
-    read_tile(level, tile_x, tile_y, index, words.data());
+    read_tile(level, tile_x, tile_y, index, words);
   }
 
-  TexelWords one(std::uint32_t x, std::uint32_t y, int level) const {
+  void read_one(int level, std::uint32_t x, std::uint32_t y, const TileCache::Words& words) const {
     const std::uint32_t tile_x = x >> shift_x, tile_y = y >> shift_y;
     const std::uint32_t first_x = tile_x << shift_x, first_y = tile_y << shift_y;
     const std::uint32_t row = std::min(1u << shift_x, levels[level].width - first_x);
     const std::array<std::uint32_t, 1> index{(y - first_y) * row + x - first_x};
-    TexelWords words;
-    read_tile(level, tile_x, tile_y, index, &words);
-    return words;
+    read_tile(level, tile_x, tile_y, index, words);
   }
   TexelWords one(int x, int y, int level) const {
-    return one(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), level);
+    TexelWords words;
+    read_one(level, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), {words.data()});
+    return words;
   }
 
   template <std::size_t N>
   void read_tile(int level, std::uint32_t tile_x, std::uint32_t tile_y,
-                 const std::array<std::uint32_t, N>& index, TexelWords* words) const {
+                 const std::array<std::uint32_t, N>& index, const TileCache::Words& words) const {
     const TextureLevel& of = levels[level];
     const std::uint64_t tile = of.first_tile + static_cast<std::uint64_t>(tile_y) * of.tiles_x + tile_x;
     cache->read({file, entries[tile], format, static_cast<std::uint32_t>(level), tile_x, tile_y}, index,
@@ -72,16 +77,27 @@ struct BakedImage::Implementation {
     std::array<float, 4> weights;
   };
   Blend blend(double s, double t, Wrap wrap, int level) const {
-    const TexelPair h = pair_at(s, static_cast<int>(levels[level].width), wrap);
-    const TexelPair v = pair_at(t, static_cast<int>(levels[level].height), wrap);
+    const auto pair = [&](double at, std::uint32_t n) {
+      return lanes::pair_at(at, static_cast<int>(n), wrap);
+    };
+    const lanes::TexelPair<double> h = pair(s, levels[level].width), v = pair(t, levels[level].height);
+    const auto texels = [](const lanes::TexelPair<double>& of) {
+      return std::array{static_cast<std::uint32_t>(of.texel[0]), static_cast<std::uint32_t>(of.texel[1])};
+    };
     Blend of;
-    read(level, h.texel, v.texel, of.texels);
+    read(level, texels(h), texels(v), {of.texels[0].data()});
     for (std::size_t i = 0; i < 4; ++i) of.weights[i] = h.weight[i % 2] * v.weight[i / 2];
     return of;
   }
 
-  SampledSpectrum lit(const SampledSpectrum& value, const SampledWavelengths& wavelengths) const {
-    return is_illuminant(format) ? value * d65_at(wavelengths) : value;
+  // By Matrix-R.
+  SampledSpectrum sum(std::span<const TexelWords> texels, const float* factors,
+                      const SampledWavelengths& wavelengths) const {
+    SampledSpectrum value = sum_of(format, texels, factors, MatrixRWeights(wavelengths));
+    if (is_illuminant(format))
+      for (std::size_t i = 0; i < hero_count; ++i)
+        value.v[i] *= lanes::table_value(cie_d65().data(), wavelengths.lambda_nm[i]);
+    return value;
   }
 
   TextureFile file;
@@ -107,28 +123,59 @@ int BakedImage::height(int level) const {
   return static_cast<int>(file().layout().levels.at(static_cast<std::size_t>(level)).height);
 }
 
+BakedImage::Size BakedImage::size(int level) const {
+  const TextureLevel& of = implementation_->levels[level];
+  return {implementation_->format, static_cast<int>(of.width), static_cast<int>(of.height)};
+}
+
+void BakedImage::read_corners(int level, unsigned lanes, int count, const std::int32_t* x,
+                              const std::int32_t* y, std::uint32_t* words) const {
+  const auto two = [count](const std::int32_t* at) {
+    return std::array{static_cast<std::uint32_t>(at[0]), static_cast<std::uint32_t>(at[count])};
+  };
+  for (int j = 0; j < count; ++j)
+    if (lanes >> j & 1)
+      implementation_->read(level, two(x + j), two(y + j), {words + j, static_cast<std::size_t>(count)});
+}
+
+void BakedImage::read_texels(int level, unsigned lanes, int count, const std::int32_t* x,
+                             const std::int32_t* y, std::uint32_t* words) const {
+  for (int j = 0; j < count; ++j)
+    if (lanes >> j & 1)
+      implementation_->read_one(level, static_cast<std::uint32_t>(x[j]), static_cast<std::uint32_t>(y[j]),
+                                {words + j, static_cast<std::size_t>(count)});
+}
+
 SampledSpectrum BakedImage::texel(int x, int y, int level, const SampledWavelengths& wavelengths) const {
   const Implementation& image = *implementation_;
-  return image.lit(spectrum_of(image.format, image.one(x, y, level), NodeWeights(wavelengths, image.format)),
-                   wavelengths);
+  if (by_matrix_r(image.format)) {
+    const TexelWords words = image.one(x, y, level);
+    constexpr float whole = 1;
+    return image.sum({&words, 1}, &whole, wavelengths);
+  }
+  return lanes::lane(lanes::texel(*this, x, y, level, 1u, one_lane(wavelengths)), 0);
 }
 
 SampledSpectrum BakedImage::nearest(double s, double t, Wrap wrap, int level,
                                     const SampledWavelengths& wavelengths) const {
-  const int x = single_at(s, width(level), wrap), y = single_at(t, height(level), wrap);
+  const Size of = size(level);
+  const int x = lanes::single_at(s, of.width, wrap), y = lanes::single_at(t, of.height, wrap);
   return x < 0 || y < 0 ? SampledSpectrum{} : texel(x, y, level, wavelengths);
 }
 
 SampledSpectrum BakedImage::bilinear(double s, double t, Wrap wrap, int level,
                                      const SampledWavelengths& wavelengths) const {
   const Implementation& image = *implementation_;
-  const auto [texels, factors] = image.blend(s, t, wrap, level);
-  return image.lit(sum_of(image.format, texels, factors, NodeWeights(wavelengths, image.format)),
-                   wavelengths);
+  if (by_matrix_r(image.format)) {
+    const auto [texels, factors] = image.blend(s, t, wrap, level);
+    return image.sum(texels, factors.data(), wavelengths);
+  }
+  return lanes::lane(lanes::bilinear(*this, s, t, wrap, level, 1u, one_lane(wavelengths)), 0);
 }
 
 std::array<double, 3> BakedImage::nearest_vector(double s, double t, Wrap wrap, int level) const {
-  const int x = single_at(s, width(level), wrap), y = single_at(t, height(level), wrap);
+  const Size of = size(level);
+  const int x = lanes::single_at(s, of.width, wrap), y = lanes::single_at(t, of.height, wrap);
   if (x < 0 || y < 0) return {};
   return vector_of(format(), implementation_->one(x, y, level));
 }
@@ -145,10 +192,23 @@ std::array<double, 3> BakedImage::bilinear_vector(double s, double t, Wrap wrap,
 
 namespace {
 
+SampledSpectrum values_at(TexelFormat format, const TexelWords& words,
+                          const lanes::NodeWeights<float>& weights) {
+  lanes::TexelsOfLanes<1, 1> texel{};
+  for (std::size_t w = 0; w < words.size(); ++w) texel.word[0][w][0] = words[w];
+  constexpr float whole[1] = {1};
+  return lanes::lane(lanes::parted(lanes::sum_of<float>(format, texel, whole, weights)), 0);
+}
+SampledSpectrum values_at(TexelFormat format, const TexelWords& words, const MatrixRWeights& weights) {
+  constexpr float whole = 1;
+  return sum_of(format, {&words, 1}, &whole, weights);
+}
+
 // ∫ S·D65·ȳ dλ / ∫ D65·ȳ dλ as Σ share·S at the middles of bands of equal share: within 1e-3 for sigmoids.
+template <class Weights>
 class LuminanceRule {
  public:
-  explicit LuminanceRule(TexelFormat format) {
+  LuminanceRule() {
     std::array<double, table_size> sums{};
     double total = 0;
     for (std::size_t i = 0; i < table_size; ++i)
@@ -163,13 +223,13 @@ class LuminanceRule {
         w.lambda_nm[i] =
             static_cast<float>(lambda_min_nm + static_cast<double>(above - sums.begin()) + into_nm);
       }
-      weights_.emplace_back(w, format);
+      weights_.push_back(weights_at(w));
     }
   }
   double operator()(TexelFormat format, const TexelWords& words) const {
     double sum = 0;
-    for (const NodeWeights& weights : weights_) {
-      const SampledSpectrum values = spectrum_of(format, words, weights);
+    for (const Weights& weights : weights_) {
+      const SampledSpectrum values = values_at(format, words, weights);
       for (std::size_t i = 0; i < hero_count; ++i) sum += static_cast<double>(values.v[i]);
     }
     return std::max(sum / (groups * hero_count), 0.0);
@@ -177,7 +237,13 @@ class LuminanceRule {
 
  private:
   static constexpr std::size_t groups = 8;
-  std::vector<NodeWeights> weights_;
+  static Weights weights_at(const SampledWavelengths& wavelengths) {
+    if constexpr (std::is_same_v<Weights, MatrixRWeights>)
+      return Weights(wavelengths);
+    else
+      return Weights(lanes::gather_wavelengths<float>(one_lane(wavelengths)));
+  }
+  std::vector<Weights> weights_;
 };
 
 }  // namespace
@@ -187,8 +253,10 @@ double BakedImage::number(int x, int y, int level) const {
 }
 
 double BakedImage::luminance(int x, int y, int level) const {
-  static const LuminanceRule sigmoids(TexelFormat::reflectance), matrix_r(TexelFormat::matrix_r_reflectance);
-  return (by_matrix_r(format()) ? matrix_r : sigmoids)(format(), implementation_->one(x, y, level));
+  static const LuminanceRule<lanes::NodeWeights<float>> sigmoids;
+  static const LuminanceRule<MatrixRWeights> matrix_r;
+  const TexelWords words = implementation_->one(x, y, level);
+  return by_matrix_r(format()) ? matrix_r(format(), words) : sigmoids(format(), words);
 }
 
 }  // namespace vitrail

@@ -50,6 +50,20 @@ class BakedImage {
   // Of an image of numbers.
   double number(int x, int y, int level) const;
 
+  // What look-ups of many paths at a time read (image_lanes.h).
+  struct Size {
+    TexelFormat format;
+    int width, height;
+  };
+  Size size(int level) const;
+  // The words of texels (x[i % 2][j], y[i / 2][j]), i in [0, 4), for each of `count` look-ups j that is set
+  // in `lanes`: words[i][word][j]. x and y are [2][count]. Words that the format has not stay as they are.
+  void read_corners(int level, unsigned lanes, int count, const std::int32_t* x, const std::int32_t* y,
+                    std::uint32_t* words) const;
+  // The same of one texel each: words[word][j] of (x[j], y[j]).
+  void read_texels(int level, unsigned lanes, int count, const std::int32_t* x, const std::int32_t* y,
+                   std::uint32_t* words) const;
+
   const TextureFile& file() const;
   // What a tile costs while it is not in memory: its checksum and where it would be.
   static constexpr std::uint64_t table_bytes_per_tile = 16;

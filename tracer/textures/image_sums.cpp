@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "tracer/textures/baked_image.h"
-#include "tracer/textures/texel_places.h"
+#include "tracer/textures/texel_places_lanes.h"
 
 namespace vitrail {
 
@@ -41,7 +41,7 @@ struct Shares {
     for (int i = first; i <= last && count < 2 * most_shares; ++i) {
       const double part = (std::min(i + 1.0, high) - std::max<double>(i, low)) / (high - low);
       const int wanted = wrap == Wrap::repeat ? ((i % cells) + cells) % cells : mirrored(i, cells, wrap);
-      const int k = wrapped(wanted, cells, wrap);
+      const int k = lanes::wrapped(wanted, cells, wrap);
       if (!(part > 0) || k < 0) continue;
       cell[static_cast<std::size_t>(count)] = k;
       share[static_cast<std::size_t>(count++)] = part;

@@ -12,10 +12,9 @@
 #include "scene/records/texture_inputs.h"
 #include "scene/system/diagnostics.h"
 #include "tracer/sampling/wavelengths.h"
-#include "tracer/textures/baked_image.h"
+#include "tracer/textures/image_lanes.h"
 #include "tracer/textures/mapping.h"
 #include "tracer/textures/noise.h"
-#include "tracer/textures/texel_value.h"
 #include "tracer/textures/tile_cache.h"
 
 namespace vitrail {
@@ -93,11 +92,15 @@ struct SpectrumLookup {
     return image.bilinear(p.s, p.t, wrap, level, wavelengths);
   }
   Value attribute(const AttributeValue& value, const Texture& texture) const {
-    const NodeWeights nodes(wavelengths);
+    const lanes::NodeWeights<float> nodes(
+        lanes::gather_wavelengths<float>([&](int) -> const SampledWavelengths& { return wavelengths; }));
     SampledSpectrum sum;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::array<float, 3>& corner = value.corners[k];
-      sum = sum + (texture.is_float ? filled(corner[0]) : sigmoid_of(corner, nodes)) * value.weights[k];
+      const float corner[3] = {value.corners[k][0], value.corners[k][1], value.corners[k][2]};
+      const SampledSpectrum of_corner =
+          texture.is_float ? filled(corner[0])
+                           : lanes::lane(lanes::parted(lanes::sigmoid_of_nodes(corner, nodes)), 0);
+      sum = sum + of_corner * value.weights[k];
     }
     return sum;
   }

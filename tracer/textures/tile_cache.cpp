@@ -44,13 +44,13 @@ TileCache::~TileCache() {
   ::munmap(words_, slot_count_ * slot_bytes);
 }
 
-void TileCache::read_and_store(const Tile& tile, std::span<const std::uint32_t> texels, TexelWords* out) {
+void TileCache::read_and_store(const Tile& tile, std::span<const std::uint32_t> texels, const Words& out) {
   std::array<std::uint32_t, max_tile_words> words;
   const TextureFile::Tile read = tile.file.read_tile(tile.level, tile.x, tile.y, words);
   loads_.fetch_add(1, std::memory_order_relaxed);
   const std::uint32_t count = words_per_texel(tile.file.info().format);
   for (std::size_t i = 0; i < texels.size(); ++i)
-    for (std::uint32_t w = 0; w < count; ++w) out[i][w] = words[texels[i] * count + w];
+    for (std::uint32_t w = 0; w < count; ++w) out(i, w) = words[texels[i] * count + w];
   store(tile.entry, std::span(words).first(read.words));
 }
 

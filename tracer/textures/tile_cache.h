@@ -32,10 +32,18 @@ class TileCache {
     TexelFormat format;
     std::uint32_t level, x, y;
   };
-  // Copies the words of the texels with these indices, row by row in the tile, into out[i]. Throws Error for
-  // a damaged tile.
+  // Where the words of some texels go: word w of texel i to first[(3·i + w)·stride].
+  struct Words {
+    std::uint32_t* first;
+    std::size_t stride = 1;
+    std::uint32_t& operator()(std::size_t texel, std::size_t word) const {
+      return first[(3 * texel + word) * stride];
+    }
+  };
+  // Copies the words of the texels with these indices, row by row in the tile. Throws Error for a damaged
+  // tile.
   template <std::size_t N>
-  void read(const Tile& tile, const std::array<std::uint32_t, N>& texels, TexelWords* out) {
+  void read(const Tile& tile, const std::array<std::uint32_t, N>& texels, const Words& out) {
     if (!read_resident(tile, texels, out)) read_and_store(tile, texels, out);
   }
 
@@ -53,7 +61,7 @@ class TileCache {
 
   bool is_resident(std::uint64_t entry) const;
   template <std::size_t N>
-  bool read_resident(const Tile& tile, const std::array<std::uint32_t, N>& texels, TexelWords* out) {
+  bool read_resident(const Tile& tile, const std::array<std::uint32_t, N>& texels, const Words& out) {
     const std::uint64_t entry = tile.entry.load(std::memory_order_acquire);
     if (entry == 0) return false;
     Slot& slot = slots_[entry >> 32];
@@ -72,16 +80,16 @@ class TileCache {
     if (slot.used.load(std::memory_order_relaxed) == 0) slot.used.store(1, std::memory_order_relaxed);
     return true;
   }
-  template <std::uint32_t Words, std::size_t N>
+  template <std::uint32_t WordsEach, std::size_t N>
   static void copy(const std::atomic<std::uint32_t>* from, const std::array<std::uint32_t, N>& texels,
-                   TexelWords* out) {
+                   const Words& out) {
     for (std::size_t i = 0; i < N; ++i) {
-      const std::atomic<std::uint32_t>* const texel = from + std::size_t{texels[i]} * Words;
+      const std::atomic<std::uint32_t>* const texel = from + std::size_t{texels[i]} * WordsEach;
 #pragma GCC unroll 3
-      for (std::uint32_t w = 0; w < Words; ++w) out[i][w] = texel[w].load(std::memory_order_acquire);
+      for (std::uint32_t w = 0; w < WordsEach; ++w) out(i, w) = texel[w].load(std::memory_order_acquire);
     }
   }
-  void read_and_store(const Tile& tile, std::span<const std::uint32_t> texels, TexelWords* out);
+  void read_and_store(const Tile& tile, std::span<const std::uint32_t> texels, const Words& out);
   void store(Entry& entry, std::span<const std::uint32_t> words);
 
   std::uint64_t slot_count_;

@@ -5,11 +5,13 @@
 #include "tracer/lanes/interaction.h"
 #include "tracer/lights/light_sampler.h"
 #include "tracer/sampling/wavelengths.h"
+#include "tracer/textures/baked_image.h"
 
 namespace vitrail::lane_tests {
 
 inline constexpr std::uint32_t fixture_clusters = 64, fixture_lamps = 64, fixture_domains = 4,
-                               fixture_trees = 4, fixture_spheres = 32, fixture_environments = 4;
+                               fixture_trees = 4, fixture_spheres = 32, fixture_images = 5,
+                               fixture_environments = fixture_images + 2;
 
 struct Context {
   WavelengthTables wavelengths;
@@ -19,8 +21,9 @@ struct Context {
   const LightSampler::Slot* slots;              // of triangles that emit
   const LightSampler::Face* faces;              // of each slot
   const bool* two_sided;
-  const PlacedQuadric* spheres;     // fixture_spheres
-  const Environment* environments;  // an image of each projection, a sky with a sun, a sun alone
+  const PlacedQuadric* spheres;              // fixture_spheres
+  const BakedImage* images[fixture_images];  // of kinds of spectra and of numbers
+  const Environment* environments;           // those images, a sky with a sun, a sun alone
   const SampledWavelengths* some_wavelengths;
   const LightTree* trees[fixture_trees];  // of few lights, of many, by power, of none
 };

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/tracer/lanes/fixtures.h"
 
+#include <bit>
 #include <cmath>
 
 #include "tests/tracer/lanes/arguments.h"
-#include "tests/tracer/lights/light_fixtures.h"
+#include "tracer/lights/baked_light_image.h"
+#include "tracer/textures/tile_cache.h"
 
 namespace vitrail::lane_tests {
 
@@ -94,11 +96,16 @@ std::vector<LightBounds> light_bounds(std::size_t count) {
   return lights;
 }
 
-// Dark here and there.
-std::shared_ptr<const LightImage> spotted_image(Random& random) {
-  std::vector<double> values;
-  for (int i = 0; i < 48 * 20; ++i) values.push_back(i % 3 == 0 ? 0 : uniform(random, 0, 5));
-  return std::make_shared<test::GreyImage>(48, 20, values);
+// Of several tiles, dark here and there.
+std::shared_ptr<const LightImage> spotted_image(Random& random, TexelFormat format,
+                                                const std::filesystem::path& file) {
+  write_texture_file(file, {format, 80, 40, 1}, [&](std::uint32_t, std::uint32_t x, std::uint32_t y) {
+    const auto value = static_cast<float>(x % 3 == 0 ? 0 : uniform(random, 0, 5));
+    if (format == TexelFormat::number) return TexelWords{std::bit_cast<std::uint32_t>(value)};
+    const float tint = static_cast<float>(y) / 20 - 1;
+    return pack({{tint, static_cast<float>(uniform(random, -2, 2)), -tint}, value});
+  });
+  return open_light_image(file, std::make_shared<TileCache>(1 << 20));
 }
 
 }  // namespace
@@ -136,11 +143,16 @@ Fixtures::Fixtures() {
   trees[1] = LightTree(light_bounds(3000), LightChoice::tree);
   trees[2] = LightTree(light_bounds(300), LightChoice::power);
   for (std::uint32_t i = 0; i < fixture_trees; ++i) context.trees[i] = &trees[i];
-  for (const auto projection : {SphereProjection::equal_area, SphereProjection::latitude_longitude}) {
+  for (const auto format : {TexelFormat::number, TexelFormat::reflectance, TexelFormat::unbounded,
+                            TexelFormat::illuminant, TexelFormat::matrix_r_illuminant}) {
+    const std::size_t i = environments.size();
     EnvironmentLight light;
-    light.projection = projection;
+    light.projection = i % 2 == 0 ? SphereProjection::equal_area : SphereProjection::latitude_longitude;
     light.light_to_world = rotate(1, {1, 2, 3});
-    environments.push_back(make_environment(light, spotted_image(random)));
+    if (i == 3) light.scale = Spectrum{SigmoidSpectrum{0, 0.01f, -5}};
+    const std::string name = std::to_string(i);
+    environments.push_back(make_environment(light, spotted_image(random, format, directory / name)));
+    context.images[i] = baked_image_of(environments.back());
   }
   SkyLight light;
   light.light_to_world = rotate(0.1, {1, 0, 0});

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "tests/support/temporary_directory.h"
 #include "tests/tracer/lanes/context.h"
 
 namespace vitrail::lane_tests {
@@ -21,6 +22,7 @@ struct Fixtures {
   std::vector<EmissiveQuadric> spheres;
   std::vector<PlacedQuadric> placed_spheres;
   LightTree trees[fixture_trees];
+  test::TemporaryDirectory directory;
   std::vector<Environment> environments;
   SampledWavelengths some_wavelengths;
   bool two_sided[fixture_lamps] = {};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include "scene/geometry/portable_math.h"
 #include "tests/tracer/lanes/fixtures.h"
 #include "tests/tracer/lanes/results.h"
@@ -31,6 +33,21 @@ std::vector<ScalarFunction> environment_functions() {
            results << point.x << point.y;
          }
          results << sphere_direction(SphereProjection::equal_area, {in[3], in[4]});
+       }},
+      {"look_up_image",
+       {number(-3, 3, {-1, -0.0, 0, 0.5, 1, 2, 1e9, -1e300, 1e300, INFINITY}),
+        number(-3, 3, {-1, -0.0, 0, 0.5, 1, 2, 1e9, -1e300, INFINITY, NAN}), float_number(360, 830, {360}),
+        float_number(360, 830, {830}), float_number(360, 830, {500}), float_number(360, 830, {500})},
+       [](const Context& context, const double* in, double* out) {
+         Results results{out};
+         SampledWavelengths wavelengths;
+         for (std::size_t i = 0; i < hero_count; ++i)
+           wavelengths.lambda_nm[i] = static_cast<float>(in[2 + i]);
+         for (const BakedImage* image : context.images) {
+           for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp, Wrap::black})
+             results << image->bilinear(in[0], in[1], wrap, 0, wavelengths).v;
+           results << image->nearest(in[0], in[1], Wrap::clamp, 0, wavelengths).v;
+         }
        }},
       {"sample_environment",
        {unit_number(), unit_number()},

@@ -68,20 +68,44 @@ SkyLight sun_and_sky(float sky_scale) {
   return light;
 }
 
-// Of two colours, with one bright texel.
-EnvironmentLight image_around(EnvironmentLight::Projection projection) {
+// Of two colours, with one texel of another brightness.
+std::string image_file(const std::string& name, float brightness) {
   static const TemporaryDirectory directory;
-  EnvironmentLight light;
-  light.filename = (directory / "around.exr").string();
-  light.light_to_world = rotate(-pi / 2, {1, 0, 0});
-  light.projection = projection;
-  if (!std::filesystem::exists(light.filename)) {
+  const std::string file = (directory / name).string();
+  if (!std::filesystem::exists(file)) {
     Image image = black_image(8, 8, 3);
     for (std::size_t i = 0; i < image.values.size(); ++i) image.values[i] = i % 5 == 0 ? 0.7f : 0.2f;
-    image.values[8 * 3 * 2 + 7] = 50;
-    write_exr_image(light.filename, image);
+    image.values[8 * 3 * 2 + 7] = brightness;
+    write_exr_image(file, image);
   }
+  return file;
+}
+
+EnvironmentLight image_around(EnvironmentLight::Projection projection) {
+  EnvironmentLight light;
+  light.filename = image_file("around.exr", 50);
+  light.light_to_world = rotate(-pi / 2, {1, 0, 0});
+  light.projection = projection;
   return light;
+}
+
+// On a block and on a ball, an image each; the ball's texels are not blended where `nearest`.
+std::function<void(Scene&)> pictures(TextureFilter of_ball) {
+  return [of_ball](Scene& s) {
+    const auto painted = [&](const std::string& name, float brightness, TextureFilter filter) {
+      ImageTexture image;
+      image.filename = image_file(name, brightness);
+      image.mapping = UvMapping{1.5f, 0.5f, 0.1f, -0.3f, 2, 0.7f};
+      image.wrap = Wrap::mirror;
+      image.filter = filter;
+      s.textures.push_back({image, false, "", {}});
+      return material(DiffuseMaterial{Id<Texture>{static_cast<std::uint32_t>(s.textures.size() - 1)}});
+    };
+    add_block(s, painted("block.exr", 0.9f, TextureFilter::bilinear));
+    TriangleMesh& block = s.meshes.back();
+    for (const Point3f& p : block.positions) block.uvs.push_back({2 * p.x + p.z, p.y - p.z});
+    add_ball(s, painted("ball.exr", 0.1f, of_ball));
+  };
 }
 
 // Without its front and its ceiling.
@@ -221,6 +245,8 @@ std::vector<Case> cases() {
          add_block(s, material(water));
          add_ball(s, material(glass));
        }},
+      {"pictures", pictures(TextureFilter::bilinear)},
+      {"pictures, one of squares", pictures(TextureFilter::nearest)},
       {"to the end",
        [](Scene& s) {
          add_block(s, plastic(0.2f));

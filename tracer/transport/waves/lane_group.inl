@@ -63,6 +63,7 @@ VITRAIL_LANES Interaction<D> interaction_of(const LaneWork& work, const Group& g
   at.dpdu =
       gather_vector<D>([&](int j) __attribute__((always_inline))->const Vector3d& { return of(j).dpdu; });
   at.rounding = gather<D>(VITRAIL_EACH(of(j).rounding));
+  at.u = gather<D>(VITRAIL_EACH(of(j).uv.x)), at.v = gather<D>(VITRAIL_EACH(of(j).uv.y));
   at.out = d * (0.5 * dot(d, d) - 1.5);
   at.cosine = dot(at.out, at.geometric);
   at.front = at.cosine > 0;

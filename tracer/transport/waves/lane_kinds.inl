@@ -16,9 +16,30 @@ VITRAIL_LANES BsdfSample<D> sample(const Conductor<D>& bsdf, Vector<D> out, F, F
   return sample(bsdf, out, u_x, u_y);
 }
 
+// Reflectances of those whose surface has an image; other lanes keep what they have. Not inlined into what
+// has no images.
+[[gnu::noinline]] void look_up_images(const Group& g, D u, D v, Four<F>& reflectance) {
+  unsigned left = bits(gather_mask<D>(VITRAIL_EACH(g.surface[j]->texture.image != nullptr)));
+  while (left != 0) {
+    const LaneTexture& of = g.surface[__builtin_ctz(left)]->texture;
+    const Mask<D> those = gather_mask<D>(
+        VITRAIL_EACH(g.surface[j]->texture.image != nullptr && g.surface[j]->texture.id == of.id));
+    const auto d = [](float x) __attribute__((always_inline)) { return static_cast<double>(x); };
+    const UvMapping& m = of.mapping;
+    const Four<F> found = bilinear<D>(
+        *of.image, u * d(m.a) + v * d(m.b) + d(m.c), u * d(m.d) + v * d(m.e) + d(m.f), of.wrap, 0, bits(those),
+        [&](int j) __attribute__((always_inline))->const SampledWavelengths& {
+          return g.path[j]->wavelengths;
+        });
+    for (int i = 0; i < 4; ++i)
+      reflectance[i] = select<F>(mask_for<F>(those), lanes::max(found[i], fill<F>(0)), reflectance[i]);
+    left &= ~bits(those);
+  }
+}
+
 struct ReadLambert {
   static constexpr bool is_specular = false;
-  VITRAIL_LANES static Lambert<D> read(const LaneWork& work, const Group& g) {
+  VITRAIL_LANES static Lambert<D> read(const LaneWork& work, const Group& g, const Interaction<D>& at) {
     Lambert<D> bsdf;
     const D c0 = to_doubles(gather<F>(VITRAIL_EACH(g.surface[j]->sigmoid.c0))),
             c1 = to_doubles(gather<F>(VITRAIL_EACH(g.surface[j]->sigmoid.c1))),
@@ -30,6 +51,7 @@ struct ReadLambert {
     for (int j = 0; j < W; ++j)
       if (g.surface[j]->has_parameters)
         for (int i = 0; i < 4; ++i) set_lane(bsdf.reflectance[i], j, work.bsdfs[g.place[j]].a.v[i]);
+    if (work.scene.has_textures) look_up_images(g, at.u, at.v, bsdf.reflectance);
     return bsdf;
   }
 };
@@ -47,7 +69,7 @@ VITRAIL_LANES Conductor<D> conductor_of(const LaneWork& work, const Group& g) {
 }
 struct ReadMetal {
   static constexpr bool is_specular = false;
-  VITRAIL_LANES static Conductor<D> read(const LaneWork& work, const Group& g) {
+  VITRAIL_LANES static Conductor<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
     return conductor_of(work, g);
   }
 };
@@ -60,7 +82,7 @@ VITRAIL_LANES BsdfSample<D> sample(const SmoothConductor& bsdf, Vector<D> out, F
 }
 struct ReadMirror {
   static constexpr bool is_specular = true;
-  VITRAIL_LANES static SmoothConductor read(const LaneWork& work, const Group& g) {
+  VITRAIL_LANES static SmoothConductor read(const LaneWork& work, const Group& g, const Interaction<D>&) {
     return {conductor_of(work, g)};
   }
 };
@@ -73,11 +95,11 @@ VITRAIL_LANES Plastic<D> plastic_of(const LaneWork& work, const Group& g) {
 }
 struct ReadPlastic {
   static constexpr bool is_specular = false;
-  VITRAIL_LANES static Plastic<D> read(const LaneWork& work, const Group& g) { return plastic_of(work, g); }
+  VITRAIL_LANES static Plastic<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) { return plastic_of(work, g); }
 };
 struct ReadRoughPlastic {
   static constexpr bool is_specular = false;
-  VITRAIL_LANES static auto read(const LaneWork& work, const Group& g) {
+  VITRAIL_LANES static auto read(const LaneWork& work, const Group& g, const Interaction<D>&) {
     const auto table = [&](int j) __attribute__((always_inline)) {
       return work.bsdfs[g.place[j]].external_transmittance;
     };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/waves/lane_lists.h"
 
+#include <algorithm>
+
 #include "tracer/transport/connect.h"
 #include "tracer/transport/shading.h"
 
@@ -72,7 +74,7 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   if (is_placed || of.emits || of.is_textured) {
     const Interaction at = interaction_at(tracing, path, cone_of(tracing, path, sample_of(path)));
     if (of.emits) add_emission(tracing, path, at, static_cast<std::uint32_t>(surface.area_light));
-    placed_[place] = {at.p, at.geometric, at.shading, at.dpdu, at.rounding};
+    placed_[place] = {at.p, at.geometric, at.shading, at.dpdu, at.rounding, at.uv};
     if (of.is_textured)
       bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, at.texture_point(), path.wavelengths));
   }
@@ -88,6 +90,14 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   lists_[static_cast<std::size_t>(of.kind)][is_placed][candidates > 1].push_back(place);
   ++taken_;
   return true;
+}
+
+// So that paths side by side look up one image.
+void LaneLists::sort_by_texture(const LaneScene& scene) {
+  if (!scene.has_textures) return;
+  const auto texture = [&](std::uint32_t place) { return scene.surfaces[surface_[place]].texture.id; };
+  for (auto& placing : lists_[static_cast<std::size_t>(LaneKind::diffuse)])
+    for (auto& list : placing) std::ranges::sort(list, {}, texture);
 }
 
 void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
@@ -106,6 +116,7 @@ void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
                 .rounding_of_doubles = rounding_of_doubles(tracing.manifest().scale),
                 .shadows = shadows,
                 .next = next_.data()};
+  sort_by_texture(tracing.scene.lanes);
   if (!leaving_.empty()) tracing.stages->leave_scene(work, {leaving_.data(), leaving_.size(), false, 0});
   leaving_.clear();
   for (std::size_t kind = 0; kind < lane_kinds; ++kind)

@@ -24,6 +24,7 @@ class LaneLists {
 
  private:
   bool take_leaving(Tracing& tracing, CameraPath& path, std::uint32_t place);
+  void sort_by_texture(const LaneScene& scene);
   std::uint32_t candidates_of(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
                               bool diffuse) const;
 

@@ -19,6 +19,7 @@ struct PlacedHit {
   Point3d p;
   Vector3d geometric, shading, dpdu;
   double rounding;
+  Point2d uv;
 };
 
 // What the stages work on. Paths and what is kept of each are at their places in a wave.

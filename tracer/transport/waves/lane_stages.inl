@@ -24,7 +24,7 @@ void scatter(LaneWork& work, const LaneList& list) {
     const Mask<D> on = at.front | gather_mask<D>(VITRAIL_EACH(g.surface[j]->two_sided));
     const Frame<D> frame = frame_around(at.shading, at.dpdu, at.side());
     const Vector<D> out = frame.to_local(at.out);
-    const auto bsdf = Read::read(work, g);
+    const auto bsdf = Read::read(work, g, at);
     if constexpr (!Read::is_specular)
       if (can_sample) connect(work, g, carried, at, bsdf, frame, out, on, list.candidates);
 
