@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film file, little-endian: a header with the checksum of what comes before it, then six arrays, each
 // followed by its xxh3: FilmProgress's earlier_ends, about and done, the sums, the counts, the ids; of a film
-// that keeps mattes a seventh, these; and of a film within an adaptive round a last one, `more`.
+// that keeps mattes a seventh, these; and of a film within an adaptive round a last one, `more`. Before them
+// come, of a film that has it, what photons it gathered, its light groups, and its working gamma.
 // docs/why/color-and-film.md has the header byte by byte.
 #include <fmt/format.h>
 
@@ -36,11 +37,11 @@ constexpr std::uint32_t film_version = 4, adaptive_version = 5, photon_version =
 // What a film was rendered with, in Header::options.
 constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, option_camera_space = 4,
                         option_adaptive = 8, option_open_round = 16, option_splats = 32,
-                        option_one_sequence = 64, option_hides_emitters = 128;
+                        option_one_sequence = 64, option_hides_emitters = 128, option_working_gamma = 256;
 constexpr std::uint32_t threshold_bits = 0xffff0000;  // the upper half of a float
 constexpr std::uint32_t options_of(std::uint32_t version) {
   const bool may_be_adaptive = version == adaptive_version || version == groups_version;
-  return threshold_bits | option_splats | option_one_sequence | option_hides_emitters |
+  return threshold_bits | option_splats | option_one_sequence | option_hides_emitters | option_working_gamma |
          (may_be_adaptive ? 31 : 7);
 }
 
@@ -217,6 +218,7 @@ void check_size(const Reader& in, const Header& h, const Arrays& arrays) {
                        matte_planes(arrays.layers) * sizeof(MattePixel)) +
       (matte_planes(arrays.layers) > 0 ? 8 : 0) + h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} +
       h.about_bytes + 6 * 8 + (h.clamp > 0 ? sizeof(WideSum) : 0) + arrays.group_bytes +
+      ((h.options & option_working_gamma) != 0 ? sizeof(double) + 8 : 0) +
       (h.version == photon_version ? sizeof(PhotonKey) + 8 + 2 * photon_batches * sizeof(WideSum) : 0) +
       (arrays.open_round ? arrays.pixels * sizeof(std::uint32_t) + 8 : 0);
   const std::uint64_t bytes = in.size() - sizeof h;
@@ -234,6 +236,15 @@ PhotonKey read_photons(Reader& in, const Header& h) {
       !(photons[0].alpha > 0) || !std::isfinite(photons[0].alpha))
     in.fail("the film file is corrupt: its photons make no sense");
   return photons[0];
+}
+
+double read_working_gamma(Reader& in, const Header& h) {
+  if ((h.options & option_working_gamma) == 0) return 1;
+  std::vector<double> gamma;
+  in.read_array(gamma, 1, "working gamma");
+  if (!(gamma[0] >= 0) || !std::isfinite(gamma[0]))
+    in.fail("the film file is corrupt: its working gamma makes no sense");
+  return gamma[0];
 }
 
 // All but `more`, which comes last.
@@ -300,6 +311,7 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
       (key.direct_only ? option_direct_only : 0) | (key.straight_counts ? option_straight_counts : 0) |
       (film.settings_.layers.in_camera_space ? option_camera_space : 0) | (key.splats ? option_splats : 0) |
       (key.one_sequence ? option_one_sequence : 0) | (key.hides_emitters ? option_hides_emitters : 0) |
+      (film.settings_.working_gamma != 1 ? option_working_gamma : 0) |
       (std::bit_cast<std::uint32_t>(key.threshold) & threshold_bits) |
       (progress.adaptive ? option_adaptive : 0) | (progress.more.empty() ? 0 : option_open_round);
   h.exponent = film.exponent_, h.length_exponent = film.length_exponent_;
@@ -320,6 +332,7 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
                                              static_cast<std::uint32_t>(text.size())}});
     write_array(out, text);
   }
+  if (film.settings_.working_gamma != 1) write_array(out, std::array{film.settings_.working_gamma});
   write_array(out, progress.earlier_ends);
   write_array(out, progress.about);
   write_array(out, progress.done);
@@ -338,6 +351,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   const Arrays arrays(h, groups);
   check_size(in, h, arrays);
   const PhotonKey photons = read_photons(in, h);
+  const double working_gamma = read_working_gamma(in, h);
   FilmProgress read = read_progress(in, h);
   Film film;
   film.settings_.crop = {h.x0, h.x1, h.y0, h.y1};
@@ -345,6 +359,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   film.settings_.imaging_ratio = h.imaging_ratio;
   film.settings_.spectrum = {h.bins, h.bins_min_nm, h.bins_max_nm};
   film.settings_.layers = arrays.layers;
+  film.settings_.working_gamma = working_gamma;
   film.key_ = key_of(h, photons, groups);
   film.exponent_ = h.exponent, film.length_exponent_ = h.length_exponent;
   film.refused_ = {h.nonfinite, h.too_large};
