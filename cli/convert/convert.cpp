@@ -109,7 +109,9 @@ int run(const Arguments& a) {
   require_input(a.input, {InputKind::scene});
   note_input(a.input);
   require_outputs(a);
-  ImportedScene imported = import_scene(a.input, MeshMemory{}, {}, import_options(a.imports));
+  ImportOptions options = import_options(a.imports);
+  options.for_export = true;
+  ImportedScene imported = import_scene(a.input, MeshMemory{}, {}, options);
   require_images(imported.scene);
   note_referenced_files(imported.scene);
   require_outputs(a);  // other than all that was read
