@@ -43,11 +43,15 @@ void materials(auto& io, auto& m) {
     if (!io.stream.at_end()) list(io, m.tables);
     if (!io.stream.at_end())
       for (Surface& s : m.surfaces) io(s.vertex_doubt);
+    if (!io.stream.at_end())
+      for (Material& material : m.materials) fields(io, material.casts_shadow);
   } else {
-    const bool doubts = has_vertex_doubts(m);
+    const bool shadowless = has_shadowless_materials(m), doubts = shadowless || has_vertex_doubts(m);
     if (doubts || !m.tables.empty()) list(io, m.tables);
     if (doubts)
       for (const Surface& s : m.surfaces) io(s.vertex_doubt);
+    if (shadowless)
+      for (const Material& material : m.materials) fields(io, material.casts_shadow);
   }
 }
 // The last lists are there where they, or what comes after them, have something.

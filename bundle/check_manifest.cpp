@@ -58,6 +58,7 @@ void check_film(const Checker& c, const FilmSettings& f) {
                 f.crop.y0 < f.crop.y1 && f.crop.y1 <= f.height,
             "the crop window is empty or not within the film");
   c.require(std::isfinite(f.imaging_ratio), "the imaging ratio is not finite");
+  c.require(f.working_gamma >= 0 && std::isfinite(f.working_gamma), "the film's gamma is negative");
   const SpectralBins& bins = f.spectrum;
   c.require(bins.count >= 0 && bins.count <= max_spectral_bins && bins.min_nm < bins.max_nm &&
                 std::isfinite(bins.max_nm - bins.min_nm),
@@ -196,6 +197,12 @@ void check_tables(const Checker& c, const Manifest& m) {
     if (const auto* slab = std::get_if<SlabMaterial>(&material.model))
       c.require(slab->thickness >= 0 && slab->g > -1 && slab->g < 1,
                 "a slab has a negative thickness, or its g is not between -1 and 1");
+  for (const Material& material : m.materials)
+    if (const auto* finish = std::get_if<FinishMaterial>(&material.model))
+      c.require(finish->brilliance >= 0 && finish->phong_size >= 0 && finish->roughness > 0 &&
+                    std::isfinite(finish->brilliance + finish->phong_size + finish->roughness +
+                                  finish->phong + finish->specular),
+                "a finish has a negative exponent, or one that is not finite");
 }
 
 void check_lights(const Checker& c, const Manifest& m) {

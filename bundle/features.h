@@ -23,7 +23,8 @@ inline constexpr std::uint32_t normals = 1, uvs = 2, attributes = 4, instances =
                                quadrics = 32, procedural = 64, motion = 128, tables = 256, slabs = 512,
                                hair = 1024, curves = 2048, faces = 4096, masking = 8192, decimals = 16384,
                                media_grids = 32768, fadings = 65536, glows = 1 << 17, patterns = 1 << 18,
-                               hidden_emitters = 1 << 19;
+                               hidden_emitters = 1 << 19, finishes = 1 << 20, veils = 1 << 21,
+                               working_gamma = 1 << 22, shadowless = 1 << 23;
 }
 namespace optional_feature {
 inline constexpr std::uint32_t pieces = 1;

@@ -163,12 +163,23 @@ Features features_of(const Manifest& m) {
   require(has_vertex_doubts(m), required_feature::decimals);
   require(std::ranges::any_of(m.media, has_newer_grids), required_feature::media_grids);
   require(m.settings.hides_emitters, required_feature::hidden_emitters);
+  require(std::ranges::any_of(
+              m.materials, [](const Material& a) { return std::holds_alternative<FinishMaterial>(a.model); }),
+          required_feature::finishes);
+  require(std::ranges::any_of(m.media, &Medium::veils), required_feature::veils);
+  require(has_shadowless_materials(m) || !std::ranges::all_of(m.lights, &Light::casts_shadows),
+          required_feature::shadowless);
+  require(m.film.working_gamma != 1, required_feature::working_gamma);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }
 
 bool has_vertex_doubts(const Manifest& m) {
   return std::ranges::any_of(m.surfaces, [](const Surface& s) { return s.vertex_doubt > 0; });
+}
+
+bool has_shadowless_materials(const Manifest& m) {
+  return !std::ranges::all_of(m.materials, &Material::casts_shadow);
 }
 
 std::span<const Surface> scene_surfaces(const Manifest& m) {

@@ -180,6 +180,7 @@ std::filesystem::path object_path(const std::filesystem::path& bundle, std::uint
 
 // Whether a surface has one.
 bool has_vertex_doubts(const Manifest& m);
+bool has_shadowless_materials(const Manifest& m);
 
 // The surfaces of triangles that no instance has, and those of an object's own triangles.
 std::span<const Surface> scene_surfaces(const Manifest& m);

@@ -47,8 +47,10 @@ std::uint64_t hash_from(const Json& j) {
 }
 
 // The kinds of a variant, in the order of its alternatives.
-constexpr std::array camera_kinds{"perspective", "orthographic", "spherical", "sensors", "realistic"};
+constexpr std::array camera_kinds{"perspective", "orthographic", "spherical", "sensors", "realistic", "wide"};
 constexpr std::array sphere_kinds{"equal area", "latitude longitude"};
+constexpr std::array wide_kinds{"latitude longitude", "fisheye",          "ultra wide",
+                                "panoramic",          "upright cylinder", "lying cylinder"};
 constexpr std::array quadric_kinds{"sphere", "cylinder", "disk", "cone", "paraboloid", "curve"};
 constexpr std::array quadric_uvs{"pbrt", "mitsuba"};
 constexpr std::array filter_kinds{"box", "triangle", "gaussian", "mitchell", "sinc"};
@@ -141,6 +143,13 @@ Camera camera_from_json(const Json& j) {
     return camera;
   }
   if (kind == 4) return realistic_from_json(j, t);
+  if (kind == 5)
+    return WideCamera{t,
+                      static_cast<WideCamera::Projection>(kind_index(j.at("projection"), wide_kinds)),
+                      number<double>(j, "across"),
+                      number<double>(j, "above"),
+                      number<double>(j, "edge_deg"),
+                      j.at("parallel").get<bool>()};
   const auto s = [&](std::size_t i) { return number<double>(j.at("screen"), i); };
   const ScreenWindow screen{s(0), s(1), s(2), s(3)};
   Lens lens;
@@ -170,13 +179,15 @@ FilmLayers layers_from_json(const Json& film) {
 
 FilmSettings film_from_json(const Json& j) {
   const auto crop = [&](std::size_t i) { return number<int>(j.at("crop_px"), i); };
-  return {number<int>(j, "width_px"),
-          number<int>(j, "height_px"),
-          {crop(0), crop(1), crop(2), crop(3)},
-          filter_from_json(j.at("filter")),
-          number<double>(j, "imaging_ratio"),
-          bins_from_json(j),
-          layers_from_json(j)};
+  FilmSettings film{number<int>(j, "width_px"),
+                    number<int>(j, "height_px"),
+                    {crop(0), crop(1), crop(2), crop(3)},
+                    filter_from_json(j.at("filter")),
+                    number<double>(j, "imaging_ratio"),
+                    bins_from_json(j),
+                    layers_from_json(j)};
+  film.working_gamma = j.value("working_gamma", 1.0);
+  return film;
 }
 
 // The names of the requirements, for both directions.
@@ -301,7 +312,11 @@ Json camera_to_json(const Camera& camera) {
   std::visit(
       [&](const auto& c) {
         j["camera_to_world"] = transform_to_json(c.camera_to_world);
-        if constexpr (requires { c.projection; }) {
+        if constexpr (requires { c.across; }) {
+          j["projection"] = {{"kind", wide_kinds.at(static_cast<std::size_t>(c.projection))}};
+          j["across"] = c.across, j["above"] = c.above, j["edge_deg"] = c.edge_deg;
+          j["parallel"] = c.parallel;
+        } else if constexpr (requires { c.projection; }) {
           j["projection"] = {{"kind", sphere_kinds.at(static_cast<std::size_t>(c.projection))}};
         } else if constexpr (requires { c.sensors; }) {
           j["sensors"] = Json::array();
@@ -339,6 +354,7 @@ Json film_to_json(const FilmSettings& f) {
   if (f.spectrum.count > 0)
     j["spectrum"] = {
         {"bins", f.spectrum.count}, {"min_nm", f.spectrum.min_nm}, {"max_nm", f.spectrum.max_nm}};
+  if (f.working_gamma != 1) j["working_gamma"] = f.working_gamma;
   if (!f.layers.any()) return j;
   Json names = Json::array();
   for (std::size_t i = 0; i < layer_count; ++i)

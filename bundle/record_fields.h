@@ -71,6 +71,8 @@ inline constexpr auto last_of<TextureFilter> = TextureFilter::anisotropic;
 template <>
 inline constexpr auto last_of<SphericalCamera::Projection> = SphericalCamera::Projection::latitude_longitude;
 template <>
+inline constexpr auto last_of<WideCamera::Projection> = WideCamera::Projection::lying_cylinder;
+template <>
 inline constexpr auto last_of<SpotLight::Falloff> = SpotLight::Falloff::linear;
 template <>
 inline constexpr auto last_of<EnvironmentLight::Projection> =
@@ -246,9 +248,17 @@ void fields(auto& io, Unknown auto&) {
   if constexpr (reads<decltype(io)>) io.stream.fail("a medium is of a kind that bundles do not have");
   throw std::logic_error("a bundle does not take this medium");
 }
+// A byte says whether there is an emission_scale; its next bit only media of the feature `veils` have.
 void fields(auto& io, Is<Medium> auto& m) {
   fields(io, m.coefficients), io(m.scale), fields(io, m.density), fields(io, m.emission);
-  fields(io, m.emission_scale), io(m.g), fields(io, m.medium_to_world);
+  auto byte = static_cast<std::uint8_t>(m.emission_scale.has_value() | m.veils << 1);
+  io(byte);
+  if constexpr (reads<decltype(io)>) {
+    m.veils = byte & 2;
+    if (byte & 1) m.emission_scale.emplace();
+  }
+  if (m.emission_scale) fields(io, *m.emission_scale);
+  io(m.g), fields(io, m.medium_to_world);
 }
 
 // ---- Lights
@@ -286,13 +296,18 @@ void fields(auto& io, Is<EnvironmentLight> auto& l) {
   fields(io, l.filename), fields(io, l.light_to_world), fields(io, l.projection), fields(io, l.scale);
   fields(io, l.illuminance), fields(io, l.portal);
 }
-// The kind, and in its highest bit whether something follows its fields.
+// The kind, in its highest bit whether something follows its fields, in the next one whether it casts no
+// shadows (the feature `shadowless`).
 void fields(auto& io, Is<Light> auto& l) {
-  constexpr std::uint8_t fading = 0x80;
+  constexpr std::uint8_t fading = 0x80, shadowless = 0x40;
   auto kind = static_cast<std::uint8_t>(l.model.index());
   if (std::visit([](const auto& model) { return fades(model); }, l.model)) kind |= fading;
+  if (!l.casts_shadows) kind |= shadowless;
   io(kind);
-  if constexpr (reads<decltype(io)>) set_kind(io, l.model, kind & (fading - 1));
+  if constexpr (reads<decltype(io)>) {
+    set_kind(io, l.model, kind & (shadowless - 1));
+    l.casts_shadows = !(kind & shadowless);
+  }
   std::visit(
       [&](auto& model) {
         fields(io, model);
@@ -330,6 +345,10 @@ void fields(auto& io, Framed auto& c) {
 }
 void fields(auto& io, Is<SphericalCamera> auto& c) {
   fields(io, c.camera_to_world), fields(io, c.projection);
+}
+void fields(auto& io, Is<WideCamera> auto& c) {
+  fields(io, c.camera_to_world), fields(io, c.projection), io(c.across), io(c.above), io(c.edge_deg);
+  fields(io, c.parallel);
 }
 
 void fields(auto& io, Is<Sensor> auto& s) { fields(io, s.position), fields(io, s.normal); }

@@ -9,6 +9,7 @@
 
 #include "film/cryptomatte.h"
 #include "film/group_mix.h"
+#include "film/working_gamma.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {
@@ -68,7 +69,7 @@ Picture develop_colors(const Film& film) {
   picture.full_width = film.full_width();
   picture.full_height = film.full_height();
   for (std::uint32_t p = 0; p < film.pixels(); ++p) {
-    const RGB c = xyz_to_srgb(film.mean(p));
+    const RGB c = light_of(xyz_to_srgb(film.mean(p)), film.settings().working_gamma);
     float* out = &picture.rgb.values[3 * std::size_t{p}];
     out[0] = static_cast<float>(c.r), out[1] = static_cast<float>(c.g), out[2] = static_cast<float>(c.b);
   }
@@ -86,7 +87,10 @@ Picture develop(const Film& film) {
   picture.shared_error = film.shared_error();
   std::uint64_t most_samples = 0, least_samples = ~std::uint64_t{0};
   for (std::uint32_t p = 0; p < film.pixels(); ++p) {
-    if (knows_variance) picture.variance.values[p] = static_cast<float>(film.variance_of_mean(p));
+    if (knows_variance) {
+      const double slope = light_per_sum(film.mean(p).y, film.settings().working_gamma);
+      picture.variance.values[p] = static_cast<float>(film.variance_of_mean(p) * slope * slope);
+    }
     const auto bins = static_cast<std::size_t>(film.bins().count);
     for (std::size_t b = 0; b < bins; ++b)
       picture.spectrum.values[bins * p + b] = static_cast<float>(film.mean_of_bin(p, b));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film file, little-endian: a header with the checksum of what comes before it, then six arrays, each
 // followed by its xxh3: FilmProgress's earlier_ends, about and done, the sums, the counts, the ids; of a film
-// that keeps mattes a seventh, these; and of a film within an adaptive round a last one, `more`.
+// that keeps mattes a seventh, these; and of a film within an adaptive round a last one, `more`. Before them
+// come, of a film that has it, what photons it gathered, its light groups, and its working gamma.
 // docs/why/color-and-film.md has the header byte by byte.
 #include <fmt/format.h>
 
@@ -166,6 +167,15 @@ PhotonKey read_photons(Reader& in, const Header& h) {
   return photons[0];
 }
 
+double read_working_gamma(Reader& in, const Header& h) {
+  if ((h.options & option_working_gamma) == 0) return 1;
+  std::vector<double> gamma;
+  in.read_array(gamma, 1, "working gamma");
+  if (!(gamma[0] >= 0) || !std::isfinite(gamma[0]))
+    in.fail("the film file is corrupt: its working gamma makes no sense");
+  return gamma[0];
+}
+
 // All but `more`, which comes last.
 FilmProgress read_progress(Reader& in, const Header& h, const Arrays& arrays) {
   FilmProgress read{
@@ -230,6 +240,7 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
       (key.direct_only ? option_direct_only : 0) | (key.straight_counts ? option_straight_counts : 0) |
       (film.settings_.layers.in_camera_space ? option_camera_space : 0) | (key.splats ? option_splats : 0) |
       (key.one_sequence ? option_one_sequence : 0) | (key.hides_emitters ? option_hides_emitters : 0) |
+      (film.settings_.working_gamma != 1 ? option_working_gamma : 0) |
       (std::bit_cast<std::uint32_t>(key.threshold) & threshold_bits) |
       (progress.adaptive ? option_adaptive : 0) | (progress.more.empty() ? 0 : option_open_round);
   h.exponent = film.exponent_, h.length_exponent = film.length_exponent_;
@@ -248,6 +259,7 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
     write_array(out, std::array{header_of(groups)});
     write_array(out, text_of(groups));
   }
+  if (film.settings_.working_gamma != 1) write_array(out, std::array{film.settings_.working_gamma});
   write_array(out, progress.earlier_ends);
   write_array(out, progress.about);
   write_array(out, progress.done);
@@ -266,6 +278,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   check_size(in, h, groups);
   const Arrays arrays = arrays_of(h, groups.names.size());
   const PhotonKey photons = read_photons(in, h);
+  const double working_gamma = read_working_gamma(in, h);
   FilmProgress read = read_progress(in, h, arrays);
   Film film;
   film.settings_.crop = {h.x0, h.x1, h.y0, h.y1};
@@ -273,6 +286,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   film.settings_.imaging_ratio = h.imaging_ratio;
   film.settings_.spectrum = {h.bins, h.bins_min_nm, h.bins_max_nm};
   film.settings_.layers = arrays.layers;
+  film.settings_.working_gamma = working_gamma;
   film.key_ = key_of(h, photons, groups);
   film.exponent_ = h.exponent, film.length_exponent_ = h.length_exponent;
   film.refused_ = {h.nonfinite, h.too_large};

@@ -30,6 +30,7 @@ std::vector<std::uint64_t> bytes_of_arrays(const Header& h, const GroupsHeader& 
   std::vector<std::uint64_t> bytes;
   if (groups.groups > 0) bytes = {sizeof groups, groups.text_bytes};
   if (h.version == photon_version) bytes.push_back(sizeof(PhotonKey));
+  if ((h.options & option_working_gamma) != 0) bytes.push_back(sizeof(double));
   for (const std::uint64_t array :
        {h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)}, std::uint64_t{h.about_bytes},
         a.done * sizeof(std::uint64_t), a.sums * sizeof(WideSum), a.counts * sizeof(std::uint32_t),

@@ -17,11 +17,12 @@ inline constexpr std::uint32_t film_version = 4, adaptive_version = 5, photon_ve
 // What a film was rendered with, in Header::options.
 inline constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, option_camera_space = 4,
                                option_adaptive = 8, option_open_round = 16, option_splats = 32,
-                               option_one_sequence = 64, option_hides_emitters = 128;
+                               option_one_sequence = 64, option_hides_emitters = 128,
+                               option_working_gamma = 256;
 inline constexpr std::uint32_t threshold_bits = 0xffff0000;  // the upper half of a float
 constexpr std::uint32_t options_of(std::uint32_t version) {
   const bool may_be_adaptive = version == adaptive_version || version == groups_version;
-  return threshold_bits | option_splats | option_one_sequence | option_hides_emitters |
+  return threshold_bits | option_splats | option_one_sequence | option_hides_emitters | option_working_gamma |
          (may_be_adaptive ? 31 : 7);
 }
 

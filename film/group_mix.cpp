@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 
+#include "film/working_gamma.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {
@@ -77,6 +78,7 @@ Image mixed_groups(const Film& film, std::span<const GroupWeight> weights) {
       const RGB c = xyz_to_srgb(film.mean_of_group(p, g));
       sum.r += factors[g].r * c.r, sum.g += factors[g].g * c.g, sum.b += factors[g].b * c.b;
     }
+    sum = light_of(sum, film.settings().working_gamma);
     float* out = &rgb.values[3 * std::size_t{p}];
     out[0] = static_cast<float>(sum.r), out[1] = static_cast<float>(sum.g),
     out[2] = static_cast<float>(sum.b);

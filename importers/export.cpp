@@ -77,6 +77,25 @@ void note_motion(const Scene& scene, const Format& format, Diagnostics& diagnost
       if (instance.motion) note(instance.origin, RecordKind::instance);
 }
 
+// What only POV-Ray's scenes have, and readers leave out of those that are read for export.
+void note_povray(const Scene& scene, Diagnostics& diagnostics) {
+  const auto note = [&](const char* what, const Origin& origin, RecordKind kind) {
+    const SourceLocation where = location(scene, origin);
+    diagnostics.push_back({Fidelity::dropped, what, where, where, kind});
+  };
+  if (scene.film.working_gamma != 1)
+    note("the film's working gamma: the format adds up light, and pictures are brighter", scene.camera_origin,
+         RecordKind::film);
+  for (const Material& material : scene.materials)
+    if (!material.casts_shadow)
+      note("a material without shadow: it has one", material.origin, RecordKind::material);
+  for (const Light& light : scene.lights)
+    if (!light.casts_shadows) note("a lamp without shadows: it has some", light.origin, RecordKind::light);
+  for (const Medium& medium : scene.media)
+    if (medium.veils)
+      note("a medium that weakens no lamp: it weakens all", medium.origin, RecordKind::medium);
+}
+
 }  // namespace
 
 Diagnostics export_scene(const Scene& scene, const std::filesystem::path& out) {
@@ -92,6 +111,7 @@ Diagnostics export_scene(const Scene& scene, const std::filesystem::path& out) {
   Diagnostics diagnostics = format.write(changed ? *changed : scene, out);
   if (nested) note_nested_instances(scene, diagnostics);
   note_motion(scene, format, diagnostics);
+  note_povray(scene, diagnostics);
   return diagnostics;
 }
 

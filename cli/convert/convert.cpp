@@ -40,7 +40,8 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& a) {
   app.add_option("files", a.files,
-                 "a scene (.pbrt, .xml, .glb, .gltf, .obj, .ply, .stl, .fbx, .dae, .3ds, .pov) and the file to write (.pbrt: "
+                 "a scene (.pbrt, .xml, .glb, .gltf, .obj, .ply, .stl, .fbx, .dae, .3ds, .pov) and the file "
+                 "to write (.pbrt: "
                  "v4, .xml: Mitsuba 3, .pov, .glb, .gltf, .obj, .ply); with --to: scenes, and folders that "
                  "are searched for them")
       ->required();
@@ -109,7 +110,9 @@ int run(const Arguments& a) {
   require_input(a.input, {InputKind::scene});
   note_input(a.input);
   require_outputs(a);
-  ImportedScene imported = import_scene(a.input, MeshMemory{}, {}, import_options(a.imports));
+  ImportOptions options = import_options(a.imports);
+  options.for_export = true;
+  ImportedScene imported = import_scene(a.input, MeshMemory{}, {}, options);
   if (has_materials_by_side(a.output)) join_faces_back_to_back(imported);
   note_referenced_files(imported.scene);
   require_outputs(a);  // other than all that was read

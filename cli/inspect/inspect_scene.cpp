@@ -334,6 +334,7 @@ Report inspect_film(const std::filesystem::path& file) {
           {"hide_emitters", film.key().hides_emitters},
           {"layers_in_camera_space", film.layers().in_camera_space},
           {"imaging_ratio", film.imaging_ratio()},
+          {"working_gamma", film.settings().working_gamma},
           {"quantum_exponent", film.exponent()},
           {"film_hash", fmt::format("{:016x}", film.hash())}};
 }

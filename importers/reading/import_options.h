@@ -29,6 +29,9 @@ struct ImportOptions {
   std::vector<std::string> include_folders;  // searched for files of a POV-Ray scene, after its own folder
   ProgramLimits program;
   bool all_media = false;  // also those that the scene's integrator passes by (pbrt's "path")
+  // For writers: what formats do not have (the film's working gamma, highlights that are not normalised) is
+  // said by what they have, the nearest to it.
+  bool for_export = false;
 };
 
 }  // namespace vitrail

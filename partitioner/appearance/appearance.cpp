@@ -241,8 +241,10 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
     if (used.opacities[i]) result.opacities[i] = textures.bake(FloatParameter{Id<Texture>{i}});
   const bool glass = is_refracting(result.materials);
   for (const Light& light : scene.lights) {
-    result.lights.push_back(
-        {std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}, light.name});
+    Light baked = light;
+    baked.model = std::visit(LightBaker{textures, location(scene, light.origin)}, light.model);
+    baked.origin = {};
+    result.lights.push_back(std::move(baked));
     if (const auto* sky = std::get_if<SkyLight>(&light.model); sky && glass && SkyModel(*sky).has_sun())
       report.approximated(
           "where smooth glass or what scatters below a smooth surface is, the light that mirrors and curved "

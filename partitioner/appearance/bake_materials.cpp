@@ -128,6 +128,10 @@ class MaterialBaker {
     factor(m.sigma_a), factor(m.sigma_s);
     return m;
   }
+  MaterialModel operator()(FinishMaterial m) {
+    factor(m.reflectance), factor(m.highlight);
+    return m;
+  }
   MaterialModel operator()(const InterfaceMaterial& m) { return m; }
   MaterialModel operator()(BlendMaterial m) {
     part(m.first), part(m.second), number(m.amount);
@@ -188,6 +192,7 @@ BakedMaterial bake_material(const Material& material, const std::vector<std::int
   result.material.name = material.name;
   result.material.two_sided = material.two_sided;
   result.material.bump_shadowing = material.bump_shadowing;
+  result.material.casts_shadow = material.casts_shadow;
   result.material.model = std::visit(MaterialBaker(ids, textures, tables, result), material.model);
   if (material.displacement) {
     result.material.displacement = textures.bake(*material.displacement);

@@ -86,7 +86,8 @@ void add_needs(Requirements& r, const Material& material, const Manifest& m) {
   r.refraction |= is_smooth_glass(material);
   r.dispersion |= glass && traits.disperses;
   const bool is_full_mask = mask && mask->opacity == FloatParameter{1.0f};
-  r.see_through |= (traits.straight && !is_full_mask) || traits.fibre || (glass && glass->priority != 0);
+  r.see_through |= (traits.straight && !is_full_mask) || traits.fibre || (glass && glass->priority != 0) ||
+                   !material.casts_shadow;
 }
 
 }  // namespace

@@ -89,7 +89,27 @@ struct RealisticCamera {
   bool operator==(const RealisticCamera&) const = default;
 };
 
-using Camera =
-    std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera, SensorCamera, RealisticCamera>;
+// More around the camera than a plane shows, as POV-Ray's cameras do. The raster is x from −1 at its left to
+// 1 and y from −1 at its bottom to 1; X = x·across and Y = y·above are degrees but where it says so.
+// Directions:
+struct WideCamera {
+  enum class Projection : std::uint8_t {
+    latitude_longitude,  // longitude X, latitude Y
+    fisheye,           // √(X² + Y²) away from the view, towards (X, Y); nothing is seen beyond `edge_deg`
+    ultra_wide,        // (sin X, sin Y, cos X·cos Y)
+    panoramic,         // (across·sin 90°x, above·tan 90°y, cos 90°x): both are lengths
+    upright_cylinder,  // longitude X; as high as Y, a length, at a distance of 1
+    lying_cylinder,    // the same with the axes exchanged
+  };
+  Transform camera_to_world;
+  Projection projection = Projection::latitude_longitude;
+  double across = 180, above = 90;
+  double edge_deg = 180;
+  bool parallel = false;  // of a cylinder: the camera moves along its axis by the length, and looks across it
+  bool operator==(const WideCamera&) const = default;
+};
+
+using Camera = std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera, SensorCamera,
+                            RealisticCamera, WideCamera>;
 
 }  // namespace vitrail

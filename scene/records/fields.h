@@ -116,6 +116,9 @@ auto visit_fields(Is<MaskMaterial> auto& m, auto&& f) { return f(m.opacity, m.ma
 auto visit_fields(Is<TwoSidedMaterial> auto& m, auto&& f) { return f(m.front, m.back); }
 auto visit_fields(Is<TabulatedMaterial> auto& m, auto&& f) { return f(m.format, m.filename, m.table); }
 auto visit_fields(Is<SlabMaterial> auto& m, auto&& f) { return f(m.sigma_a, m.sigma_s, m.thickness, m.g); }
+auto visit_fields(Is<FinishMaterial> auto& m, auto&& f) {
+  return f(m.reflectance, m.highlight, m.brilliance, m.phong, m.phong_size, m.specular, m.roughness);
+}
 auto visit_fields(Is<Material> auto& m, auto&& f) {
   return f(m.model, m.two_sided, m.displacement, m.normal_map, m.bump_shadowing);
 }

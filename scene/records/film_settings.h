@@ -43,6 +43,9 @@ struct PixelRect {
   bool operator==(const PixelRect&) const = default;
 };
 
+// In place of an exponent: sRGB's curve.
+inline constexpr double srgb_gamma = 0;
+
 // Size, filter, spectrum and layers of a film.
 struct FilmSettings {
   int width = 1280, height = 720;
@@ -51,6 +54,9 @@ struct FilmSettings {
   double imaging_ratio = 1;  // every pixel is multiplied by it (pbrt: exposure time · ISO / 100)
   SpectralBins spectrum;     // kept beside the colours; none: colours alone
   FilmLayers layers;         // of the first surfaces, kept too
+  // Light is sum^gamma, of red, green and blue each, as in POV-Ray's scenes of another assumed_gamma than 1:
+  // they add up colours of a screen. srgb_gamma: by sRGB's curve.
+  double working_gamma = 1;
   bool operator==(const FilmSettings&) const = default;
 };
 

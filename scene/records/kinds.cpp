@@ -26,10 +26,10 @@ const char* kind_of(const TextureModel& model) {
 }
 
 const char* kind_of(const MaterialModel& model) {
-  return name_of(
-      model, std::array{"diffuse", "dielectric", "thin dielectric", "conductor", "plastic", "coated diffuse",
-                        "coated conductor", "diffuse transmission", "principled", "subsurface", "hair",
-                        "measured", "interface", "blend", "mask", "two-sided", "tabulated", "slab"});
+  return name_of(model, std::array{"diffuse", "dielectric", "thin dielectric", "conductor", "plastic",
+                                   "coated diffuse", "coated conductor", "diffuse transmission", "principled",
+                                   "subsurface", "hair", "measured", "interface", "blend", "mask",
+                                   "two-sided", "tabulated", "slab", "finish"});
 }
 
 const char* kind_of(const LightModel& model) {
@@ -38,7 +38,8 @@ const char* kind_of(const LightModel& model) {
 }
 
 const char* kind_of(const Camera& camera) {
-  return name_of(camera, std::array{"perspective", "orthographic", "spherical", "sensors", "realistic"});
+  return name_of(camera,
+                 std::array{"perspective", "orthographic", "spherical", "sensors", "realistic", "wide"});
 }
 
 const char* kind_of(QuadricKind kind) {

@@ -146,6 +146,9 @@ struct Light {
   LightModel model;
   Origin origin;
   std::string name = {};  // "" where the file gives none
+  // Of point and spot lights; false: nothing stands in the way of what they send straight to a surface, which
+  // shows no highlight of theirs (FinishMaterial), as of POV-Ray's `shadowless` lamps.
+  bool casts_shadows = true;
   bool operator==(const Light&) const = default;
 };
 

@@ -202,6 +202,17 @@ struct SlabMaterial {
   bool operator==(const SlabMaterial&) const = default;
 };
 
+// POV-Ray's finish: highlights of no normalised energy add to a diffuse part. With the mirrored direction r
+// and the half vector h,
+//
+//   f·cos θ_in = (reflectance·cos θ_in^brilliance
+//                 + highlight·(phong·(r·in)^phong_size + specular·(n·h)^(1/roughness)))/π.
+struct FinishMaterial {
+  SpectrumParameter reflectance = ConstantSpectrum{0.5f}, highlight = ConstantSpectrum{1};
+  float brilliance = 1, phong = 0, phong_size = 40, specular = 0, roughness = 0.05f;
+  bool operator==(const FinishMaterial&) const = default;
+};
+
 // No interface at all: rays go through unchanged.
 struct InterfaceMaterial {
   bool operator==(const InterfaceMaterial&) const = default;
@@ -231,7 +242,8 @@ using MaterialVariant =
     std::variant<DiffuseMaterial, DielectricMaterial, ThinDielectricMaterial, ConductorMaterial,
                  PlasticMaterial, CoatedDiffuseMaterial, CoatedConductorMaterial, DiffuseTransmissionMaterial,
                  PrincipledMaterial, SubsurfaceMaterial, HairMaterial, MeasuredMaterial, InterfaceMaterial,
-                 BlendMaterial, MaskMaterial, TwoSidedMaterial, TabulatedMaterial, SlabMaterial>;
+                 BlendMaterial, MaskMaterial, TwoSidedMaterial, TabulatedMaterial, SlabMaterial,
+                 FinishMaterial>;
 // Copied, moved, destroyed and compared in scene/records/special_members.cpp alone: in every file that
 // handles a scene, that took up to two thirds of its compiling.
 struct MaterialModel : MaterialVariant {
@@ -251,6 +263,7 @@ struct Material {
   // Whether an opaque surface scatters on its back as on its front (pbrt), or is black there (Mitsuba's bare
   // ones). Means nothing for models that transmit.
   bool two_sided = true;
+  bool casts_shadow = true;  // false: connections to lights pass what is of it (but not as a part of others)
   std::optional<FloatParameter> displacement;  // bump map: a height in scene units that only tilts normals
   std::optional<Id<Texture>> normal_map;       // tangent-space normals, (rgb·2 − 1)
   bool bump_shadowing = false;                 // the two darken what they turn from the surface's normal

@@ -80,6 +80,7 @@ struct Traits {
   MaterialTraits operator()(const SlabMaterial&) const {
     return {.transmits = true, .straight = true, .counts = true, .lobes = spread};
   }
+  MaterialTraits operator()(const FinishMaterial&) const { return {.gathers = true, .lobes = spread}; }
 };
 
 // What a part has, a material made of it has too; but for what it counts, which is said where it is met.

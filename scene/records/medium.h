@@ -69,6 +69,8 @@ struct Medium {
   float emission_factor = 1;
   float temperature_scale = 1, temperature_offset = 0;
   float g = 0;  // Henyey and Greenstein; 0 is isotropic
+  // POV-Ray's atmosphere: it weakens what is seen, and not what lamps with a Fading send straight to a point.
+  bool veils = false;
   Transform medium_to_world;
   Origin origin;
   bool operator==(const Medium&) const = default;

@@ -256,6 +256,10 @@ TEST(FilmMerge, RefusesStrangersAndSaysWhy) {
   FilmSettings brighter = settings(4, 3);
   brighter.imaging_ratio = 2;
   differs(Film(brighter, {1, 2}), "their imaging ratios differ: 1 and 2");
+  FilmSettings encoded = settings(4, 3);
+  encoded.working_gamma = 2.2;
+  differs(Film(encoded, {1, 2}),
+          "colours of one are added up in another space of a screen than those of the other");
 }
 
 // Over many pixels the estimate averages to σ²/n, whatever n is to the number of groups.

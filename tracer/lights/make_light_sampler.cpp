@@ -100,6 +100,7 @@ struct Sorter {
     bound_fading(e, farthest_from(e.position));
     s.fades = s.fades || e.fading;
     e.light = light;
+    e.casts_shadows = s.scene.lights[light].casts_shadows;
     s.emitters.push_back(std::move(e));
   }
   // Of the corners of the scene's bounds; 1 where it has none.

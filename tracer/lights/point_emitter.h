@@ -42,7 +42,8 @@ struct PointEmitter {
   Point3d position;
   Transform world_to_light;  // its 3×3 block
   bool is_rigid = true;      // that turns, mirrors and scales alike
-  Spectrum intensity;        // multiplies all that follows
+  bool casts_shadows = true;
+  Spectrum intensity;  // multiplies all that follows
   std::optional<Fading> fading{};
   float factor = 1;  // beside it
   std::variant<Everywhere, Spot, Projection, Goniometric> shape;

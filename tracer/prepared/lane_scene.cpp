@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/prepared/lane_scene.h"
 
+#include <algorithm>
 #include <variant>
 
 #include "scene/records/material_traits.h"
@@ -124,7 +125,9 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf) {
 LaneScene::LaneScene(const Manifest& manifest, const Textures& images, const Interiors& interiors,
                      const Materials& materials, const LightSampler& lights) {
   const Requirements& r = manifest.requirements;
-  is_enabled = !manifest.settings.direct_only;
+  // Lanes send every connection through the scene.
+  is_enabled =
+      !manifest.settings.direct_only && std::ranges::all_of(lights.emitters, &PointEmitter::casts_shadows);
   has_connections = r.see_through || r.media || (materials.have_panes() && !lights.distant.empty());
   divides_space = interiors.divide_space();
   for (const Surface& surface : manifest.surfaces) {

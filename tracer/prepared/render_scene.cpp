@@ -22,6 +22,11 @@ double pixel_angle(const Manifest& m) {
 
 RenderScene::Pixel pixel_of(const Manifest& m) {
   if (std::holds_alternative<SphericalCamera>(m.camera)) return {0, pi / m.film.height};
+  if (const auto* wide = std::get_if<WideCamera>(&m.camera)) {
+    const bool along = wide->projection == WideCamera::Projection::panoramic ||
+                       wide->projection == WideCamera::Projection::upright_cylinder;
+    return {0, (along ? wide->above : wide->above * (pi / 180)) * 2 / m.film.height};
+  }
   const auto* parallel = std::get_if<OrthographicCamera>(&m.camera);
   if (!parallel) return {0, pixel_angle(m)};
   const double per_unit = length(transform_vector(parallel->camera_to_world, {0, 1, 0}));

@@ -151,6 +151,12 @@ SlabBsdf BsdfMaker::slab(const SlabMaterial& m) const {
   return b;
 }
 
+Bsdf BsdfMaker::operator()(const FinishMaterial& m) const {
+  const auto number = [](float x) { return static_cast<double>(x); };
+  return FinishBsdf{spectrum(m.reflectance), spectrum(m.highlight), number(m.brilliance), number(m.phong),
+                    number(m.phong_size),    number(m.specular),    number(m.roughness)};
+}
+
 // Tints are of the colour: they do not depend on the wavelengths that a path has.
 double BsdfMaker::luminance_of(const PrincipledMaterial& m) const {
   if (!has_tint(m) || std::holds_alternative<Spectrum>(m.base_color)) return luminance;

@@ -50,6 +50,7 @@ struct BsdfMaker {
   }
   Bsdf operator()(const TabulatedMaterial& m) const;
   Bsdf operator()(const SlabMaterial& m) const { return slab(m); }
+  Bsdf operator()(const FinishMaterial& m) const;
   // Never asked: parts are chosen, nothing is gone through, and bundles have no subsurface materials.
   Bsdf operator()(const BlendMaterial&) const { return LambertBsdf{}; }
   Bsdf operator()(const MaskMaterial&) const { return LambertBsdf{}; }

@@ -8,6 +8,7 @@
 #include "tracer/bsdf/conductor.h"
 #include "tracer/bsdf/dielectric.h"
 #include "tracer/bsdf/diffuse.h"
+#include "tracer/bsdf/finish.h"
 #include "tracer/bsdf/fourier.h"
 #include "tracer/bsdf/hair.h"
 #include "tracer/bsdf/layered.h"
@@ -22,7 +23,7 @@ namespace vitrail {
 using Bsdf = std::variant<LambertBsdf, OrenNayarBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf,
                           ThinDielectricBsdf, PlasticBsdf, RoughPlasticBsdf, PrincipledBsdf,
                           PrincipledThinBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf, MeasuredSheetBsdf,
-                          FourierBsdf, AdaptiveBsdf, SlabBsdf, HairBsdf>;
+                          FourierBsdf, AdaptiveBsdf, SlabBsdf, HairBsdf, FinishBsdf>;
 
 inline BsdfValue eval(const Bsdf& bsdf, Vector3d out, Vector3d in) {
   return std::visit([&](const auto& b) { return eval(b, out, in); }, bsdf);
@@ -49,10 +50,15 @@ inline bool has_one_lobe(const Bsdf& bsdf) {
   return std::holds_alternative<LambertBsdf>(bsdf) || std::holds_alternative<OrenNayarBsdf>(bsdf);
 }
 
+// Whether patterns that turn its normal away from the ray do so, as POV-Ray's.
+inline bool takes_any_normal(const Bsdf& bsdf) {
+  return has_one_lobe(bsdf) || std::holds_alternative<FinishBsdf>(bsdf);
+}
+
 // Whether light from everywhere counts about alike.
 inline bool is_diffuse(const Bsdf& bsdf) {
   return std::holds_alternative<LambertBsdf>(bsdf) || std::holds_alternative<OrenNayarBsdf>(bsdf) ||
-         std::holds_alternative<DiffuseTransmissionBsdf>(bsdf);
+         std::holds_alternative<DiffuseTransmissionBsdf>(bsdf) || std::holds_alternative<FinishBsdf>(bsdf);
 }
 
 // Orthonormal. On the back of a surface that scatters there as in front, the normal is turned over and the

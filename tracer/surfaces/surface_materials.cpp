@@ -287,7 +287,7 @@ Scattering Materials::scattering_at(const Material& material, const Interaction&
   Bsdf bsdf = std::visit(maker, material.model);
   // A pattern may turn the normal away from the ray, as POV-Ray's: what is as bright from all directions
   // shows it as it is.
-  const bool as_it_is = has_one_lobe(bsdf) && bumps_of(material, manifest_);
+  const bool as_it_is = takes_any_normal(bsdf) && bumps_of(material, manifest_);
   const Vector3d normal =
       as_it_is ? tilted(material, at, manifest_, textures_) : shading_normal(material, at);
   return Scattering{std::move(bsdf), frame_around(normal, along, both_sides ? 1.0 : at.side()), both_sides,

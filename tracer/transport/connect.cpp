@@ -25,6 +25,16 @@ double sum_of(const SampledSpectrum& s) {
   return sum;
 }
 
+const PointEmitter* emitter_of(const Tracing& tracing, const LightSample& light) {
+  return light.light.kind == LightKind::emitter ? &tracing.scene.lights.emitters[light.light.index] : nullptr;
+}
+
+// Whether nothing stands in its way.
+bool is_shadowless(const Tracing& tracing, const LightSample& light) {
+  const PointEmitter* const emitter = emitter_of(tracing, light);
+  return emitter && !emitter->casts_shadows;
+}
+
 // One that `path` leaves for a light, with what it is to bring.
 void send_connection(Tracing& tracing, const CameraPath& path, const Departure& from,
                      const LightSample& light, const SampledSpectrum& radiance, bool walks) {
@@ -38,8 +48,8 @@ void send_connection(Tracing& tracing, const CameraPath& path, const Departure& 
   c.wavelengths = path.wavelengths;
   c.film = path.film;
   c.walks = walks;
-  c.passes_veils = light.light.kind == LightKind::emitter &&
-                   tracing.scene.lights.emitters[light.light.index].fading.has_value();
+  const PointEmitter* const emitter = emitter_of(tracing, light);
+  c.passes_veils = emitter && emitter->fading;
   c.light_group = tracing.scene.groups.of(tracing.scene.lights, light.light);
   const Aimed aimed = aim(from, light);
   depart(c, from, light.to_light);
@@ -77,8 +87,8 @@ std::array<float, 4> numbers_for_light(const Tracing& tracing, const CameraPath&
                    tracing.scene.lights.three_numbers ? Wanted::three : Wanted::four);
 }
 
-// `scatter(direction)` gives the value and the density of scattering to there, `depart(direction)` where the
-// ray starts.
+// `scatter(light)` gives the value and the density of scattering to there, `depart(direction)` where the ray
+// starts.
 template <class Scatter, class Depart>
 void connect(Tracing& tracing, const CameraPath& path, Point3d p, std::uint32_t count, const Scatter& scatter,
              const Depart& depart, ShadowRays& shadows) {
@@ -92,7 +102,7 @@ void connect(Tracing& tracing, const CameraPath& path, Point3d p, std::uint32_t 
   for (std::uint32_t k = 0; k < count; ++k) {
     const auto candidate = lights.sample(k > 0 ? numbers_of_candidate(numbers, k) : numbers);
     if (!candidate) continue;
-    const BsdfValue scattered = scatter(candidate->to_light);
+    const BsdfValue scattered = scatter(*candidate);
     const double beside = candidate->is_delta ? 0 : static_cast<double>(density_beside(scattered.pdf, count));
     const double weight = 1 / (candidate->pdf + beside);
     const SampledSpectrum brought =
@@ -123,6 +133,9 @@ void connect(Tracing& tracing, const CameraPath& path, Point3d p, std::uint32_t 
 
 void send(Tracing& tracing, const CameraPath& path, const Departure& from, const LightSample& light,
           const SampledSpectrum& radiance, ShadowRays& shadows) {
+  if (is_shadowless(tracing, light))
+    return deposit(tracing, path.film, radiance,
+                   {tracing.scene.groups.of(tracing.scene.lights, light.light), cast<float>(light.to_light)});
   const bool distant = std::isinf(light.distance);
   const Requirements& r = tracing.requirements();
   const bool straight = tracing.settings().direct_only;
@@ -150,13 +163,16 @@ void connect_surface(Tracing& tracing, const CameraPath& path, const Event& even
                      const Scattering& scattering, Vector3d out, std::uint32_t candidates,
                      ShadowRays& shadows) {
   const Interaction& at = event.at;
-  const auto scatter = [&](Vector3d direction) -> BsdfValue {
+  const auto* const finish = std::get_if<FinishBsdf>(&scattering.bsdf);
+  const auto scatter = [&](const LightSample& light) -> BsdfValue {
+    const Vector3d direction = light.to_light;
     const Vector3d in = scattering.frame.to_local(direction);
     // As for the samples of the BSDF: shading normals let no light leak.
     if (!scattering.transmits &&
         (dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * in.z > 0))
       return {};
-    BsdfValue scattered = eval(scattering.bsdf, out, in);
+    BsdfValue scattered = finish && is_shadowless(tracing, light) ? eval(without_highlights(*finish), out, in)
+                                                                  : eval(scattering.bsdf, out, in);
     scattered.value =
         scattered.value * static_cast<float>(scattering.bump_shadowing(dot(direction, at.shading)));
     return scattered;
@@ -169,8 +185,8 @@ void connect_surface(Tracing& tracing, const CameraPath& path, const Event& even
 
 void connect_medium(Tracing& tracing, const CameraPath& path, const Departure& from, double g, Vector3d out,
                     std::uint32_t candidates, ShadowRays& shadows) {
-  const auto scatter = [&](Vector3d in) -> BsdfValue {
-    const double value = phase(g, out, in);
+  const auto scatter = [&](const LightSample& light) -> BsdfValue {
+    const double value = phase(g, out, light.to_light);
     return {filled(static_cast<float>(value)), value};
   };
   connect(
@@ -179,8 +195,8 @@ void connect_medium(Tracing& tracing, const CameraPath& path, const Departure& f
 
 void connect_sensor(Tracing& tracing, const CameraPath& path, const Departure& from, Vector3d normal,
                     std::uint32_t candidates, ShadowRays& shadows) {
-  const auto scatter = [&](Vector3d in) -> BsdfValue {
-    const double value = std::max(0.0, dot(normal, in)) / pi;
+  const auto scatter = [&](const LightSample& light) -> BsdfValue {
+    const double value = std::max(0.0, dot(normal, light.to_light)) / pi;
     return {filled(static_cast<float>(value)), value};
   };
   connect(

@@ -11,17 +11,6 @@ namespace vitrail {
 
 namespace {
 
-// Whether it is fog as POV-Ray's: it absorbs and shines, everywhere alike, and scatters nothing. It does not
-// weaken what a lamp that fades as POV-Ray's sends straight to a point: there it is a veil before the eye.
-bool is_veil(const Medium& medium) {
-  const auto* k = std::get_if<AbsorptionScattering>(&medium.coefficients);
-  const auto* scattering = k ? std::get_if<Spectrum>(&k->sigma_s) : nullptr;
-  const auto* constant = scattering ? std::get_if<ConstantSpectrum>(scattering) : nullptr;
-  return medium.emission && !medium.emission_scale && !medium.temperature && constant &&
-         constant->value == 0 && std::holds_alternative<Spectrum>(k->sigma_a) &&
-         std::holds_alternative<std::monostate>(medium.density);
-}
-
 // Of connections, which have no other use for the flag.
 constexpr std::uint8_t ray_passes_veils = ray_passed;
 
@@ -61,7 +50,8 @@ bool goes_through_hole(const Tracing& tracing, Connection& c, const Interaction&
   return true;
 }
 
-// Of a surface: `gone` in an interior of higher priority, `open` as nothing scatters at it.
+// Of a surface: `gone` in an interior of higher priority, `open` as nothing scatters at it or it has no
+// shadow.
 enum class Presence : std::uint8_t { gone, open, whole };
 
 // What a surface lets straight through goes on.
@@ -84,8 +74,9 @@ bool connect_at_surface(Tracing& tracing, Connection& c) {
   Interaction at = interaction_at(tracing, c, narrow_cone(tracing, c.film.sample));
   const Surface& surface = surface_at(tracing, c);
   const MaterialKind& kind = tracing.scene.materials.kind(surface.material);
+  const bool open = kind.is_nothing(at) || !tracing.manifest().materials[surface.material].casts_shadow;
   const Presence presence = !is_there(tracing, c, surface, at) ? Presence::gone
-                            : kind.is_nothing(at)              ? Presence::open
+                            : open                             ? Presence::open
                                                                : Presence::whole;
   const bool bends = c.walks && kind.smooth_dielectric && presence == Presence::whole;
   if (!bends && !(c.walks && kind.sheet)) return connect_past(tracing, c, at, surface, presence);
@@ -99,7 +90,7 @@ bool connect_at_surface(Tracing& tracing, Connection& c) {
 bool connect_onwards(Tracing& tracing, Connection& c) {
   find_wavelengths(tracing, c, c.film);
   const PreparedMedium* const medium = medium_of(tracing, c);
-  if (medium && !(c.passes_veils && is_veil(*medium->medium))) {
+  if (medium && !(c.passes_veils && medium->medium->veils)) {
     RandomStream random(stream_of(c, RayRandom::flight));
     fade(c, transmittance(*medium, flight_of(tracing, c, true), c.wavelengths, random));
     if (is_black(c.throughput)) return false;

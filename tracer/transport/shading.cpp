@@ -95,7 +95,7 @@ bool end_at_surface(Tracing& tracing, CameraPath& path, const Event& event) {
 // from the ray, and what is there is as bright from all directions, that is above the surface all the same.
 Vector3d local_out(const Scattering& scattering, const Interaction& at, const Material& material) {
   Vector3d out = scattering.frame.to_local(at.out);
-  if (material.displacement && has_one_lobe(scattering.bsdf)) out.z = std::abs(out.z);
+  if (material.displacement && takes_any_normal(scattering.bsdf)) out.z = std::abs(out.z);
   return out;
 }
 

@@ -77,6 +77,49 @@ LocalRay local_ray(const SphericalCamera& camera, const FilmSettings& film, Poin
   return {{0, 0, 0}, {up_is_z.x, up_is_z.z, up_is_z.y}};
 }
 
+// Towards the longitude and latitude.
+Vector3d direction_at(double longitude, double latitude) {
+  const double c = portable_cos(latitude);
+  return {c * portable_sin(longitude), portable_sin(latitude), c * portable_cos(longitude)};
+}
+
+// A cylinder around y: `turn` about it, `height` along it.
+LocalRay from_cylinder(double turn, double height, bool parallel) {
+  const Vector3d across{portable_sin(turn), 0, portable_cos(turn)};
+  if (parallel) return {{0, height, 0}, across};
+  return {{0, 0, 0}, across + Vector3d{0, height, 0}};
+}
+
+LocalRay local_ray(const WideCamera& camera, const FilmSettings& film, Point2d raster, Point2d) {
+  using enum WideCamera::Projection;
+  const Point2d p{2 * raster.x / film.width - 1, 1 - 2 * raster.y / film.height};
+  const double across = p.x * camera.across, above = p.y * camera.above;
+  const double x = across * (pi / 180), y = above * (pi / 180);
+  switch (camera.projection) {
+    case fisheye: {
+      const double away = std::sqrt(x * x + y * y);
+      if (!(away > 0)) return {{0, 0, 0}, {0, 0, 1}};
+      const double sine = portable_sin(away) / away;
+      return {{0, 0, 0}, {x * sine, y * sine, portable_cos(away)}, away <= camera.edge_deg * (pi / 180)};
+    }
+    case ultra_wide:
+      return {{0, 0, 0}, {portable_sin(x), portable_sin(y), portable_cos(x) * portable_cos(y)}};
+    case panoramic:
+      return {{0, 0, 0},
+              {camera.across * portable_sin(pi / 2 * p.x), camera.above * portable_tan(pi / 2 * p.y),
+               portable_cos(pi / 2 * p.x)}};
+    case upright_cylinder:
+      return from_cylinder(x, above, camera.parallel);
+    case lying_cylinder: {
+      const LocalRay ray = from_cylinder(y, across, camera.parallel);
+      return {{ray.origin.y, 0, 0}, {ray.direction.y, ray.direction.x, ray.direction.z}};
+    }
+    case latitude_longitude:
+      break;
+  }
+  return {{0, 0, 0}, direction_at(x, y)};
+}
+
 const Sensor& sensor_of(const SensorCamera& camera, double x) {
   const auto last = static_cast<double>(camera.sensors.size() - 1);
   return camera.sensors[static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, last))];

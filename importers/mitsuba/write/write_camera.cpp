@@ -204,6 +204,12 @@ Element write(Context& context, Element root, const SphericalCamera& camera) {
   return write(context, root, PerspectiveCamera{camera.camera_to_world, {-1, 1, -y, y}, {}});
 }
 
+Element write(Context& context, Element root, const WideCamera& camera) {
+  context.dropped("a camera that sees more than a plane shows: a perspective one of 90 degrees");
+  const double y = static_cast<double>(context.scene.film.height) / context.scene.film.width;
+  return write(context, root, PerspectiveCamera{camera.camera_to_world, {-1, 1, -y, y}, {}});
+}
+
 Element write(Context& context, Element root, const SensorCamera& camera) {
   context.dropped("sensors of irradiance: a camera that looks along the first one's normal");
   return write(context, root, view_of(camera, context.scene.film));

@@ -306,6 +306,11 @@ void write(Context& context, Element parent, ElementId id, const SlabMaterial&) 
   write(context, parent, id, DiffuseTransmissionMaterial{});
 }
 
+void write(Context& context, Element parent, ElementId id, const FinishMaterial& m) {
+  context.approximated("highlights of POV-Ray that are not normalised: it becomes diffuse");
+  write(context, parent, id, DiffuseMaterial{m.reflectance});
+}
+
 void write(Context&, Element parent, ElementId id, const InterfaceMaterial&) {
   add(parent, "bsdf", "null", "", id);
 }

@@ -199,6 +199,10 @@ class Writer : MtlText {
   void put(const MeasuredMaterial&) { put_grey("measured material", 0.5); }
   void put(const TabulatedMaterial&) { put_grey("tabulated material", 0.5); }
   void put(const SlabMaterial&) { put_grey("slab of a medium", 0.5); }
+  void put(const FinishMaterial& m) {
+    approximated("highlights of POV-Ray that are not normalised: diffuse");
+    color("Kd", "map_Kd", m.reflectance);
+  }
   void put(const InterfaceMaterial&) { text += "Kd 0 0 0\nd 0\n"; }
 
   void put(const BlendMaterial& m) {

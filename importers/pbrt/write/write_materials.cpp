@@ -160,6 +160,11 @@ class MaterialWriter {
     p_.approximated("pbrt has no slab of a medium: it becomes diffuse transmission, 0.25 each way");
     return "diffusetransmission";
   }
+  const char* operator()(const FinishMaterial& m) {
+    p_.approximated("highlights of POV-Ray that are not normalised: it becomes diffuse");
+    p_.albedo("reflectance", m.reflectance);
+    return "diffuse";
+  }
   const char* operator()(const InterfaceMaterial&) { return "interface"; }
   const char* operator()(const BlendMaterial& m) {
     const std::vector<std::string>& names = p_.writer().materials;

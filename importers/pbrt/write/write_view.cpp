@@ -76,6 +76,11 @@ struct CameraWriter {
            c.projection == SphericalCamera::Projection::equal_area ? "equalarea" : "equirectangular");
     finish("spherical", c.camera_to_world);
   }
+  void operator()(const WideCamera& c) {
+    p.dropped("a camera that sees more than a plane shows: a perspective one of 90 degrees");
+    const double y = static_cast<double>(w.scene.film.height) / w.scene.film.width;
+    (*this)(PerspectiveCamera{c.camera_to_world, {-1, 1, -y, y}, {}});
+  }
   void operator()(const SensorCamera& c) {
     p.dropped("sensors of irradiance: a camera that looks along the first one's normal");
     (*this)(view_of(c, w.scene.film));

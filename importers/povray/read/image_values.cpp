@@ -28,7 +28,7 @@ ImageValues::ImageValues(Reader& reader, const ImageMap& map, const Place& place
   try {
     StoredImage stored = read_stored_image(map.filename);
     image_ = std::move(stored.image);
-    decoded_ = stored.integer && gamma_.has_value();
+    decoded_ = stored.integer && gamma_.has_value() && (reader.version >= 3.7 || map.gamma);
   } catch (const Error& error) {
     reader.fail(error.what(), place);
   }

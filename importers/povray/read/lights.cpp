@@ -60,8 +60,12 @@ bool read_light_part(Reader& reader, LightShape& light, Object& object, const To
         reader.notes.approximated("media_interaction off: media show the light",
                                   reader.location(token.place));
       return true;
-    case Word::adaptive_:
     case Word::media_attenuation_:
+      if (reader.flag())
+        reader.notes.approximated("media_attenuation: media around everything do not weaken the light",
+                                  reader.location(token.place));
+      return true;
+    case Word::adaptive_:
       if (reader.number_follows()) reader.numbers();
       return true;
     case Word::jitter_:

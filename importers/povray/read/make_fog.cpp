@@ -43,6 +43,7 @@ std::optional<Id<Medium>> SceneMaker::fog_between(double low, double high) {
   if (!(sigma > 0)) return std::nullopt;
   Medium medium;
   medium.name = "fog";
+  medium.veils = true;
   AbsorptionScattering coefficients;
   coefficients.sigma_a = Spectrum{ConstantSpectrum{static_cast<float>(sigma)}};
   coefficients.sigma_s = Spectrum{ConstantSpectrum{0}};
@@ -83,7 +84,7 @@ void SceneMaker::add_fog() {
   if (layered == fogs_.end()) {
     if (fogs_.size() > 1)
       reader_.notes.approximated("several fogs: one of their sum", reader_.location(fogs_.front()->place));
-    scene_.camera_medium = fog_between(0, 0);
+    atmosphere_ = fog_between(0, 0);
     return;
   }
   const Fog& fog = **layered;
@@ -103,7 +104,7 @@ void SceneMaker::add_fog() {
     below = above;
     low = high;
   }
-  scene_.camera_medium = around;
+  atmosphere_ = around;
 }
 
 }  // namespace vitrail::pov

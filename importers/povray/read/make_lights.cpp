@@ -34,7 +34,8 @@ void SceneMaker::add_light(const Object& object, const LightShape& light, const 
   const SourceLocation place = reader_.location(object.place);
   const Point3d at = transform_point(to_world, light.position),
                 target = transform_point(to_world, light.point_at);
-  if (light.shadowless) reader_.notes.approximated("shadowless: the light has shadows", place);
+  if (light.shadowless && reader_.for_export)
+    reader_.notes.approximated("shadowless: the light has shadows", place);
   if (light.projected) reader_.notes.dropped("projected_through", place);
   const std::vector<Vector3d> offsets = light.area ? grid_of(light) : std::vector<Vector3d>{{}};
   const double share = std::numbers::pi / static_cast<double>(offsets.size());
@@ -53,6 +54,7 @@ void SceneMaker::add_light(const Object& object, const LightShape& light, const 
     const Point3d from = at + transform_vector(to_world, offset);
     Light made;
     made.origin = origin(object.place);
+    made.casts_shadows = !light.shadowless || reader_.for_export;
     if (light.kind == LightShape::Kind::point || !aims) {
       PointLight point{from, intensity, fading};
       if (light.parallel && aims) {  // far away, in front of what is around

@@ -2,8 +2,9 @@
 // Finishes as BSDFs.
 //
 // A lamp of colour c shows ρ·c·cos θ on a diffuse surface of reflectance ρ = pigment · diffuse, as its
-// intensity is π·c here. A highlight s·(n·h)^m adds a lobe of Beckmann's microfacets of α² = 2/(m + 2), whose
-// share w is such that its peak is as high: π·c·w/(4π·α²) = s·c.
+// intensity is π·c here. Highlights are a FinishMaterial; for export, and upon a coat, a highlight s·(n·h)^m
+// adds a lobe of Beckmann's microfacets of α² = 2/(m + 2), whose share w is such that its peak is as high:
+// π·c·w/(4π·α²) = s·c.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -230,6 +231,17 @@ Id<Material> Surfaces::clear_material(const Pigment& pigment, const Finish& fini
   return add(sheet, pigment.place);
 }
 
+// As at normal incidence; at grazing angles POV-Ray's become white.
+SpectrumParameter Surfaces::highlight_color(const Pigment& pigment, const Finish& finish,
+                                            const Transform& to_world, const Look& look) {
+  const SpectrumParameter white = Spectrum{ConstantSpectrum{1}};
+  if (!(finish.metallic > 0)) return white;
+  approximated("metallic highlights: of one colour at every angle", finish.place);
+  const SpectrumParameter color = color_texture(pigment, to_world, Part::reflectance, 1, look.by_uv);
+  if (finish.metallic >= 1) return color;
+  return add(MixTexture{white, color, static_cast<float>(finish.metallic)}, false, pigment.place);
+}
+
 Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish, const Transform& to_world,
                                    const Look& look) {
   std::vector<Lobe> lobes;
@@ -237,7 +249,10 @@ Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish,
     if (!(metallic > 0)) return PerfectReflector{};
     return NormalReflectance{color_texture(pigment, to_world, Part::reflectance, 1, look.by_uv)};
   };
-  if (const Highlight h = highlight_of(finish); h.strength > 0) {
+  const double reflection = greatest(finish.reflection_max);
+  const bool fresnel = finish.fresnel && reflection > 0;
+  const bool as_said = !reader_.for_export && !fresnel && finish.diffuse_back == 0;
+  if (const Highlight h = highlight_of(finish); h.strength > 0 && !as_said) {
     const double alpha2 = 2 / (h.exponent + 2);
     Roughness roughness;
     roughness.alpha_u = roughness.alpha_v = static_cast<float>(std::sqrt(alpha2));
@@ -246,10 +261,8 @@ Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish,
     lobes.push_back({ConductorMaterial{metal(finish.metallic), roughness}, share});
     approximated("phong or specular: microfacets with a highlight as high", finish.place);
   }
-  const double reflection = greatest(finish.reflection_max);
-  const bool fresnel = finish.fresnel && reflection > 0;
   const double diffuse = reader_.linear(finish.diffuse);
-  if (finish.brilliance != 1) approximated("brilliance: 1", finish.place);
+  if (finish.brilliance != 1 && !as_said) approximated("brilliance: 1", finish.place);
   if (finish.crand > 0) dropped("crand", finish.place);
   if (finish.irid > 0) dropped("irid", finish.place);
   if (finish.subsurface) dropped("subsurface", finish.place);
@@ -277,10 +290,20 @@ Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish,
     shares = 0.98;
   }
   const double left = 1 - shares;
-  const SpectrumParameter reflectance =
-      color_texture(pigment, to_world, Part::reflectance, diffuse / left, look.by_uv);
+  const bool highlights = finish.phong > 0 || finish.specular > 0;
+  const bool as_finish = as_said && (highlights || finish.brilliance != 1 || diffuse > left);
+  const SpectrumParameter reflectance = color_texture(
+      pigment, to_world, as_finish ? Part::factor : Part::reflectance, diffuse / left, look.by_uv);
   MaterialModel base;
-  if (fresnel) {
+  if (as_finish) {
+    FinishMaterial m{reflectance, highlight_color(pigment, finish, to_world, look)};
+    m.brilliance = static_cast<float>(std::max(finish.brilliance, 0.0));
+    m.phong = static_cast<float>(std::max(finish.phong, 0.0) / left);
+    m.phong_size = static_cast<float>(std::max(finish.phong_size, 0.0));
+    m.specular = static_cast<float>(std::max(finish.specular, 0.0) / left);
+    m.roughness = static_cast<float>(std::max(finish.roughness, 1e-6));
+    base = m;
+  } else if (fresnel) {
     PlasticMaterial coat;
     coat.diffuse_reflectance = reflectance;
     coat.eta = static_cast<float>(look.interior && look.interior->ior > 1.01 ? look.interior->ior : 1.5);

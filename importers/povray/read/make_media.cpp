@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// media {} as POV-Ray's pictures show them. Over a distance d, absorption a leaves e^(−a·d), emission e adds
-// e·d. Scattering s takes s·extinction·d away, and under a lamp of colour c that does not fade shows c·s·d
-// where it is isotropic: four times what σ_s = s does here, as such a lamp has the intensity π·c.
+// The fade of interiors leaves c + (1 − c)/(1 + (d/distance)^power) of what is behind, and of a power of 1000
+// e^(−(1 − c)·d/distance), where c is its colour. media {} as POV-Ray's pictures show them. Over a distance
+// d, absorption a leaves e^(−a·d), emission e adds e·d. Scattering s takes s·extinction·d away, and under a
+// lamp of colour c that does not fade shows c·s·d where it is isotropic: four times what σ_s = s does here,
+// as such a lamp has the intensity π·c.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -65,12 +67,6 @@ Sums sums_of(const std::vector<Shared<MediaBlock>>& blocks, const Reader& reader
   }
   if (weights > 0) sums.g /= weights;
   return sums;
-}
-
-bool has_file(const Shared<MediaBlock>& block) {
-  return std::ranges::any_of(block->densities, [](const Shared<Pigment>& density) {
-    return density->pattern.kind == Word::density_file_;
-  });
 }
 
 // The densities of each block at points of the space that has the media.
@@ -149,10 +145,8 @@ std::optional<Id<Medium>> SceneMaker::medium_of(const std::vector<Shared<MediaBl
   const bool shines = greatest(sums.emission) > 0, scatters = greatest(sums.scattering) > 0,
              fades = greatest(sums.absorption) > 0 || greatest(sums.extinction) > 0;
   if (!shines && !scatters && !fades) return std::nullopt;
-  if (std::ranges::any_of(blocks, has_file)) {
-    reader_.notes.dropped("media with a density_file", place);
-    return std::nullopt;
-  }
+  if (std::ranges::any_of(blocks, [](const auto& b) { return b->scattering_type == 4; }))
+    reader_.notes.approximated("Rayleigh's scattering: alike in all directions", place);
   const bool bounded = !box.empty() && length(extent(box)) < boundless;
   const double size = bounded ? length(transform_vector(to_world, extent(box))) : reach_;
   const bool has_densities = std::ranges::any_of(blocks, [](const auto& b) { return !b->densities.empty(); });
@@ -183,9 +177,9 @@ std::optional<Id<Medium>> SceneMaker::medium_of(const std::vector<Shared<MediaBl
   for (double& a : sums.absorption) a = std::max(a, shines ? nothing / size : 0.0);
   const bool around = box.empty();
   const auto spectrum = [](const Three& c) { return unbounded_from_rgb({c[0], c[1], c[2]}); };
-  if (around && !scatters) {  // as fog, it weakens no lamp
+  medium.veils = around;
+  if (around && !scatters) {
     medium.coefficients = AbsorptionScattering{spectrum(sums.absorption), Spectrum{ConstantSpectrum{0}}};
-    medium.emission = Spectrum{ConstantSpectrum{0}};
   } else {
     // Where it shines as well, σ_a has to be what POV-Ray's is; and paths scatter more than once. Else σ_t is
     // POV-Ray's, and what is scattered once is as bright.
@@ -193,7 +187,6 @@ std::optional<Id<Medium>> SceneMaker::medium_of(const std::vector<Shared<MediaBl
     if (dense)
       reader_.notes.approximated(
           "scattering with emission or radiosity: four times as dense, to be as bright", place);
-    if (around) reader_.notes.approximated("scattering media around everything: they weaken lamps", place);
     Three extinction = sums.absorption, albedo{};
     for (std::size_t i = 0; i < 3; ++i) {
       extinction[i] += dense ? 4 * sums.scattering[i] : sums.extinction[i];
@@ -210,26 +203,84 @@ std::optional<Id<Medium>> SceneMaker::medium_of(const std::vector<Shared<MediaBl
   return Id<Medium>{static_cast<std::uint32_t>(scene_.media.size() - 1)};
 }
 
+std::optional<Id<Medium>> SceneMaker::fade_of(const Object& object, const Interior& interior,
+                                              const Transform& to_world) {
+  if (!has_medium(interior)) return std::nullopt;
+  constexpr double exponential = 1000;  // that power, and those above
+  double way = interior.fade_distance;
+  if (const Vector3d size = extent(extents_of(object)); interior.fade_power < exponential) {
+    const double a = length(transform_vector(to_world, {size.x, 0, 0})),
+                 b = length(transform_vector(to_world, {0, size.y, 0})),
+                 c = length(transform_vector(to_world, {0, 0, size.z}));
+    if (a + b + c < boundless) way = std::max(2 * a * b * c / (a * b + b * c + c * a), nothing * way);
+    reader_.notes.approximated(
+        "fade_power below 1000: absorption, as strong over the mean way through the object",
+        reader_.location(interior.place));
+  }
+  const double ratio = way / interior.fade_distance;
+  const double left = 1 / (1 + std::pow(ratio, std::min(interior.fade_power, exponential)));
+  Three absorption{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double color = std::clamp(reader_.linear(interior.fade_color.v[i]), 0.0, 1.0);
+    absorption[i] = interior.fade_power >= exponential ? (1 - color) / interior.fade_distance
+                                                       : -std::log(color + (1 - color) * left) / way;
+  }
+  if (!(greatest(absorption) > 0)) return std::nullopt;
+  Medium medium;
+  medium.name = "fade";
+  medium.origin = origin(interior.place);
+  medium.coefficients =
+      AbsorptionScattering{Spectrum{unbounded_from_rgb({absorption[0], absorption[1], absorption[2]})},
+                           Spectrum{ConstantSpectrum{0}}};
+  scene_.media.push_back(std::move(medium));
+  const Id<Medium> id{static_cast<std::uint32_t>(scene_.media.size() - 1)};
+  if (is_inside(object, transform_point(inverse(to_world), eye()))) eye_medium_ = id;
+  return id;
+}
+
 std::optional<Id<Medium>> SceneMaker::media_of(const Object& object, const Interior& interior,
                                                const Transform& to_world) {
-  if (interior.media.empty()) return std::nullopt;
+  if (interior.media.empty()) return fade_of(object, interior, to_world);
   if (!object.hollow) {
     reader_.notes.approximated("media of an object without hollow: there are none",
                                reader_.location(interior.place));
     return std::nullopt;
   }
   const auto medium = medium_of(interior.media, to_world, extents_of(object));
-  const Point3d eye = world_.camera ? Point3d{} + world_.camera->location : Point3d{};
-  if (medium && is_inside(object, transform_point(inverse(to_world), eye))) eye_medium_ = medium;
+  if (medium && is_inside(object, transform_point(inverse(to_world), eye()))) eye_medium_ = medium;
   return medium;
 }
 
 void SceneMaker::add_atmosphere() {
   if (world_.media.empty()) return;
-  if (scene_.camera_medium)
+  if (atmosphere_)
     return reader_.notes.dropped("media around everything, beside fog",
                                  reader_.location(world_.media.front()->place));
-  scene_.camera_medium = medium_of(world_.media, {}, {});
+  atmosphere_ = medium_of(world_.media, {}, {});
+}
+
+namespace {
+
+// Whether a point of its parent's space is in the object, and the object is not hollow.
+bool keeps_out(const Object& object, Point3d p, bool hollow) {
+  if (std::holds_alternative<LightShape>(object.shape) || !is_invertible(object.to_parent)) return false;
+  hollow = hollow || object.hollow;
+  const auto* const group = std::get_if<GroupShape>(&object.shape);
+  if (!group || (group->kind != Word::union_ && group->kind != Word::light_group_) ||
+      !object.clipped_by.empty())
+    return !hollow && is_inside(object, p);
+  const Point3d within = transform_point(inverse(object.to_parent), p);
+  return std::ranges::any_of(object.children,
+                             [&](const auto& child) { return keeps_out(*child, within, hollow); });
+}
+
+}  // namespace
+
+void SceneMaker::set_eye_medium() {
+  scene_.camera_medium = atmosphere_;
+  const auto around_eye = [&](const auto& object) { return keeps_out(*object, eye(), false); };
+  if (atmosphere_ && std::ranges::any_of(world_.objects, around_eye)) scene_.camera_medium.reset();
+  if (eye_medium_) scene_.camera_medium = eye_medium_;
 }
 
 }  // namespace vitrail::pov

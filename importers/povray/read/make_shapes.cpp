@@ -11,6 +11,7 @@
 #include "importers/shapes/quadrics.h"
 #include "importers/solids/primitives.h"
 #include "scene/geometry/frame.h"
+#include "scene/records/material_traits.h"
 
 namespace vitrail::pov {
 
@@ -71,6 +72,16 @@ bool is_clear(const Material& material) {
   return true;
 }
 
+// Whether its surface is closed, as far as that is known.
+bool is_closed(const Object& object) {
+  if (!object.clipped_by.empty()) return false;
+  if (const auto* mesh = std::get_if<MeshShape>(&object.shape)) return mesh->closed;
+  if (const auto* box = std::get_if<BoxShape>(&object.shape)) return !rectangle(*box);
+  if (const auto* cone = std::get_if<ConeShape>(&object.shape)) return !cone->open;
+  if (const auto* solid = std::get_if<SolidShape>(&object.shape)) return solid->inside != nullptr;
+  return !std::holds_alternative<DiscShape>(object.shape);
+}
+
 Numbers ambient_of(const World& world) {
   if (world.radiosity) return Finish::grey(0);
   return world.ambient_light.value_or(Finish::grey(1));
@@ -95,7 +106,7 @@ Scene SceneMaker::make() {
   const Target target{scene_.shapes, scene_.instances};
   for (const auto& object : world_.objects) add(*object, {}, {reader_.defaults.texture, {}, nullptr}, target);
   add_surroundings();
-  if (eye_medium_) scene_.camera_medium = eye_medium_;
+  set_eye_medium();
   return std::move(scene_);
 }
 
@@ -129,6 +140,7 @@ void SceneMaker::add(const Object& object, const Transform& parent_to_world, Loo
     return;
   }
   look.no_shadow = look.no_shadow || object.no_shadow;
+  look.hollow = look.hollow || object.hollow;
   if (object.no_image) {
     reader_.notes.dropped("an object with no_image", reader_.location(object.place));
     return;
@@ -170,7 +182,7 @@ bool SceneMaker::is_plain(const Object& object) {
   bool plain = !std::holds_alternative<LightShape>(object.shape) &&
                !std::holds_alternative<PlaneShape>(object.shape) &&
                (!object.texture || pov::is_plain(*object.texture)) &&
-               (!object.interior || object.interior->media.empty());
+               (!object.interior || !has_medium(*object.interior));
   if (const auto* mesh = std::get_if<MeshShape>(&object.shape))
     for (const auto& part : mesh->parts) plain = plain && (!part.texture || pov::is_plain(*part.texture));
   for (const auto& child : object.children) plain = plain && is_plain(*child);
@@ -215,7 +227,8 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
   }
   if (piece.look && piece.look->interior) own.interior = piece.look->interior;
   Surface surface = surfaces_.of(own);
-  if (own.no_shadow) surface = without_shadow(surface, own.of_lamp, object);
+  if (own.no_shadow && reader_.for_export) surface = without_shadow(surface, own.of_lamp, object);
+  if (own.no_shadow && !reader_.for_export) surface.material = shadowless(surface.material);
   Shape shape;
   shape.mesh = piece.mesh;
   shape.material = surface.material;
@@ -229,8 +242,22 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
         turned_to_image(inverse(to_world) * own.to_world * own.texture->to_object * image->to_object);
   shape.flip_orientation = !piece.faces_out != object.inverse;
   shape.origin = origin(object.place);
-  if (own.medium) fill(shape, *own.medium);
+  if (own.medium && (own.hollow || lets_light_in(shape)))
+    fill(shape, *own.medium);
+  else if (atmosphere_ && !own.hollow && is_closed(object) && lets_light_in(shape))
+    fill(shape, std::nullopt);
   if (is_invertible(shape.object_to_world)) target.shapes.push_back(std::move(shape));
+}
+
+Id<Material> SceneMaker::shadowless(Id<Material> material) {
+  const auto [known, is_new] = shadowless_.try_emplace(material.value, material);
+  if (is_new) {
+    known->second = {static_cast<std::uint32_t>(scene_.materials.size())};
+    Material copy = scene_.materials[material.value];
+    copy.casts_shadow = false;
+    scene_.materials.push_back(std::move(copy));
+  }
+  return known->second;
 }
 
 Surface SceneMaker::without_shadow(Surface surface, bool of_lamp, const Object& object) {
@@ -261,8 +288,8 @@ Surface SceneMaker::without_shadow(Surface surface, bool of_lamp, const Object& 
   return surface;
 }
 
-void SceneMaker::fill(Shape& shape, Id<Medium> medium) {
-  shape.interior = medium, shape.exterior = scene_.camera_medium;
+void SceneMaker::fill(Shape& shape, std::optional<Id<Medium>> medium) {
+  shape.interior = medium, shape.exterior = atmosphere_;
   if (is_clear(scene_.materials[shape.material.value])) shape.opacity = 0.0f;  // `rgbf 1`
   if (shape.opacity == FloatParameter{1.0f}) return;
   const auto added = [&](MaterialModel model) {
@@ -280,6 +307,15 @@ void SceneMaker::fill(Shape& shape, Id<Medium> medium) {
     shape.material = added(BlendMaterial{nothing, shape.material, shape.opacity});
   }
   shape.opacity = 1.0f;
+}
+
+bool SceneMaker::lets_light_in(const Shape& shape) const {
+  const auto transmits = [&](const auto& self, Id<Material> id) -> bool {
+    const MaterialModel& model = scene_.materials[id.value].model;
+    const auto part = [&](Id<Material> of) { return self(self, of); };
+    return traits_of(model).transmits || std::ranges::any_of(parts_of(model), part);
+  };
+  return shape.opacity != FloatParameter{1.0f} || transmits(transmits, shape.material);
 }
 
 std::vector<SceneMaker::Piece> SceneMaker::pieces_of(const Object& object) {

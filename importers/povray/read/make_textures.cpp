@@ -28,7 +28,8 @@ Spectrum Surfaces::spectrum_of(const Numbers& color, Part part, double factor) c
   if (part == Part::opacity) return ConstantSpectrum{opacity_of(color)};
   const RGB c{reader_.linear(color.v[0]) * factor, reader_.linear(color.v[1]) * factor,
               reader_.linear(color.v[2]) * factor};
-  return part == Part::radiance ? Spectrum{emission_from_rgb(c)} : Spectrum{reflectance_from_rgb(c)};
+  if (part == Part::radiance) return emission_from_rgb(c);
+  return part == Part::factor ? unbounded_from_rgb(c) : Spectrum{reflectance_from_rgb(c)};
 }
 
 FloatParameter Surfaces::opacity_of(const Pigment& pigment, const Transform& to_world, bool by_uv) {
@@ -154,6 +155,20 @@ std::optional<PatternTexture> Surfaces::pattern_texture(const Pattern& pattern, 
   return t;
 }
 
+// What takes the numbers of a file to those of the Scene. Before 3.7 they are the scene's numbers as they
+// are, but where a gamma stands with the image; since then they are light by sRGB's curve or that gamma.
+void Surfaces::set_encoding(ImageTexture& texture, const ImageMap& image) const {
+  constexpr double srgb = 2.2;  // about
+  const std::optional<double> scene = reader_.gamma();
+  const bool as_it_is = reader_.version < 3.7 && !image.gamma;
+  const double to_light = as_it_is ? scene.value_or(srgb) : image.gamma.value_or(srgb);
+  const bool by_curve = as_it_is ? !scene : !image.gamma;
+  const bool to_screen = !reader_.for_export && scene != 1.0;
+  if (by_curve && !to_screen) return;
+  texture.gamma = static_cast<float>(to_screen ? to_light / scene.value_or(srgb) : to_light);
+  texture.encoding = texture.gamma == 1 ? Encoding::linear : Encoding::gamma;
+}
+
 SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& pattern,
                                           const Transform& to_world, bool by_uv, double factor,
                                           const Place& place) {
@@ -163,6 +178,7 @@ SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& 
   texture.wrap = image.once ? Wrap::black : Wrap::repeat;
   texture.filter = image.interpolate > 0 ? TextureFilter::bilinear : TextureFilter::nearest;
   texture.scale = static_cast<float>(factor);
+  set_encoding(texture, image);
   if (by_uv) {
     texture.mapping = UvMapping{};
   } else if (image.map_type == 0) {

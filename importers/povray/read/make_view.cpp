@@ -38,6 +38,48 @@ Camera camera_of(const CameraView& v, Vector3d right, Vector3d up, bool perspect
   return camera;
 }
 
+// Measured by the directions that POV-Ray's pictures show.
+WideCamera wide_camera(const CameraView& v) {
+  using enum WideCamera::Projection;
+  const double wide = length(v.right), high = length(v.up), far = length(v.direction);
+  const double half = (v.angle > 0 ? v.angle : v.kind == Word::spherical_ ? 360 : 90) / 2;
+  WideCamera camera;
+  camera.camera_to_world =
+      columns(v.right * (1 / wide), v.up * (1 / high), v.direction * (1 / far), v.location);
+  const auto set = [&](WideCamera::Projection projection, double across, double above) {
+    camera.projection = projection, camera.across = across, camera.above = above;
+  };
+  switch (v.kind) {
+    case Word::spherical_:  // it turns the view about `up` and `right`, whatever their hand
+      camera.camera_to_world =
+          columns(normalize(cross(v.up, v.direction)), normalize(cross(v.direction, v.right)),
+                  v.direction * (1 / far), v.location);
+      set(latitude_longitude, half, v.angle_v > 0 ? v.angle_v / 2 : half / 2);
+      break;
+    case Word::fisheye_:
+      set(fisheye, wide * half, high * half);
+      camera.edge_deg = half;
+      break;
+    case Word::omnimax_:
+      set(fisheye, wide * 81, high * 81);
+      camera.edge_deg = 90;
+      break;
+    case Word::ultra_wide_angle_:
+      set(ultra_wide, half, half * high / wide);
+      break;
+    case Word::panoramic_:
+      set(panoramic, wide / far, high / far);
+      break;
+    default:  // a cylinder
+      camera.parallel = v.kind_number > 2;
+      if (v.kind_number % 2 == 1)
+        set(upright_cylinder, half, high / 2);
+      else
+        set(lying_cylinder, wide / 2, half);
+  }
+  return camera;
+}
+
 }  // namespace
 
 void SceneMaker::set_view() {
@@ -55,21 +97,34 @@ void SceneMaker::set_view() {
   film.height = aspect >= 1 ? static_cast<int>(std::lround(640 / aspect)) : 640;
   film.crop = {0, film.width, 0, film.height};
   film.filter = BoxFilter{};
+  const double gamma = reader_.gamma().value_or(srgb_gamma);
+  if (!reader_.for_export)
+    film.working_gamma = gamma;
+  else if (gamma != 1)
+    reader_.notes.approximated(
+        "assumed_gamma: each colour and light becomes linear, and their sums differ from POV-Ray's", place);
   scene_.camera_origin = origin(view.place);
   if (view.has_normal) reader_.notes.dropped("normal of a camera", place);
   if (view.kind == Word::orthographic_) {
     scene_.camera = camera_of<OrthographicCamera>(view, view.right, view.up, false);
     return;
   }
-  if (view.kind == Word::spherical_) {
+  if (reader_.for_export && view.kind == Word::spherical_) {
     // Its middle looks along −x there, with its right along −z.
+    const Transform wide = wide_camera(view).camera_to_world;
+    const auto axis = [&](Vector3d v) { return transform_vector(wide, v); };
     SphericalCamera camera;
     camera.projection = SphericalCamera::Projection::latitude_longitude;
-    camera.camera_to_world =
-        columns(-normalize(view.direction), normalize(view.up), -normalize(view.right), view.location);
+    camera.camera_to_world = columns(axis({0, 0, -1}), axis({0, 1, 0}), axis({-1, 0, 0}), view.location);
     if (view.angle > 0 && view.angle < 359)
       reader_.notes.approximated("a spherical camera: all of the sphere", place);
     scene_.camera = camera;
+    return;
+  }
+  if (!reader_.for_export && view.kind != Word::perspective_ && view.kind != Word::mesh_camera_) {
+    if (view.kind == Word::omnimax_)
+      reader_.notes.approximated("an omnimax camera: a fisheye of 162 degrees", place);
+    scene_.camera = wide_camera(view);
     return;
   }
   CameraView seen = view;

@@ -29,7 +29,8 @@ PatternTexture carrier(PatternTexture record) {
 
 bool has_values(Word kind) {
   return kind == Word::function_ || kind == Word::image_pattern_ || kind == Word::object_ ||
-         kind == Word::pigment_pattern_ || kind == Word::average_ || kind == Word::none;
+         kind == Word::pigment_pattern_ || kind == Word::density_file_ || kind == Word::average_ ||
+         kind == Word::none;
 }
 
 }  // namespace
@@ -48,6 +49,10 @@ PatternField::PatternField(Reader& reader, const Pigment& pigment) : pattern_(pi
       return;
     }
     image_ = std::make_shared<ImageValues>(reader, *pattern_.image, pigment.place);
+  }
+  if (pattern_.kind == Word::density_file_) {
+    density_ = std::make_shared<DensityValues>(pattern_.density_file, pattern_.interpolate > 0);
+    if (pattern_.interpolate > 1) reader.notes.approximated("interpolate 2 of a density_file: linear", place);
   }
   if (pattern_.pigment) inner_ = std::make_shared<PatternField>(reader, *pattern_.pigment);
   record_ = record_of(pattern_);
@@ -84,6 +89,8 @@ double PatternField::own_value(Point3d p) const {
     value = evaluate(*pattern_.function, at);
   } else if (image_) {
     value = image_->grey(p);
+  } else if (density_) {
+    value = density_->at(p);
   } else if (inner_) {
     value = grey_of(inner_->color(p));
   }

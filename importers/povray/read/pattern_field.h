@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "importers/povray/read/density_values.h"
 #include "importers/povray/read/image_values.h"
 #include "importers/povray/read/surface.h"
 #include "scene/records/pattern_texture.h"
@@ -43,6 +44,7 @@ class PatternField {
   bool recorded_ = false;
   std::vector<Entry> entries_;
   std::shared_ptr<const ImageValues> image_;
+  std::shared_ptr<const DensityValues> density_;
   std::shared_ptr<const PatternField> inner_;  // of pigment_pattern
 };
 

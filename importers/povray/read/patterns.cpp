@@ -158,11 +158,14 @@ void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>&
     case Word::pigment_pattern_:
       pattern.pigment = read_pigment_block(reader);
       break;
-    case Word::density_file_:
+    case Word::density_file_: {
       reader.accept(Word::df3_);
-      reader.text("the name of a file");
-      if (reader.accept(Word::interpolate_)) reader.numbers();
+      const std::string name = reader.text("the name of a file");
+      pattern.density_file = reader.find_file(name, reader.here()).string();
+      pattern.interpolate = 0;
+      if (reader.accept(Word::interpolate_)) pattern.interpolate = reader.integer("interpolate");
       break;
+    }
     case Word::slope_:
       if (reader.accept('{')) {
         reader.put_back([&] {

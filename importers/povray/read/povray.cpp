@@ -11,6 +11,7 @@ ImportedScene read_povray(const std::filesystem::path& file, MeshMemory memory,
   const pov::Limits limits{options.program, options.include_limit};
   pov::Reader reader(file, pov::search_of(file, options.include_folders), limits);
   reader.replace_missing = options.replace_missing;
+  reader.for_export = options.for_export;
   for (const auto& [name, value] : options.definitions) reader.define(name, value);
   const pov::World world = pov::read_world(reader);
   ImportedScene imported;

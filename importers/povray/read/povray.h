@@ -11,8 +11,8 @@
 namespace vitrail {
 
 // Reads a scene with all that it includes (povray/read/search.h says from where). Bad input throws Error with
-// its place and the macros and files that lead there. Of the options include_limit, include_folders and
-// program count.
+// its place and the macros and files that lead there. Of the options include_limit, include_folders,
+// for_export and program count.
 ImportedScene read_povray(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
                           const ImportOptions& options = {});
 

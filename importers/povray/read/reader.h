@@ -127,17 +127,18 @@ class Reader {
   Defaults defaults;
   void set_defaults();  // by the block of #default
   Notes notes;
-  double version = 0;  // 0: the file does not say
-  std::optional<double> assumed_gamma;
+  double version = 0;                   // 0: the file does not say
+  std::optional<double> assumed_gamma;  // srgb_gamma: sRGB's curve
+  bool for_export = false;              // ImportOptions::for_export
   int image_width = 640, image_height = 480;
   double clock = 0;  // the time of an animation
   // What stands before the scene, as POV-Ray's Declare=NAME=VALUE: a number, or text where it is none.
   // `clock` sets that. Throws UsageError where a scene cannot have such a name.
   void define(const std::string& name, const std::string& value);
 
-  // The exponent that makes light of the numbers of colours; none: they are encoded as sRGB.
+  // The exponent that makes light of the numbers of pictures; none: they are encoded as sRGB.
   std::optional<double> gamma() const;
-  // A number of a colour, factor or light, as light.
+  // A number ≥ 0 of a colour, factor or light: as it is, for a film of this gamma; for export as light.
   double linear(double value) const;
 
   // A file of the scene, written by it or found by the search; throws Error at `place`, with the hint.

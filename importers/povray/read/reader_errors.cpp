@@ -7,6 +7,7 @@
 #include "importers/povray/read/reader.h"
 #include "importers/reading/missing_files.h"
 #include "importers/reading/suggestion.h"
+#include "scene/records/film_settings.h"
 
 namespace vitrail::pov {
 
@@ -86,12 +87,13 @@ std::string Reader::find_image(const std::string& name, const Place& place) {
 
 // Scenes of version 3.7 without assumed_gamma have 1. Before, colours went to the screen as they were.
 std::optional<double> Reader::gamma() const {
-  if (assumed_gamma) return assumed_gamma;
+  if (assumed_gamma) return *assumed_gamma == srgb_gamma ? std::nullopt : assumed_gamma;
   return version >= 3.7 ? std::optional(1.0) : std::nullopt;
 }
 
 double Reader::linear(double value) const {
   if (!(value > 0)) return 0;
+  if (!for_export) return value;
   const std::optional<double> exponent = gamma();
   if (exponent) return *exponent == 1 ? value : std::pow(value, *exponent);
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);

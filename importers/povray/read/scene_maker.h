@@ -36,13 +36,17 @@ class SceneMaker {
   // Shapes (make_shapes.cpp).
   void add(const Object& object, const Transform& parent_to_world, Look look, Target target);
   // The surface of a container: light goes through what is not there of it, and meets what is within.
-  void fill(Shape& shape, Id<Medium> medium);
+  void fill(Shape& shape, std::optional<Id<Medium>> medium);
+  bool lets_light_in(const Shape& shape) const;
   void add_group(const Object& object, const Transform& to_world, const Look& look, Target target);
   void add_plane(const Object& object, const PlaneShape& plane, const Transform& to_world, const Look& look,
                  Target target);
   void add_piece(const Object& object, const Piece& piece, const Transform& to_world, const Look& look,
                  Target target);
-  // Of an object without shadow. What only glows becomes a clear sheet that glows, so that light passes it.
+  // The same material for objects without shadow.
+  Id<Material> shadowless(Id<Material> material);
+  // Of an object without shadow, for formats that have none. What only glows becomes a clear sheet that
+  // glows, so that light passes it.
   Surface without_shadow(Surface surface, bool of_lamp, const Object& object);
   std::vector<Piece> pieces_of(const Object& object);
   std::vector<Piece> round_pieces(const ConeShape& cone);
@@ -69,12 +73,17 @@ class SceneMaker {
   // media {} (make_media.cpp), of an object under this transform, and of what is around.
   std::optional<Id<Medium>> media_of(const Object& object, const Interior& interior,
                                      const Transform& to_world);
+  std::optional<Id<Medium>> fade_of(const Object& object, const Interior& interior,
+                                    const Transform& to_world);
   std::optional<Id<Medium>> medium_of(const std::vector<Shared<MediaBlock>>& blocks,
                                       const Transform& to_world, const Bounds3d& box);
   void add_atmosphere();
+  // What the eye is in: of objects that are not hollow fog and atmosphere fill nothing.
+  void set_eye_medium();
   // The view (make_view.cpp).
   void set_view();
 
+  Point3d eye() const { return world_.camera ? Point3d{} + world_.camera->location : Point3d{}; }
   Origin origin(const Place& place) const { return {place.file, place.line, place.column}; }
 
   Reader& reader_;
@@ -88,7 +97,9 @@ class SceneMaker {
   std::vector<std::pair<Quadric, Id<TriangleMesh>>> quadrics_;
   std::vector<Shared<Object>> kept_;  // what the maps' keys point to
   std::optional<Id<Material>> clear_sheet_;
+  std::map<std::uint32_t, Id<Material>> shadowless_;
   std::vector<Shared<Fog>> fogs_;         // that are there
+  std::optional<Id<Medium>> atmosphere_;  // or fog, where there is no object
   std::optional<Id<Medium>> eye_medium_;  // of an object that the eye is in
   double reach_ = 1;                      // beyond all that is finite
 };

@@ -83,7 +83,9 @@ struct Pattern {
   double agate_turb = 1, control0 = 1, control1 = 1;
   Shared<Function> function;
   Shared<Object> object;
-  Shared<Pigment> pigment;  // of pigment_pattern
+  Shared<Pigment> pigment;   // of pigment_pattern
+  std::string density_file;  // that was found
+  int interpolate = 0;       // between its values: 0, 1 linear, 2 cubic
   std::vector<Warp> warps;
   bool uv_mapping = false;
 };
@@ -155,6 +157,11 @@ struct Interior {
   double dispersion = 1, caustics = 0;
   std::vector<Shared<MediaBlock>> media;
 };
+
+// Whether it weakens light on the way.
+inline bool has_medium(const Interior& interior) {
+  return !interior.media.empty() || (interior.fade_distance > 0 && interior.fade_power > 0);
+}
 
 // Of `material {}`.
 struct MaterialParts {

@@ -18,6 +18,7 @@ struct Look {
   Shared<Interior> interior;
   bool by_uv = false;  // images lie by (u,v)
   bool no_shadow = false;
+  bool hollow = false;
   bool of_lamp = false;              // it stands around a light, as what that looks like
   std::optional<Id<Medium>> medium;  // in its interior
 };
@@ -66,15 +67,18 @@ class Surfaces {
   Id<Material> material_of(const Body& body);
   Id<Material> bumpy(const Body& body, const Bump* bump, const Transform& to_world);
   std::optional<FloatParameter> bump_texture(const Bump& bump, const Transform& to_world);
+  SpectrumParameter highlight_color(const Pigment& pigment, const Finish& finish, const Transform& to_world,
+                                    const Look& look);
   Id<Material> clear_material(const Pigment& pigment, const Finish& finish, const Interior* interior);
 
-  // Textures (make_textures.cpp). `what` of a colour becomes the value.
-  enum class Part { reflectance, radiance, opacity };
+  // Textures (make_textures.cpp): what of a colour becomes the value. A factor may be above 1.
+  enum class Part { reflectance, factor, radiance, opacity };
   SpectrumParameter color_texture(const Pigment& pigment, const Transform& to_world, Part part, double factor,
                                   bool by_uv);
   FloatParameter opacity_of(const Pigment& pigment, const Transform& to_world, bool by_uv);
   SpectrumParameter image_texture(const ImageMap& image, const Pattern& pattern, const Transform& to_world,
                                   bool by_uv, double factor, const Place& place);
+  void set_encoding(ImageTexture& texture, const ImageMap& image) const;
   std::optional<PatternTexture> pattern_texture(const Pattern& pattern, const Transform& to_world,
                                                 const Place& place);
   FloatParameter amount_texture(const Pattern& pattern, const Transform& to_world, double from, double to,

@@ -5,6 +5,7 @@
 
 #include "importers/povray/read/objects.h"
 #include "importers/povray/read/reader.h"
+#include "scene/records/film_settings.h"
 
 namespace vitrail::pov {
 
@@ -20,15 +21,11 @@ void read_global_settings(Reader& reader, World& world) {
     switch (token.symbol->word) {
       case Word::assumed_gamma_:
         if (reader.accept(Word::srgb_)) {
-          reader.assumed_gamma.reset();
+          reader.assumed_gamma = srgb_gamma;
           break;
         }
         reader.assumed_gamma = reader.number("assumed_gamma");
         if (!(*reader.assumed_gamma > 0)) reader.fail("assumed_gamma has to be above 0", token.place);
-        if (*reader.assumed_gamma != 1)
-          reader.notes.approximated(
-              "assumed_gamma: colours and lights become linear, in which shading differs from POV-Ray's",
-              reader.location(token.place));
         break;
       case Word::max_trace_level_:
         world.max_trace_level = std::max(1, reader.integer("max_trace_level"));

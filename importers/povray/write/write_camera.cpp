@@ -72,6 +72,13 @@ std::string text_of(Context& context, const SphericalCamera& camera) {
   return "camera {\n  spherical\n" + vectors(f) + "  angle 360 180\n}\n";
 }
 
+std::string text_of(Context& context, const WideCamera& camera) {
+  context.approximated("a camera that sees more than a plane shows: all around, by latitude and longitude",
+                       context.scene.camera_origin);
+  SphericalCamera all{camera.camera_to_world, SphericalCamera::Projection::latitude_longitude};
+  return text_of(context, all);
+}
+
 std::string text_of(Context& context, const SensorCamera& camera) {
   context.dropped("sensors of irradiance: a camera that looks along the first one's normal",
                   context.scene.camera_origin);

@@ -281,6 +281,13 @@ class Builder {
     approximated("slab of a medium: diffuse transmission, 0.25 each way");
     return surface_of(DiffuseTransmissionMaterial{});
   }
+  Surface surface_of(const FinishMaterial& m) {
+    if (m.highlight != SpectrumParameter{ConstantSpectrum{1}}) approximated("tint of highlights: white");
+    std::string more = m.brilliance == 1 ? "" : fmt::format(" brilliance {}", m.brilliance);
+    if (m.phong > 0) more += fmt::format(" phong {} phong_size {}", m.phong, m.phong_size);
+    if (m.specular > 0) more += fmt::format(" specular {} roughness {}", m.specular, m.roughness);
+    return {diffuse(pigment(m.reflectance), 1, more), "", ""};
+  }
   Surface surface_of(const InterfaceMaterial&) { return {"texture { Clear }\n", "", ""}; }
 
   // ---- Made of others ---------------------------------------------------------------------------

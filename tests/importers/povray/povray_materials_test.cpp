@@ -62,6 +62,7 @@ Scene all_materials() {
   scene.materials.push_back({MaskMaterial{0.5f, {6}}});
   scene.materials.push_back({TwoSidedMaterial{{7}, {18}}});
   scene.materials.push_back({DiffuseMaterial{}, false});
+  scene.materials.push_back({FinishMaterial{ConstantSpectrum{.5f}, ConstantSpectrum{1}, 2, .5f, 20, .5f}});
   scene.lights.push_back({PointLight{{0, 0, 3}, ConstantSpectrum{1}}});
   show_all(scene);
   return scene;

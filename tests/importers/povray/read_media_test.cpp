@@ -146,12 +146,61 @@ TEST_F(ReadPovrayMedia, DensitiesAreGrids) {
   EXPECT_TRUE(says(read_scene, "densities"));
 }
 
+// Corner values of povray's own picture of the file, in 255ths; x runs fastest.
+TEST_F(ReadPovrayMedia, ADensityFileIsAGrid) {
+  const unsigned char bytes[] = {0, 2, 0, 2, 0, 2, 0, 255, 128, 64, 200, 20, 90, 150};
+  std::ofstream(folder_.path() / "a.df3", std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes), sizeof bytes);
+  const auto grid_of = [&](const std::string& more) {
+    const ImportedScene file = read(std::string("box { 0, 1 ") + clear +
+                                    " interior { media { emission 1 density { density_file df3 "
+                                    "\"a.df3\" " +
+                                    more + " } } } translate <-.5, 1, 4> }");
+    return file.scene.media.at(0).emission_scale.value();
+  };
+  const Grid cells = grid_of(""), smooth = grid_of("interpolate 1");
+  const auto at = [](const Grid& grid, double x, double y, double z) {
+    const auto index = [](double t, int n) { return static_cast<std::size_t>(t * n); };
+    const std::size_t i = index(x, grid.nx), j = index(y, grid.ny), k = index(z, grid.nz);
+    return 255 *
+           static_cast<double>(
+               grid.values[((k * static_cast<std::size_t>(grid.ny) + j) * static_cast<std::size_t>(grid.nx) +
+                            i) *
+                           3]);
+  };
+  EXPECT_NEAR(at(cells, 0.3, 0.2, 0.25), 0, 0.01);
+  EXPECT_NEAR(at(cells, 0.7, 0.2, 0.25), 255, 0.01);
+  EXPECT_NEAR(at(cells, 0.7, 0.8, 0.25), 64, 0.01);
+  EXPECT_NEAR(at(cells, 0.3, 0.2, 0.75), 200, 0.01);
+  // povray shows 105 and 130 there, of z = 0.25; the grid has the middles of its cells.
+  EXPECT_NEAR(at(smooth, 0.0625, 0.9375, 0.25), 105, 4);
+  EXPECT_NEAR(at(smooth, 0.4375, 0.9375, 0.25), 130, 4);
+  EXPECT_THROW(read(std::string("box { 0, 1 ") + clear +
+                    " interior { media { emission 1 density { density_file "
+                    "df3 \"scene.pov\" } } } }"),
+               Error);
+}
+
+// povray leaves e^(−(1 − c)·d/distance) of a fade_power of 1000: 0.6703 over 2 where c is 0.8.
+TEST_F(ReadPovrayMedia, InteriorsFade) {
+  const auto absorption = [&](const std::string& fade, const std::string& pigment) {
+    const ImportedScene found = read("box { <-1, 0, 4>, <1, 2, 6> pigment { " + pigment +
+                                     " } interior { fade_distance 1 " + fade + " } }");
+    const Shape& shape = found.scene.shapes.at(0);
+    return shape.interior ? at_550(std::get<AbsorptionScattering>(
+                                       found.scene.media.at(shape.interior->value).coefficients)
+                                       .sigma_a)
+                          : 0.0;
+  };
+  EXPECT_NEAR(absorption("fade_power 1001 fade_color rgb .8", "rgbt 1"), -std::log(0.6703) / 2, 1e-4);
+  EXPECT_NEAR(absorption("fade_power 1000", "rgbf 1"), 1, 1e-5);
+  // 1/(1 + d²) over 4/3, the mean way through a cube of 2
+  EXPECT_NEAR(absorption("fade_power 2", "rgbt 1"), std::log(1 + 16.0 / 9) * 0.75, 1e-4);
+  EXPECT_EQ(absorption("fade_power 2", "rgb 1"), 0);
+  EXPECT_EQ(absorption("", "rgbt 1"), 0);
+}
+
 TEST_F(ReadPovrayMedia, WhatCannotBeShown) {
-  const ImportedScene file =
-      read(std::string("sphere { z*5, 1 ") + clear +
-           " interior { media { emission 1 density { density_file df3 \"a.df3\" } } } }");
-  EXPECT_TRUE(file.scene.media.empty());
-  EXPECT_TRUE(says(file, "density_file"));
   const ImportedScene light = read(
       "light_source { y*9, rgb 1 media_interaction off }"
       "light_group { sphere { z*5, 1 no_reflection } light_source { 0, rgb 1 } global_lights off }");
@@ -178,8 +227,8 @@ TEST_F(ReadPovrayMedia, TheEyeInAContainerAndAround) {
                                      " interior { media { absorption .1 } } }");
   EXPECT_TRUE(inside.scene.camera_medium);
   EXPECT_TRUE(around.scene.camera_medium);
-  // In the form of fog, which weakens no lamp.
-  EXPECT_TRUE(std::holds_alternative<AbsorptionScattering>(around.scene.media[0].coefficients));
+  EXPECT_TRUE(around.scene.media[0].veils) << "it weakens no lamp";
+  EXPECT_FALSE(inside.scene.media[0].veils);
   EXPECT_FALSE(outside.scene.camera_medium);
 }
 

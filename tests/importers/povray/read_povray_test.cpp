@@ -21,6 +21,11 @@ class ReadPovray : public ::testing::Test {
     return path;
   }
   ImportedScene read(const std::string& text) { return read_povray(file(text)); }
+  ImportedScene read_for_export(const std::string& text) {
+    ImportOptions options;
+    options.for_export = true;
+    return read_povray(file(text), MeshMemory{}, options);
+  }
   // What an expression gives, behind statements.
   pov::Numbers value(const std::string& expression, const std::string& before = "") {
     pov::Reader reader(file(before + "\n#declare Result_ = " + expression + ";\n"), {{folder_.path()}}, {});
@@ -256,10 +261,10 @@ TEST_F(ReadPovray, APlaneAloneReachesTheHorizon) {
   EXPECT_GT(length(transform_vector(scene.shapes[0].object_to_world, Vector3d{1, 0, 0})), 1e4);
 }
 
-// A light within what it looks like would else light nothing.
+// For formats where all objects have shadows: a light within what it looks like would else light nothing.
 TEST_F(ReadPovray, LightPassesWhatALampLooksLike) {
   const Scene scene =
-      read(
+      read_for_export(
           "camera { location -4*z } light_source { <0,2,0> 1 looks_like { sphere { 0, 0.1 pigment { rgb 1 } "
           "finish { ambient 1 } } } } sphere { 0, 1 pigment { rgb 1 } no_shadow }")
           .scene;
@@ -279,7 +284,7 @@ TEST_F(ReadPovray, LightPassesWhatALampLooksLike) {
 TEST_F(ReadPovray, LightPassesASkyWithoutShadow) {
   const auto sheets = [&](const char* more) {
     const Scene scene =
-        read(
+        read_for_export(
             std::string("camera { location -4*z } union { sphere { 0, 100 } pigment { rgb <0,0,1> } finish { "
                         "ambient 1 diffuse 0 } ") +
             more + "}")

@@ -41,6 +41,7 @@ Medium fog_of(double sigma, double radiance) {
   Medium fog;
   fog.coefficients = AbsorptionScattering{ConstantSpectrum{static_cast<float>(sigma)}, ConstantSpectrum{0}};
   fog.emission = ConstantSpectrum{static_cast<float>(radiance)};
+  fog.veils = true;
   return fog;
 }
 

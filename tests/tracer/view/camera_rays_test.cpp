@@ -132,5 +132,48 @@ TEST(SphericalCamera, LatitudeAndLongitude) {
   expect_direction(seen(projection, {0.5, 0.25}), {-r, r, 0});
 }
 
+// Directions that povray 3.7 shows at x = 16/33 and y = 24/33 of half the raster, of a camera at 0 that looks
+// along z with right x and up y, unless it says so.
+TEST(WideCamera, LooksAsPovraysCameras) {
+  using enum WideCamera::Projection;
+  const auto seen_at = [](const WideCamera& camera, double x, double y) {
+    const CameraRay ray = camera_ray(camera, {50 * (1 + x / 33), 25 * (1 - y / 33)}, {0.5, 0.5});
+    EXPECT_EQ(ray.weight, 1);
+    return cast<double>(decode_direction(ray.direction));
+  };
+  const auto expect = [&](const WideCamera& camera, double x, double y, Vector3d wanted) {
+    EXPECT_LT(length(normalize(seen_at(camera, x, y)) - wanted), 2e-4)
+        << static_cast<int>(camera.projection) << ": " << x << ' ' << y;
+  };
+  expect({{}, latitude_longitude, 90, 45}, 16, 16, {0.6406, 0.3716, 0.6719});  // angle 180 90
+  expect({{}, latitude_longitude, 180, 90}, 8, 24, {0.2867, 0.9096, 0.3006});  // without an angle
+  expect({{}, fisheye, 90, 90, 90}, 16, 16, {0.6227, 0.6227, 0.4739});         // angle 180
+  expect({{}, fisheye, 80, 60, 60}, 8, 24, {0.3006, 0.6765, 0.6723});          // angle 120, right 4/3·x
+  expect({{}, ultra_wide, 60, 60}, 16, 16, {0.4731, 0.4731, 0.7431});          // angle 120
+  expect({{}, ultra_wide, 60, 30}, 8, 24, {0.2501, 0.3700, 0.8947});           // … and right 2·x
+  expect({{}, panoramic, 1, 1}, 16, 16, {0.4994, 0.6901, 0.5238});
+  expect({{}, panoramic, 2, 1}, 8, 24, {0.2983, 0.8788, 0.3726});                   // right 2·x
+  expect({{}, upright_cylinder, 60, 0.5}, 8, 24, {0.2360, 0.3417, 0.9096});         // cylinder 1, angle 120
+  expect({{}, lying_cylinder, 0.5, 60}, 16, 16, {0.2356, 0.4725, 0.8493});          // cylinder 2
+  expect({{}, upright_cylinder, 60, 0.5, 180, true}, 16, 16, {0.4862, 0, 0.8738});  // cylinder 3
+  expect({{}, lying_cylinder, 0.5, 60, 180, true}, 8, 24, {0, 0.6901, 0.7237});     // cylinder 4
+}
+
+TEST(WideCamera, AFisheyeHasAnEdge) {
+  const WideCamera camera{{}, WideCamera::Projection::fisheye, 80, 60, 60};
+  EXPECT_EQ(camera_ray(camera, {50 * 1.74, 25}, {}).weight, 1);
+  EXPECT_EQ(camera_ray(camera, {50 * 1.76, 25}, {}).weight, 0);
+}
+
+// The camera of a cylinder whose rays are parallel moves along its axis, as far as `up` is long.
+TEST(WideCamera, MovesAlongACylinder) {
+  const WideCamera upright{{}, WideCamera::Projection::upright_cylinder, 60, 0.5, 180, true};
+  const CameraRay ray = camera_ray(upright, {20, 5}, {});
+  EXPECT_FLOAT_EQ(ray.origin.y, 0.4f);
+  EXPECT_FLOAT_EQ(ray.origin.x, 0);
+  const WideCamera lying{{}, WideCamera::Projection::lying_cylinder, 0.5, 60, 180, true};
+  EXPECT_FLOAT_EQ(camera_ray(lying, {20, 5}, {}).origin.x, -0.3f);
+}
+
 }  // namespace
 }  // namespace vitrail

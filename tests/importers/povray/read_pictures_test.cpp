@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// What decides of the picture: the space of its colours, finishes, shadows, cameras. Numbers are povray's.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "importers/povray/read/povray.h"
+#include "tests/importers/temporary_folder.h"
+
+namespace vitrail {
+namespace {
+
+class ReadPovrayPictures : public ::testing::Test {
+ protected:
+  ImportedScene read(const std::string& text, bool for_export = false) {
+    const auto path = folder_.path() / "scene.pov";
+    std::ofstream(path) << text;
+    ImportOptions options;
+    options.for_export = for_export;
+    return read_povray(path, MeshMemory{}, options);
+  }
+  static bool says(const ImportedScene& scene, const std::string& text) {
+    for (const auto& note : scene.diagnostics)
+      if (note.message.find(text) != std::string::npos) return true;
+    return false;
+  }
+  static double red(const SpectrumParameter& p) {
+    const auto& spectrum = std::get<Spectrum>(p);
+    if (const auto* constant = std::get_if<ConstantSpectrum>(&spectrum))
+      return static_cast<double>(constant->value);
+    return std::get<SigmoidSpectrum>(spectrum).rgb[0];
+  }
+  static const MaterialModel& model_of(const ImportedScene& imported, std::size_t shape = 0) {
+    return imported.scene.materials.at(imported.scene.shapes.at(shape).material.value).model;
+  }
+
+  TemporaryFolder folder_;
+};
+
+const std::string ball = "sphere { 0, 1 pigment { rgb <.5,.2,.1> } finish { ambient 0 diffuse 1 } }";
+const std::string gamma_1 = "#version 3.7; global_settings { assumed_gamma 1 } camera { location -4*z }\n";
+
+// Colours stay what they are, and the film turns sums into light; writers get light.
+TEST_F(ReadPovrayPictures, TheFilmHasTheGammaOfTheScene) {
+  const auto expect = [&](const std::string& head, double gamma, double as_light) {
+    const ImportedScene shown = read(head + ball), written = read(head + ball, true);
+    EXPECT_EQ(shown.scene.film.working_gamma, gamma) << head;
+    EXPECT_NEAR(red(std::get<DiffuseMaterial>(model_of(shown)).reflectance), 0.5, 1e-6) << head;
+    EXPECT_FALSE(says(shown, "assumed_gamma"));
+    EXPECT_EQ(written.scene.film.working_gamma, 1) << head;
+    EXPECT_NEAR(red(std::get<DiffuseMaterial>(model_of(written)).reflectance), as_light, 1e-4) << head;
+    EXPECT_EQ(says(written, "assumed_gamma"), gamma != 1) << head;
+  };
+  expect("#version 3.7; global_settings { assumed_gamma 1 }", 1, 0.5);
+  expect("#version 3.7;", 1, 0.5);
+  expect("#version 3.7; global_settings { assumed_gamma 2.2 }", 2.2, 0.2176);
+  expect("#version 3.7; global_settings { assumed_gamma srgb }", srgb_gamma, 0.2140);
+  expect("#version 3.6; global_settings { assumed_gamma 1.5 }", 1.5, 0.3536);
+  expect("#version 3.6;", srgb_gamma, 0.2140);
+  expect("", srgb_gamma, 0.2140);
+}
+
+TEST_F(ReadPovrayPictures, NumbersOfImages) {
+  std::ofstream(folder_.path() / "a.ppm") << "P3 1 1 255 255 0 0\n";
+  const auto expect = [&](const std::string& head, const std::string& more, Encoding encoding, float gamma) {
+    const ImportedScene imported =
+        read(head + "plane { z, 0 pigment { image_map { ppm \"a.ppm\" " + more + " } } }");
+    const auto& image = std::get<ImageTexture>(imported.scene.textures.at(0).model);
+    EXPECT_EQ(image.encoding, encoding) << head << more;
+    if (encoding == Encoding::gamma) EXPECT_FLOAT_EQ(image.gamma, gamma) << head << more;
+  };
+  const std::string v37 = "#version 3.7; global_settings { assumed_gamma ", v36 = "#version 3.6; ";
+  expect(v37 + "1 }", "", Encoding::automatic, 0);
+  expect(v37 + "1 }", "gamma 1.8", Encoding::gamma, 1.8f);
+  expect(v37 + "2.2 }", "", Encoding::linear, 0);
+  expect(v37 + "2.2 }", "gamma 1.1", Encoding::gamma, 0.5f);
+  expect(v37 + "srgb }", "", Encoding::linear, 0);
+  expect(v36, "", Encoding::linear, 0);
+  expect(v36 + "global_settings { assumed_gamma 1 }", "", Encoding::linear, 0);
+  expect(v36 + "global_settings { assumed_gamma 2.2 }", "", Encoding::linear, 0);
+}
+
+TEST_F(ReadPovrayPictures, HighlightsAreThoseOfTheFinish) {
+  const std::string text =
+      gamma_1 +
+      "sphere { 0, 1 pigment { rgb <.5,.2,.1> } finish { diffuse .6 phong .4 phong_size 20 "
+      "specular .3 roughness .01 brilliance 2 } }";
+  const ImportedScene shown = read(text), written = read(text, true);
+  const auto& finish = std::get<FinishMaterial>(model_of(shown));
+  EXPECT_NEAR(red(finish.reflectance), 0.3, 1e-6);
+  EXPECT_FLOAT_EQ(finish.phong, 0.4f);
+  EXPECT_FLOAT_EQ(finish.phong_size, 20);
+  EXPECT_FLOAT_EQ(finish.specular, 0.3f);
+  EXPECT_FLOAT_EQ(finish.roughness, 0.01f);
+  EXPECT_FLOAT_EQ(finish.brilliance, 2);
+  EXPECT_EQ(finish.highlight, SpectrumParameter{ConstantSpectrum{1}});
+  EXPECT_FALSE(says(shown, "phong") || says(shown, "brilliance"));
+  EXPECT_TRUE(std::holds_alternative<BlendMaterial>(model_of(written)));
+  EXPECT_TRUE(says(written, "phong") && says(written, "brilliance"));
+}
+
+// A mirror takes its share of all light; POV-Ray adds it to the rest, which is more than 1 here.
+TEST_F(ReadPovrayPictures, AMirrorLeavesTheRestAsItIs) {
+  const ImportedScene imported =
+      read(gamma_1 + "sphere { 0, 1 pigment { rgb 1 } finish { diffuse .9 specular .5 reflection .4 } }");
+  const auto& blend = std::get<BlendMaterial>(model_of(imported));
+  const float mirror = std::get<float>(blend.amount);
+  EXPECT_NEAR(mirror, 0.4, 1e-6);
+  const auto& finish = std::get<FinishMaterial>(imported.scene.materials.at(blend.first.value).model);
+  EXPECT_NEAR((1 - mirror) * finish.specular, 0.5, 1e-5);
+  EXPECT_NEAR((1 - static_cast<double>(mirror)) * evaluate(std::get<Spectrum>(finish.reflectance), 550), 0.9,
+              1e-3);
+}
+
+TEST_F(ReadPovrayPictures, ShadowsThatAreNotThere) {
+  const std::string text = gamma_1 +
+                           "light_source { 9, 1 shadowless } light_source { 9, 1 } sphere { 0, 1 no_shadow } "
+                           "union { sphere { 0, 1 } box { 0, 1 } no_shadow } sphere { 0, 2 }";
+  const ImportedScene shown = read(text), written = read(text, true);
+  EXPECT_FALSE(shown.scene.lights.at(0).casts_shadows);
+  EXPECT_TRUE(shown.scene.lights.at(1).casts_shadows);
+  ASSERT_EQ(shown.scene.shapes.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(shown.scene.materials.at(shown.scene.shapes[i].material.value).casts_shadow, i == 3) << i;
+  EXPECT_FALSE(says(shown, "shadow"));
+  EXPECT_TRUE(written.scene.lights.at(0).casts_shadows);
+  for (const Material& material : written.scene.materials) EXPECT_TRUE(material.casts_shadow);
+  EXPECT_TRUE(says(written, "shadowless") && says(written, "no_shadow"));
+}
+
+TEST_F(ReadPovrayPictures, Cameras) {
+  using enum WideCamera::Projection;
+  const auto camera = [&](const std::string& kind) {
+    return std::get<WideCamera>(
+        read("camera { " + kind + " location 0 direction z } sphere { z*4, 1 }").scene.camera);
+  };
+  const auto expect = [&](const std::string& kind, WideCamera::Projection projection, double across,
+                          double above, double edge_deg = 180, bool parallel = false) {
+    const WideCamera found = camera(kind);
+    EXPECT_EQ(found.projection, projection) << kind;
+    EXPECT_NEAR(found.across, across, 1e-9) << kind;
+    EXPECT_NEAR(found.above, above, 1e-9) << kind;
+    EXPECT_NEAR(found.edge_deg, edge_deg, 1e-9) << kind;
+    EXPECT_EQ(found.parallel, parallel) << kind;
+    EXPECT_NEAR(found.camera_to_world.m[0][0], 1, 1e-12) << kind;
+    EXPECT_NEAR(found.camera_to_world.m[1][1], 1, 1e-12) << kind;
+  };
+  expect("spherical", latitude_longitude, 180, 90);
+  expect("spherical angle 120", latitude_longitude, 60, 30);
+  expect("spherical angle 120 90", latitude_longitude, 60, 45);
+  expect("fisheye angle 150 right 2*x", fisheye, 150, 75, 75);
+  expect("ultra_wide_angle angle 150 right 2*x", ultra_wide, 75, 37.5);
+  expect("panoramic right 2*x", panoramic, 2, 1);
+  expect("cylinder 1 angle 100", upright_cylinder, 50, 0.5);
+  expect("cylinder 2 angle 100 right 2*x", lying_cylinder, 1, 50);
+  expect("cylinder 3 angle 100", upright_cylinder, 50, 0.5, 180, true);
+  expect("cylinder 4 angle 100 right 2*x", lying_cylinder, 1, 50, 180, true);
+  // It turns to the right whatever the hand of `right`.
+  EXPECT_NEAR(camera("spherical right -x*4/3").camera_to_world.m[0][0], 1, 1e-12);
+  EXPECT_NEAR(camera("spherical right -x*4/3").camera_to_world.m[1][1], -1, 1e-12);
+  const ImportedScene omnimax = read("camera { omnimax } sphere { z*4, 1 }");
+  EXPECT_TRUE(says(omnimax, "omnimax"));
+  EXPECT_TRUE(std::holds_alternative<SphericalCamera>(
+      read("camera { spherical } sphere { z*4, 1 }", true).scene.camera));
+}
+
+// Fog and atmosphere fill no object that is not hollow, and nothing at all where the eye is in one.
+TEST_F(ReadPovrayPictures, WhatIsNotHollowKeepsFogOut) {
+  const std::string clear = " pigment { rgbt 1 } finish { diffuse 0 ambient 0 } }";
+  const auto fog = [&](const std::string& more) {
+    return read(gamma_1 + "fog { distance 9 rgb .5 } " + more).scene;
+  };
+  const Scene solid = fog("sphere { 0, 1" + clear), hollow = fog("sphere { 0, 1 hollow" + clear),
+              opaque = fog("sphere { 0, 1 pigment { rgb 1 } }"),
+              within = fog("sphere { 0, 50 pigment { rgb 1 } }"),
+              below = fog("union { plane { y, 9 } sphere { 0, 1 } pigment { rgb 1 } }"),
+              sky = fog("plane { y, 9 hollow pigment { rgb 1 } }");
+  EXPECT_TRUE(solid.shapes.at(0).exterior && !solid.shapes.at(0).interior);
+  EXPECT_FALSE(hollow.shapes.at(0).exterior || opaque.shapes.at(0).exterior);
+  for (const Scene* there : {&solid, &hollow, &opaque, &sky}) EXPECT_TRUE(there->camera_medium);
+  EXPECT_FALSE(within.camera_medium || below.camera_medium);
+  EXPECT_TRUE(solid.media.at(0).veils);
+}
+
+}  // namespace
+}  // namespace vitrail

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// What POV-Ray's scenes show of lamps: highlights that are not normalised, no shadows, media that weaken no
+// lamp.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/geometry/portable_math.h"
+#include "tests/laws/light/flat_scenes.h"
+
+namespace vitrail::test {
+namespace {
+
+const Material white{DiffuseMaterial{ConstantSpectrum{1}}};
+
+Rendered with(const Scene& scene, Integrator integrator, int samples, std::uint32_t domains = 1) {
+  RenderOptions options;
+  options.picture.samples_per_pixel = samples;
+  options.picture.integrator = integrator;
+  return render(scene, std::move(options), domains);
+}
+
+void expect_mean(const std::string& what, const Scene& scene, double expected, int samples = 16) {
+  const Brightness seen = brightness(with(scene, Integrator::direct, samples).film);
+  fmt::print("{}: {:.6g} ± {:.2g} of {:.6g}\n", what, seen.mean, seen.standard_error, expected);
+  EXPECT_NEAR(seen.mean, expected, 4.5 * seen.standard_error + 5e-4 * expected + 1e-7) << what;
+}
+
+// A plane seen from `out`, and a lamp far off along `in` that shows reflectance 1 as cos θ.
+Scene seen(const Material& material, Vector3d out, Vector3d in, bool shadows = true) {
+  Scene scene;
+  add_shape(scene, square(scene, 0, 2), material);
+  look_along(scene, out, {}, 1e-4);
+  scene.lights.push_back(
+      {PointLight{Point3d{} + in * 1e4, ConstantSpectrum{static_cast<float>(pi)}, Fading{}}, {}});
+  scene.lights.back().casts_shadows = shadows;
+  return scene;
+}
+
+// POV-Ray's own pictures show s·(r·l)^size and s·(n·h)^(1/roughness), without a cosine.
+TEST(PovraySurfaces, HighlightsAddUp) {
+  FinishMaterial finish{ConstantSpectrum{0.3f}, ConstantSpectrum{1}};
+  finish.phong = 0.5f, finish.phong_size = 10, finish.specular = 0.25f, finish.roughness = 0.1f;
+  for (const double view_deg : {0.0, 50.0})
+    for (const double light_deg : {0.0, 25.0, 60.0}) {
+      const Vector3d out = direction(view_deg), in = direction(light_deg, 180);
+      const Vector3d h = normalize(out + in);
+      const double mirrored = std::max(out.z * in.z - out.x * in.x - out.y * in.y, 0.0);
+      const double expected = 0.3 * in.z + 0.5 * std::pow(mirrored, 10) + 0.25 * std::pow(h.z, 10);
+      expect_mean(fmt::format("seen at {}, lit at {}", view_deg, light_deg), seen(Material{finish}, out, in),
+                  expected);
+    }
+  finish = {ConstantSpectrum{0.8f}, ConstantSpectrum{1}, 3};
+  expect_mean("brilliance", seen(Material{finish}, direction(30), direction(60)), 0.8 / 8);
+}
+
+// Sampled directions and the density of asking for them are of one function.
+TEST(PovraySurfaces, HighlightsUnderASky) {
+  FinishMaterial finish{ConstantSpectrum{0.3f}, ConstantSpectrum{1}};
+  finish.specular = 0.5f, finish.roughness = 0.2f, finish.phong = 0.2f, finish.phong_size = 4;
+  const Vector3d out = direction(40);
+  const double expected = over_sphere([&](Vector3d in) {
+    if (in.z <= 0) return 0.0;
+    const double mirrored = std::max(out.z * in.z - out.x * in.x - out.y * in.y, 0.0);
+    return (0.3 * in.z + 0.5 * std::pow(normalize(out + in).z, 5) + 0.2 * std::pow(mirrored, 4)) / pi;
+  });
+  expect_luminance(plane_under_sky(Material{finish}, out, 256), expected, 0.01, "a finish under a sky", 1e-3);
+}
+
+TEST(PovraySurfaces, ShadowlessLampsHaveNoHighlights) {
+  FinishMaterial finish{ConstantSpectrum{0.3f}, ConstantSpectrum{1}};
+  finish.specular = 0.5f;
+  for (const bool shadows : {true, false})
+    for (const bool blocked : {true, false}) {
+      Scene scene = seen(Material{finish}, direction(20), direction(20, 180), shadows);
+      if (blocked) {
+        add_shape(scene, square(scene, 30, 1), white);
+        scene.shapes.back().object_to_world = translate({-30 * std::tan(20 * pi / 180), 0, 0});
+      }
+      const double diffuse = 0.3 * std::cos(20 * pi / 180);
+      expect_mean(fmt::format("shadows {}, blocked {}", shadows, blocked), scene,
+                  shadows ? (blocked ? 0 : diffuse + 0.5) : diffuse);
+      const std::uint64_t hash = with(scene, Integrator::path, 4).film.hash();
+      EXPECT_EQ(with(scene, Integrator::path, 4, 4).film.hash(), hash);
+    }
+  // From below no light comes, with shadows or without.
+  expect_mean("from below", seen(white, direction(20), direction(160), false), 0);
+}
+
+TEST(PovraySurfaces, LightPassesWhatHasNoShadow) {
+  for (const bool casts : {true, false}) {
+    Scene scene = seen(white, direction(0), direction(40));
+    add_shape(scene, square(scene, 1, 1), white);
+    scene.shapes.back().object_to_world = translate({std::tan(40 * pi / 180), 0, 0});
+    scene.materials.at(scene.shapes.back().material.value).casts_shadow = casts;
+    expect_mean(casts ? "a square" : "one without shadow", scene, casts ? 0 : std::cos(40 * pi / 180));
+    for (const Integrator integrator : {Integrator::direct, Integrator::path}) {
+      const std::uint64_t hash = with(scene, integrator, 4).film.hash();
+      for (const std::uint32_t domains : {4u, 16u})
+        EXPECT_EQ(with(scene, integrator, 4, domains).film.hash(), hash) << domains;
+    }
+    // It is seen itself.
+    look_along(scene, {0, 0, 1}, {std::tan(40 * pi / 180), 0, 1}, 1e-4);
+    expect_mean("it", scene, std::cos(40 * pi / 180));
+  }
+}
+
+// A medium that scatters around everything: POV-Ray shows c·(1 − e^(−s·d)) of it, and the floor behind
+// weakened by e^(−s·d) alone, however far the lamp is.
+TEST(PovraySurfaces, AnAtmosphereWeakensNoLamp) {
+  for (const bool veils : {true, false}) {
+    Scene scene = seen(white, direction(0), direction(0));
+    scene.lights[0].model = PointLight{{0, 0, 5}, ConstantSpectrum{static_cast<float>(pi)}, Fading{}};
+    look_along(scene, {0, 0, 1}, {}, 1e-4);
+    OrthographicCamera camera = std::get<OrthographicCamera>(scene.camera);
+    camera.camera_to_world = look_at({0, 0, 2}, {0, 0, 0}, {0, 1, 0});
+    scene.camera = camera;
+    Medium medium;
+    medium.coefficients = ExtinctionAlbedo{ConstantSpectrum{0.2f}, ConstantSpectrum{4}};
+    medium.veils = veils;
+    scene.media.push_back(medium);
+    scene.camera_medium = Id<Medium>{0};
+    const double left = std::exp(-0.4);
+    const double to_lamp = veils ? 1 : std::exp(-1.0);  // of the floor, 5 below the lamp
+    // ∫ s·e^(−s·t)·e^(−s·(3 + t)) dt over the two units before the floor
+    const double scattered = veils ? 1 - left : std::exp(-0.6) * (1 - std::exp(-0.8)) / 2;
+    expect_mean(veils ? "an atmosphere" : "another medium", scene, left * to_lamp + scattered, 4096);
+  }
+}
+
+}  // namespace
+}  // namespace vitrail::test

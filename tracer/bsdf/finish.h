@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// POV-Ray's finish (scene/records/material.h has the equation): its highlights are not normalised and not
+// reciprocal. Directions are sampled by half from a hemisphere of even density, as highlights have no cosine.
+#pragma once
+
+#include <optional>
+
+#include "tracer/bsdf/bsdf.h"
+
+namespace vitrail {
+
+struct FinishBsdf {
+  SampledSpectrum reflectance, highlight;
+  double brilliance = 1, phong = 0, phong_size = 40, specular = 0, roughness = 0.05;
+};
+
+inline FinishBsdf without_highlights(FinishBsdf bsdf) {
+  bsdf.phong = bsdf.specular = 0;
+  return bsdf;
+}
+
+BsdfValue eval(const FinishBsdf& bsdf, Vector3d out, Vector3d in);
+double pdf(const FinishBsdf& bsdf, Vector3d out, Vector3d in);
+std::optional<BsdfSample> sample(const FinishBsdf& bsdf, Vector3d out, float u_lobe, Point2f u);
+
+}  // namespace vitrail
