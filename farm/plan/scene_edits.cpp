@@ -193,6 +193,8 @@ bool set_roughness(MaterialModel& model, const SceneEdit& edit) {
       [&](auto& m) {
         if constexpr (requires { m.base_color; })
           m.roughness = static_cast<float>(edit.values[0]);
+        else if constexpr (requires { m.phong_size; })  // POV-Ray's own, whose exponent is 1/roughness
+          m.roughness = std::max(static_cast<float>(edit.values[0]), 1e-4f);
         else if constexpr (requires { m.roughness; })
           set_facets(m.roughness, edit);
         else if constexpr (requires { m.interface_roughness; })

@@ -14,15 +14,6 @@ namespace {
 constexpr double far = 1e7;
 const Bounds3d everything{{-far, -far, -far}, {far, far, far}};
 
-Bounds3d moved_box(const Bounds3d& box, const Transform& t) {
-  if (box.empty()) return box;
-  Bounds3d result;
-  for (int i = 0; i < 8; ++i)
-    extend(result, transform_point(t, {i & 1 ? box.lower.x : box.upper.x, i & 2 ? box.lower.y : box.upper.y,
-                                       i & 4 ? box.lower.z : box.upper.z}));
-  return result;
-}
-
 Bounds3d around(Point3d center, double radius) {
   const Vector3d r{radius, radius, radius};
   return {center - r, center + r};
@@ -104,6 +95,15 @@ Bounds3d shape_box(const Object& object) {
 }
 
 }  // namespace
+
+Bounds3d moved_box(const Bounds3d& box, const Transform& t) {
+  if (box.empty()) return box;
+  Bounds3d result;
+  for (int i = 0; i < 8; ++i)
+    extend(result, transform_point(t, {i & 1 ? box.lower.x : box.upper.x, i & 2 ? box.lower.y : box.upper.y,
+                                       i & 4 ? box.lower.z : box.upper.z}));
+  return result;
+}
 
 const Bounds3d& own_box(const Object& object) {
   if (!object.box) object.box = shape_box(object);

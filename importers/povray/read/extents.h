@@ -4,6 +4,7 @@
 
 #include "importers/povray/read/token.h"
 #include "scene/geometry/bounds.h"
+#include "scene/geometry/transform.h"
 
 namespace vitrail::pov {
 
@@ -13,5 +14,8 @@ class Reader;
 const Bounds3d& own_box(const Object& object);
 // That box under the transformation: min_extent() and max_extent(). What is inverse keeps it.
 Bounds3d extents_of(const Object& object);
+
+// The box of a box that is transformed; nothing of nothing.
+Bounds3d moved_box(const Bounds3d& box, const Transform& t);
 
 }  // namespace vitrail::pov

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "importers/povray/read/extents.h"
 #include "importers/povray/read/reader.h"
 
 namespace vitrail::pov {
@@ -112,11 +113,19 @@ void read_clips(Reader& reader, Object& object) {
   while (!reader.accept('}')) object.clipped_by.push_back(read_object(reader));
 }
 
-void skip_bounds(Reader& reader) {
+// They say where POV-Ray looks for the object. One without an end is made within their box; of others they
+// are no part.
+void read_bounds(Reader& reader, Object& object) {
   reader.expect('{', "behind bounded_by");
+  Bounds3d bound;
   if (!reader.accept(Word::clipped_by_))
-    while (!reader.at('}')) read_object(reader);
+    while (!reader.at('}'))
+      if (const Bounds3d one = extents_of(*read_object(reader)); !one.empty()) extend(bound, one);
   reader.expect('}', "at the end of bounded_by");
+  if (auto* solid = std::get_if<SolidShape>(&object.shape); solid && solid->unbounded && !bound.empty())
+    solid->make = [within = *solid->unbounded, box = moved_box(bound, inverse(object.to_parent))] {
+      return within(box);
+    };
 }
 
 }  // namespace
@@ -174,7 +183,7 @@ bool read_object_modifier(Reader& reader, Object& object, int& layers) {
       read_clips(reader, object);
       return true;
     case Word::bounded_by_:
-      skip_bounds(reader);
+      read_bounds(reader, object);
       return true;
     case Word::no_shadow_:
       object.no_shadow = true;

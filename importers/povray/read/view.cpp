@@ -40,6 +40,16 @@ void look_at(Reader& reader, CameraView& c, Vector3d target) {
   c.direction = c.direction * far;
 }
 
+// An orthographic view of an angle is as wide as a perspective one is at the distance of what it looks at,
+// whatever `right` says; without look_at that is <0,0,1>. Measured with povray 3.7.
+void size_by_angle(CameraView& c, Vector3d target) {
+  const double wide = 2 * length(target - c.location) * std::tan(c.angle * std::numbers::pi / 360);
+  if (!(wide > 0)) return;
+  const double factor = wide / length(c.right);
+  c.right = c.right * factor, c.up = c.up * factor;
+  c.angle = 0;  // once: what transforms the camera comes after it
+}
+
 }  // namespace
 
 Shared<CameraView> read_camera_block(Reader& reader) {
@@ -52,6 +62,8 @@ Shared<CameraView> read_camera_block(Reader& reader) {
     if (c.angle > 0 && c.kind == Word::perspective_ && c.angle < 180)
       c.direction =
           normalize(c.direction) * (0.5 * length(c.right) / std::tan(c.angle * std::numbers::pi / 360));
+    if (c.kind == Word::orthographic_ && c.angle > 0 && c.angle < 180)
+      size_by_angle(c, target.value_or(Vector3d{0, 0, 1}));
     if (target) look_at(reader, c, *target);
     target.reset();
   };

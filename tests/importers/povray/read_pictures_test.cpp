@@ -2,9 +2,13 @@
 // What decides of the picture: the space of its colours, finishes, shadows, cameras. Numbers are povray's.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "importers/povray/read/povray.h"
+#include "scene/geometry/bounds.h"
+#include "scene/shapes/deferred_mesh.h"
 #include "tests/importers/temporary_folder.h"
 
 namespace vitrail {
@@ -67,7 +71,9 @@ TEST_F(ReadPovrayPictures, NumbersOfImages) {
         read(head + "plane { z, 0 pigment { image_map { ppm \"a.ppm\" " + more + " } } }");
     const auto& image = std::get<ImageTexture>(imported.scene.textures.at(0).model);
     EXPECT_EQ(image.encoding, encoding) << head << more;
-    if (encoding == Encoding::gamma) EXPECT_FLOAT_EQ(image.gamma, gamma) << head << more;
+    if (encoding == Encoding::gamma) {
+      EXPECT_FLOAT_EQ(image.gamma, gamma) << head << more;
+    }
   };
   const std::string v37 = "#version 3.7; global_settings { assumed_gamma ", v36 = "#version 3.6; ";
   expect(v37 + "1 }", "", Encoding::automatic, 0);
@@ -180,6 +186,36 @@ TEST_F(ReadPovrayPictures, WhatIsNotHollowKeepsFogOut) {
   for (const Scene* there : {&solid, &hollow, &opaque, &sky}) EXPECT_TRUE(there->camera_medium);
   EXPECT_FALSE(within.camera_medium || below.camera_medium);
   EXPECT_TRUE(solid.media.at(0).veils);
+}
+
+// povray shows 3.464 of x for the first, 4.619 for the one without look_at, which then is <0,0,1>.
+TEST_F(ReadPovrayPictures, AnOrthographicViewIsAsWideAsItsAngleIsAtLookAt) {
+  const auto width = [&](const std::string& camera) {
+    const auto seen = std::get<OrthographicCamera>(
+        read("camera { orthographic " + camera + " } sphere { 0, 1 }").scene.camera);
+    return (seen.screen.x1 - seen.screen.x0) * length(transform_vector(seen.camera_to_world, {1, 0, 0}));
+  };
+  const double at_3 = 6 * std::tan(std::numbers::pi / 6);
+  EXPECT_NEAR(width("location -3*z look_at 0 angle 60"), at_3, 1e-6);
+  EXPECT_NEAR(width("angle 60 right 8*x location -3*z look_at 0"), at_3, 1e-6);
+  EXPECT_NEAR(width("location -3*z angle 60"), at_3 * 4 / 3, 1e-6);
+  EXPECT_NEAR(width("location -3*z look_at 0 angle 60 scale 2"), 2 * at_3, 1e-6);
+  EXPECT_NEAR(width("location -3*z look_at 0 right 4*x up 3*y"), 4, 1e-6);
+}
+
+// x² − y² = 1 has no end; POV-Ray looks for it where a ray meets the ball; here it ends at the box of the
+// ball.
+TEST_F(ReadPovrayPictures, AShapeWithoutEndIsMadeWithinItsBounds) {
+  const std::string shape = "quadric { <1,-1,0>, 0, 0, -1 ";
+  const ImportedScene within = read(shape + "bounded_by { sphere { 0, 3 } } } sphere { 0, .1 }");
+  Bounds3d box;
+  for (const Shape& s : within.scene.shapes) {
+    TriangleMesh storage;
+    for (const Point3f& p : loaded(within.scene.meshes.at(s.mesh.value), storage).positions)
+      extend(box, transform_point(s.object_to_world, cast<double>(p)));
+  }
+  EXPECT_NEAR(box.upper.x, 3, 1e-3);
+  EXPECT_NEAR(box.upper.z, 3, 1e-3);
 }
 
 }  // namespace
