@@ -68,13 +68,16 @@ TEST_F(Plan, ProfilesCountEveryRayOnItsWay) {
 }
 
 TEST_F(Plan, WarnsOfFewSamples) {
-  ASSERT_EQ(render("whole.json", "--crop 0,320,0,320 --scale .3125 --spp 1", 1).status, 0);
+  const CommandResult whole =
+      run(fmt::format("{} '{}' -o '{}' --quiet --spp 1 --profile '{}'", vitrail("render"), path("box.vit"),
+                      path("whole.film"), path("whole.json")));
+  ASSERT_EQ(whole.status, 0) << whole.output;
   const auto planned = [&](const std::string& options) {
     return run(fmt::format("{} '{}' --profile '{}' --ranks 1 {}", vitrail("plan"), path("box.vit"),
                            path("whole.json"), options));
   };
   EXPECT_THAT(planned("").output,
-              HasSubstr("samples a pixel, those of the profile; --times 256 plans 256 times"));
+              HasSubstr("this plans 1 samples a pixel, those of the profile; --times 256 plans 256 times"));
   EXPECT_THAT(planned("--times 256").output, Not(HasSubstr("those of the profile")));
 }
 

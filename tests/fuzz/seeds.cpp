@@ -50,6 +50,7 @@ void add_scenes(Seeds& seeds) {
   add("mitsuba", SceneFormat::mitsuba_06, "mitsuba-0.6.txt");
   add("mitsuba", SceneFormat::mitsuba_3, "mitsuba-3.txt");
   add("gltf", SceneFormat::gltf, "gltf.txt");
+  add("obj", SceneFormat::obj, "obj.txt");
 }
 
 void add_meshes(Seeds& seeds) {

@@ -137,6 +137,9 @@ void add_media(const Context& context, Element element, const Shape& shape) {
 // Of a surface of which something is not there: Mitsuba's masks leave the light of the surface alone.
 AreaLight light_of(Context& context, const Shape& shape) {
   AreaLight light = context.exposed.area_lights[shape.area_light->value];
+  // Ids are unique, and a lamp that has none is known by its shape, or by its material.
+  if (light.name == shape.name || light.name == context.scene.materials[shape.material.value].name)
+    light.name.clear();
   if (shape.opacity == FloatParameter{0.0f})
     context.approximated(hides_emitters(context.scene)
                              ? "a light that nothing meets casts shadows in Mitsuba, and mirrors show it"

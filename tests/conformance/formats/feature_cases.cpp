@@ -40,7 +40,8 @@ std::vector<PluginCase> read_cases(const std::filesystem::path& file) {
   return cases;
 }
 
-std::string parameter_name(const std::string& parameter) {
+std::string parameter_name(SceneFormat format, const std::string& parameter) {
+  if (format == SceneFormat::obj) return "`" + parameter + "`";
   if (parameter[0] == '"') return parameter.substr(1, parameter.find('"', 1) - 1);
   const std::string tag = parameter.substr(1, parameter.find_first_of(" >") - 1);
   const auto attribute = [&](const std::string& name) {

@@ -51,7 +51,9 @@ class Trials {
   Tried of(SceneFormat format, const PluginCase& plugin, const std::string& parameters) {
     const bool pbrt = format == SceneFormat::pbrt_v3 || format == SceneFormat::pbrt_v4;
     const bool gltf = format == SceneFormat::gltf;
-    const fs::path file = folder_ / (pbrt ? "in.pbrt" : gltf ? "in.gltf" : "in.xml");
+    const bool obj = format == SceneFormat::obj;
+    const fs::path file = folder_ / (pbrt ? "in.pbrt" : gltf ? "in.gltf" : obj ? "in.obj" : "in.xml");
+    if (obj) std::ofstream(folder_ / "in.mtl") << mtl_library(plugin, parameters);
     std::ofstream(file) << host_scene(format, plugin, parameters);
     Tried tried;
     guard(tried.said[0], [&] {
@@ -162,8 +164,8 @@ std::string table_of(SceneFormat format, const std::string& cases, Trials& trial
     table += row("**" + plugin.name + "**", alone, host, nullptr, notes, counts);
     if (!alone.scene) continue;
     for (const std::string& parameter : plugin.parameters)
-      table +=
-          row(parameter_name(parameter), trials.of(format, plugin, parameter), alone, &host, notes, counts);
+      table += row(parameter_name(format, parameter), trials.of(format, plugin, parameter), alone, &host,
+                   notes, counts);
   }
   return table + "\n" + notes.list();
 }
@@ -175,12 +177,13 @@ std::string count_line(const char* step, const std::map<Verdict, int>& counts) {
 }
 
 std::string page() {
-  constexpr std::array<std::tuple<const char*, const char*, SceneFormat>, 5> formats{{
+  constexpr std::array<std::tuple<const char*, const char*, SceneFormat>, 6> formats{{
       {"PBRT v4", "pbrt-v4.txt", SceneFormat::pbrt_v4},
       {"PBRT v3", "pbrt-v3.txt", SceneFormat::pbrt_v3},
       {"Mitsuba 3", "mitsuba-3.txt", SceneFormat::mitsuba_3},
       {"Mitsuba 0.6", "mitsuba-0.6.txt", SceneFormat::mitsuba_06},
       {"glTF 2.0", "gltf.txt", SceneFormat::gltf},
+      {"OBJ and MTL", "obj.txt", SceneFormat::obj},
   }};
   Trials trials;
   std::string sections, summary;

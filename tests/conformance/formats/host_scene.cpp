@@ -102,6 +102,8 @@ std::string host_scene(SceneFormat format, const PluginCase& plugin, const std::
       return mitsuba_scene("3.0.0", plugin, parameters);
     case SceneFormat::gltf:
       return gltf_scene(plugin, parameters);
+    case SceneFormat::obj:
+      return obj_scene(plugin, parameters);
   }
   return "";
 }

@@ -53,6 +53,22 @@ TEST_F(WriteMitsuba, EqualScenesGiveEqualFiles) {
   EXPECT_EQ(text_, first);
 }
 
+// As those of an OBJ are.
+TEST_F(WriteMitsuba, LampsNamedAsTheirShapeOrMaterialHaveNoIdOfTheirOwn) {
+  Scene scene = square_scene({});
+  scene.materials[0].name = "glow";
+  scene.area_lights.push_back({Spectrum{ConstantSpectrum{1}}});
+  scene.shapes[0].area_light = Id<AreaLight>{0};
+  scene.shapes[0].name = "lamp";
+  for (const auto& [name, id] : {std::pair("lamp", ""), std::pair("glow", ""), std::pair("other", "other")}) {
+    scene.area_lights[0].name = name;
+    const auto root = write(scene);
+    EXPECT_STREQ(root.child("shape").child("emitter").attribute("id").value(), id) << name;
+    EXPECT_STREQ(root.child("shape").attribute("id").value(), "lamp");
+    EXPECT_THAT(diagnostics_, IsEmpty()) << name;
+  }
+}
+
 TEST_F(WriteMitsuba, NamesAreEscapedAndUnique) {
   const std::string name = "a <b> & \"c\" 'd' ü\n\t";
   Scene scene = square_scene({});

@@ -575,6 +575,7 @@ TEST_F(Obj, Emission) {
   AreaLight expected;
   expected.radiance = Spectrum{emission_from_rgb({2, 3, 4})};
   expected.two_sided = true;
+  expected.name = "m";  // the material
   EXPECT_EQ(imported_.scene.area_lights[0], expected);
   EXPECT_EQ(imported_.scene.shapes[0].area_light, Id<AreaLight>{0});
   folder_.write("e.hdr", "");
