@@ -39,6 +39,23 @@ std::string gltf(const std::string& slot) {
 "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],"nodes":[{"mesh":0}],
 "scenes":[{"nodes":[0]}],"scene":0})";
 }
+// COLLADA.
+std::string collada(const std::string& image) {
+  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<library_images><image id="i"><init_from>)" +
+         image + R"(</init_from></image></library_images>
+<library_effects><effect id="e"><profile_COMMON><newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam>
+<newparam sid="u"><sampler2D><source>s</source></sampler2D></newparam><technique sid="t"><phong><diffuse><texture texture="u"
+texcoord="UV"/></diffuse></phong></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array>
+<technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/>
+</vertices><triangles count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh>
+</geometry></library_geometries><library_visual_scenes><visual_scene id="w"><node><instance_geometry url="#g"><bind_material>
+<technique_common><instance_material symbol="m" target="#m"/></technique_common></bind_material></instance_geometry></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#w"/></scene></COLLADA>)";
+}
 std::string povray(const std::string& pigment) {
   return "camera { location -3*z }\nsphere { 0 1 pigment {" + pigment + "} }\n";
 }
@@ -80,6 +97,7 @@ std::vector<Case> cases() {
       {"POV-Ray", "a.pov", povray("image_map { png \"lost.png\" }"), "a.pov:2:"},
       {"POV-Ray", "b.pov", "camera { location -3*z }\nheight_field { png \"lost.png\" pigment { rgb 1 } }\n",
        "b.pov:2:"},
+      {"FBX, COLLADA and 3DS", "a.dae", collada("lost.png"), "a.dae"},
       {"PLY", "a.ply",
        "ply\nformat ascii 1.0\ncomment TextureFile lost.png\nelement vertex 3\nproperty float x\nproperty "
        "float y\nproperty float z\nproperty float u\nproperty float v\nelement face 1\nproperty list uchar "

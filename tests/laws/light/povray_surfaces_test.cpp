@@ -91,7 +91,7 @@ TEST(PovraySurfaces, ShadowlessLampsHaveNoHighlights) {
 TEST(PovraySurfaces, LightPassesWhatHasNoShadow) {
   for (const bool casts : {true, false}) {
     Scene scene = seen(white, direction(0), direction(40));
-    add_shape(scene, square(scene, 1, 1), white);
+    add_shape(scene, square(scene, 1, 0.5), white);
     scene.shapes.back().object_to_world = translate({std::tan(40 * pi / 180), 0, 0});
     scene.materials.at(scene.shapes.back().material.value).casts_shadow = casts;
     expect_mean(casts ? "a square" : "one without shadow", scene, casts ? 0 : std::cos(40 * pi / 180));
