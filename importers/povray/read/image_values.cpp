@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "images/image_files.h"
@@ -23,12 +24,18 @@ Numbers beyond() {
 
 }  // namespace
 
+bool keeps_numbers(const Reader& reader, const ImageMap& map) {
+  const std::string suffix = std::filesystem::path(map.filename).extension().string();
+  const bool has_no_curve = suffix == ".ppm" || suffix == ".pgm" || suffix == ".tif" || suffix == ".tiff";
+  return !map.gamma && (reader.version < 3.7 || has_no_curve);
+}
+
 ImageValues::ImageValues(Reader& reader, const ImageMap& map, const Place& place)
-    : map_(map), gamma_(reader.gamma()) {
+    : map_(map), gamma_(reader.has_no_gamma() ? 1 : reader.gamma()) {
   try {
     StoredImage stored = read_stored_image(map.filename);
     image_ = std::move(stored.image);
-    decoded_ = stored.integer && gamma_.has_value() && (reader.version >= 3.7 || map.gamma);
+    decoded_ = stored.integer && gamma_.has_value() && !keeps_numbers(reader, map);
   } catch (const Error& error) {
     reader.fail(error.what(), place);
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "importers/povray/read/image_values.h"
 #include "importers/povray/read/pattern_kinds.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/surfaces.h"
@@ -155,17 +156,27 @@ std::optional<PatternTexture> Surfaces::pattern_texture(const Pattern& pattern, 
   return t;
 }
 
-// What takes the numbers of a file to those of the Scene. Before 3.7 they are the scene's numbers as they
-// are, but where a gamma stands with the image; since then they are light by sRGB's curve or that gamma.
+// What takes the numbers of a file to those of the scene: as povray 3.7.0.10 shows them. Where numbers stay
+// (keeps_numbers), there is nothing to do. Else they are light, by a gamma that stands with the image or by
+// sRGB's curve; a scene that has no gamma takes light for its own numbers.
 void Surfaces::set_encoding(ImageTexture& texture, const ImageMap& image) const {
   constexpr double srgb = 2.2;  // about
   const std::optional<double> scene = reader_.gamma();
-  const bool as_it_is = reader_.version < 3.7 && !image.gamma;
-  const double to_light = as_it_is ? scene.value_or(srgb) : image.gamma.value_or(srgb);
-  const bool by_curve = as_it_is ? !scene : !image.gamma;
-  const bool to_screen = !reader_.for_export && scene != 1.0;
-  if (by_curve && !to_screen) return;
-  texture.gamma = static_cast<float>(to_screen ? to_light / scene.value_or(srgb) : to_light);
+  const bool for_export = reader_.for_export;
+  const double screen = scene.value_or(srgb);
+  double gamma = image.gamma.value_or(srgb);
+  bool by_curve = false;
+  if (keeps_numbers(reader_, image)) {
+    gamma = for_export ? screen : 1;
+    by_curve = for_export && !scene;
+  } else if (reader_.has_no_gamma()) {
+    if (for_export) gamma *= screen;
+  } else {
+    if (!for_export) gamma /= screen;
+    by_curve = !image.gamma && (for_export || scene == 1.0);
+  }
+  if (by_curve) return;
+  texture.gamma = static_cast<float>(gamma);
   texture.encoding = texture.gamma == 1 ? Encoding::linear : Encoding::gamma;
 }
 

@@ -138,6 +138,8 @@ class Reader {
 
   // The exponent that makes light of the numbers of pictures; none: they are encoded as sRGB.
   std::optional<double> gamma() const;
+  // Of before 3.7, without assumed_gamma: such scenes convert nothing.
+  bool has_no_gamma() const { return !assumed_gamma && version < 3.7; }
   // A number ≥ 0 of a colour, factor or light: as it is, for a film of this gamma; for export as light.
   double linear(double value) const;
 

@@ -5,6 +5,7 @@
 
 #include "film/develop.h"
 #include "importers/povray/read/povray.h"
+#include "scene/spectra/color.h"
 #include "tests/importers/povray/povray_render.h"
 #include "tests/support/render.h"
 
@@ -22,11 +23,13 @@ class PovrayPictures : public testing::Test {
   PovPicture by_povray(const std::string& text) {
     folder_.write("scene.pov", text);
     const std::string command = fmt::format(
-        "cd '{}' && povray +Iscene.pov +W{} +H{} -D -GA +A0.0 +AM1 +R4 +FP16 File_Gamma=1.0 +Oout.ppm "
+        "cd '{}' && povray +Iscene.pov +W{} +H{} -D -GA +A0.0 +AM1 +R4 +FP16 +Oout.ppm "
         "> log.txt 2>&1",
         folder_.path().string(), width, height);
     EXPECT_EQ(std::system(command.c_str()), 0) << text;
-    return read_ppm(folder_ / "out.ppm");
+    PovPicture picture = read_ppm(folder_ / "out.ppm");
+    for (double& v : picture.values) v = srgb_decode(v);  // as a screen shows it, whatever assumed_gamma is
+    return picture;
   }
   std::vector<double> by_vitrail(int samples) {
     Scene scene = read_povray(folder_ / "scene.pov").scene;

@@ -65,10 +65,11 @@ TEST_F(ReadPovrayPictures, TheFilmHasTheGammaOfTheScene) {
 }
 
 TEST_F(ReadPovrayPictures, NumbersOfImages) {
-  std::ofstream(folder_.path() / "a.ppm") << "P3 1 1 255 255 0 0\n";
-  const auto expect = [&](const std::string& head, const std::string& more, Encoding encoding, float gamma) {
+  for (const char* name : {"a.ppm", "a.png"}) std::ofstream(folder_.path() / name) << "P3 1 1 255 255 0 0\n";
+  const auto expect = [&](const std::string& head, const std::string& more, Encoding encoding, float gamma,
+                          const std::string& kind = "png") {
     const ImportedScene imported =
-        read(head + "plane { z, 0 pigment { image_map { ppm \"a.ppm\" " + more + " } } }");
+        read(head + "plane { z, 0 pigment { image_map { " + kind + " \"a." + kind + "\" " + more + " } } }");
     const auto& image = std::get<ImageTexture>(imported.scene.textures.at(0).model);
     EXPECT_EQ(image.encoding, encoding) << head << more;
     if (encoding == Encoding::gamma) {
@@ -81,7 +82,10 @@ TEST_F(ReadPovrayPictures, NumbersOfImages) {
   expect(v37 + "2.2 }", "", Encoding::linear, 0);
   expect(v37 + "2.2 }", "gamma 1.1", Encoding::gamma, 0.5f);
   expect(v37 + "srgb }", "", Encoding::linear, 0);
+  expect(v37 + "1 }", "", Encoding::linear, 0, "ppm");
+  expect(v37 + "1 }", "gamma 1.8", Encoding::gamma, 1.8f, "ppm");
   expect(v36, "", Encoding::linear, 0);
+  expect(v36, "gamma 1.8", Encoding::gamma, 1.8f);
   expect(v36 + "global_settings { assumed_gamma 1 }", "", Encoding::linear, 0);
   expect(v36 + "global_settings { assumed_gamma 2.2 }", "", Encoding::linear, 0);
 }
