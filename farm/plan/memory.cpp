@@ -35,7 +35,9 @@ MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t p
   const std::uint64_t free = budget - fixed;
   const std::uint64_t queues =
       std::clamp(free / 5, least_queue_bytes, std::min(most_queue_bytes, free - largest_domain));
-  return {free - queues, queues};
+  // Where there is room: messages that come while a busy machine gives a rank no processor.
+  const std::uint64_t early_messages = std::min(budget / 64, free - queues - largest_domain);
+  return {free - queues - early_messages, queues};
 }
 
 QueueBounds queue_bounds(const MemoryPlan& plan, int ranks) {
