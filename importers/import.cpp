@@ -39,7 +39,7 @@ ImportedScene read_scene(const std::filesystem::path& file, MeshMemory memory,
                                  formats_with(&Reader::has_many_cameras)));
   ImportedScene imported = reader.read({file, std::move(memory), std::move(progress), options});
   if (!reader.adds_view) add_default_view(imported, file);
-  if (options.replace_missing)
+  if (options.replace_missing || reader.goes_on_without_images)
     replace_missing_images(imported);
   else
     require_images(imported.scene);

@@ -103,7 +103,8 @@ const std::vector<Reader>& readers() {
        .read = read_obj_scene,
        .adds_view = false,
        .has_definitions = false,
-       .has_many_cameras = false},
+       .has_many_cameras = false,
+       .goes_on_without_images = true},
       {.name = "PLY",
        .suffixes = {".ply"},
        .gzipped = true,
@@ -111,7 +112,8 @@ const std::vector<Reader>& readers() {
        .read = [](ReadRequest r) { return read_ply_scene(r.file, std::move(r.memory)); },
        .adds_view = false,
        .has_definitions = false,
-       .has_many_cameras = false},
+       .has_many_cameras = false,
+       .goes_on_without_images = true},
       {.name = "STL",
        .suffixes = {".stl"},
        .gzipped = true,
@@ -127,7 +129,8 @@ const std::vector<Reader>& readers() {
        .read = [](ReadRequest r) { return read_assimp(r.file, std::move(r.memory), r.options); },
        .adds_view = true,
        .has_definitions = false,
-       .has_many_cameras = true},
+       .has_many_cameras = true,
+       .goes_on_without_images = true},
   };
   return rows;
 }

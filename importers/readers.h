@@ -34,6 +34,8 @@ struct Reader {
   bool adds_view;         // the reader itself adds a camera and light where the file has none
   bool has_definitions;   // ImportOptions::definitions mean something
   bool has_many_cameras;  // ImportOptions::camera does
+  // Models, which people hand on without their images more often than not: those are replaced unasked.
+  bool goes_on_without_images = false;
 };
 
 // All of them, in the order in which they are asked.

@@ -101,7 +101,8 @@ void warn_of_few_samples(const Arguments& a, const Manifest& m, const RayProfile
   const double pixels = static_cast<double>(c.x1 - c.x0) * (c.y1 - c.y0);
   const double samples = static_cast<double>(profile.cost.camera_rays) * a.pictures / pixels;
   if (samples < 1.5)
-    say("vitrail: this plans {:.2g} samples a pixel, those of the profile; --times 256 plans 256 times as "
+    say("vitrail: this plans as many samples as the profile has, {:.2g} a pixel; --times 256 plans 256 times "
+        "as "
         "many\n",
         samples);
 }

@@ -73,7 +73,7 @@ class Model:
         self.east = cross(self.north, self.up)
 
     def run(self, *words):
-        return subprocess.run([self.args.vitrail, *map(str, words)], check=True, capture_output=True, text=True).stdout
+        return subprocess.run([self.args.vitrail, *map(str, words)], check=True, stdout=subprocess.PIPE, text=True).stdout
 
     def sky(self, day, hour):
         """What `vitrail sky` says of the middle of an hour."""

@@ -76,9 +76,10 @@ TEST_F(Plan, WarnsOfFewSamples) {
     return run(fmt::format("{} '{}' --profile '{}' --ranks 1 {}", vitrail("plan"), path("box.vit"),
                            path("whole.json"), options));
   };
-  EXPECT_THAT(planned("").output,
-              HasSubstr("this plans 1 samples a pixel, those of the profile; --times 256 plans 256 times"));
-  EXPECT_THAT(planned("--times 256").output, Not(HasSubstr("those of the profile")));
+  EXPECT_THAT(
+      planned("").output,
+      HasSubstr("this plans as many samples as the profile has, 1 a pixel; --times 256 plans 256 times"));
+  EXPECT_THAT(planned("--times 256").output, Not(HasSubstr("as the profile has")));
 }
 
 // One rank takes what was recorded, more take their share, and the picture is drawn.

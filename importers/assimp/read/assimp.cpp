@@ -117,7 +117,8 @@ class SceneReader {
   }
 
   void add_light(const AssetLight& in) {
-    if (std::ranges::min(in.color) < 0 || std::ranges::max(in.color) <= 0) return;
+    const double brightest = std::ranges::max(in.color);
+    if (!(std::ranges::min(in.color) >= 0 && brightest > 0 && std::isfinite(brightest))) return;
     if (in.kind == AssetLight::Kind::other) {
       note(Fidelity::dropped, "an ambient light, or one of an area", RecordKind::light);
       return;

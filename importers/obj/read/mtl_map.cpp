@@ -32,9 +32,9 @@ class MapReader {
 
  private:
   static bool is_option(const std::string& word) {
-    static constexpr std::array<std::string_view, 13> options{
+    static constexpr std::array<std::string_view, 14> options{
         "-s",      "-o",     "-t",      "-bm",      "-mm",   "-clamp", "-blendu",
-        "-blendv", "-boost", "-texres", "-imfchan", "-type", "-cc"};
+        "-blendv", "-boost", "-texres", "-imfchan", "-type", "-cc",    "-colorspace"};
     return std::ranges::count(options, word) > 0;
   }
 
@@ -63,19 +63,21 @@ class MapReader {
       read_channel();
     } else {
       const std::string value(cursor_.word());
-      const bool is_plain = option.starts_with("-blend") || (option == "-cc" && value == "off");
+      const bool is_plain = option.starts_with("-blend") || (option == "-cc" && value == "off") ||
+                            (option == "-colorspace" && is_same_name(value, is_color() ? "sRGB" : "linear"));
       if (!is_plain) lost(option + " " + value);
     }
   }
+
+  bool is_color() const { return keyword_ == "map_Kd" || keyword_ == "map_Ks" || keyword_ == "map_Ke"; }
 
   void read_channel() {
     static constexpr std::string_view letters = "rgbml";
     static constexpr std::array numbers{ImageNumber::red, ImageNumber::green, ImageNumber::blue,
                                         ImageNumber::alpha, ImageNumber::luminance};
-    static constexpr std::array<std::string_view, 4> colors{"map_Kd", "map_Ks", "map_Ke", "norm"};
     const std::string letter(cursor_.word());
     const std::size_t channel = letters.find(letter);
-    if (letter.size() != 1 || channel == letters.npos || std::ranges::count(colors, keyword_) > 0)
+    if (letter.size() != 1 || channel == letters.npos || is_color() || keyword_ == "norm")
       return lost("-imfchan " + letter);
     map_.number = numbers.at(channel);
   }

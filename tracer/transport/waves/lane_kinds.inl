@@ -27,8 +27,8 @@ VITRAIL_LANES BsdfSample<D> sample(const Conductor<D>& bsdf, Vector<D> out, F, F
     const auto d = [](float x) __attribute__((always_inline)) { return static_cast<double>(x); };
     const UvMapping& m = of.mapping;
     const Four<F> found = bilinear<D>(
-        *of.image, u * d(m.a) + v * d(m.b) + d(m.c), u * d(m.d) + v * d(m.e) + d(m.f), of.wrap, 0, bits(those),
-        [&](int j) __attribute__((always_inline))->const SampledWavelengths& {
+        *of.image, u * d(m.a) + v * d(m.b) + d(m.c), u * d(m.d) + v * d(m.e) + d(m.f), of.wrap, 0,
+        bits(those), [&](int j) __attribute__((always_inline))->const SampledWavelengths& {
           return g.path[j]->wavelengths;
         });
     for (int i = 0; i < 4; ++i)
@@ -95,7 +95,9 @@ VITRAIL_LANES Plastic<D> plastic_of(const LaneWork& work, const Group& g) {
 }
 struct ReadPlastic {
   static constexpr bool is_specular = false;
-  VITRAIL_LANES static Plastic<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) { return plastic_of(work, g); }
+  VITRAIL_LANES static Plastic<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
+    return plastic_of(work, g);
+  }
 };
 struct ReadRoughPlastic {
   static constexpr bool is_specular = false;
