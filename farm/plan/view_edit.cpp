@@ -19,8 +19,9 @@ namespace vitrail {
 namespace {
 
 constexpr const char* look_at_takes =
-    "--look-at takes x,y,z of the eye, x,y,z of the point that it looks at, and may have x,y,z of the "
-    "direction up: ";
+    "--look-at takes the eye and the point that it looks at, as 4,2,5,0,0.5,0, and may have the direction up "
+    "behind "
+    "them: ";
 
 // What stays up where the camera is moved: the axis of the world over which the camera is level, so that its
 // horizon stays level too. Its right is at a right angle to that axis; of two, the one nearer to its up. A
