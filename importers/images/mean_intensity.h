@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "scene/records/light.h"
 
 namespace vitrail {
@@ -13,5 +15,12 @@ struct MeanIntensity {
 
 // Throws Error where the light's image cannot be read.
 MeanIntensity mean_intensity(const GoniometricLight& light);
+
+// The light as one that is equal in all directions.
+struct EvenLight {
+  Spectrum intensity;  // of the same flux; the light's own where its image cannot be read
+  std::string note;    // what that changes
+};
+EvenLight even_light(const GoniometricLight& light);
 
 }  // namespace vitrail

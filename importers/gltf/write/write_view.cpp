@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/gltf/write/write_view.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
@@ -81,17 +79,9 @@ struct Punctual {
                          std::min(static_cast<double>(l.cutoff_deg), 90.0) * radians};
   }
   Result operator()(const GoniometricLight& l) const {
-    MeanIntensity intensity;
-    try {
-      intensity = mean_intensity(l);
-      notes.approximated(
-          fmt::format("a goniometric light: of the same flux, equal in all directions; its brightest "
-                      "direction has {:.3g} times that",
-                      intensity.mean > 0 ? intensity.greatest / intensity.mean : 0));
-    } catch (const Error& error) {
-      notes.approximated(fmt::format("a goniometric light: equal in all directions: {}", error.what()));
-    }
-    return PunctualLight{"point", scaled(l.intensity, intensity.mean),
+    const EvenLight even = even_light(l);
+    notes.approximated(even.note);
+    return PunctualLight{"point", even.intensity,
                          translate(transform_point(l.light_to_world, {0, 0, 0}) - Point3d{})};
   }
   Result operator()(const ProjectionLight&) const { return lost("a projector"); }

@@ -78,19 +78,9 @@ std::string text_of(Context& context, const ProjectionLight&, const Origin& orig
 }
 
 std::string text_of(Context& context, const GoniometricLight& light, const Origin& origin) {
-  MeanIntensity intensity;
-  try {
-    intensity = mean_intensity(light);
-    context.approximated(
-        fmt::format("goniometric light: of the same flux, equal in all directions; its brightest "
-                    "direction has {:.3g} times that",
-                    intensity.mean > 0 ? intensity.greatest / intensity.mean : 0),
-        origin);
-  } catch (const Error& error) {
-    context.approximated(fmt::format("goniometric light: equal in all directions: {}", error.what()), origin);
-  }
-  return point(context, transform_point(light.light_to_world, {0, 0, 0}),
-               emission_rgb(scaled(light.intensity, intensity.mean)));
+  const EvenLight even = even_light(light);
+  context.approximated(even.note, origin);
+  return point(context, transform_point(light.light_to_world, {0, 0, 0}), emission_rgb(even.intensity));
 }
 
 std::string text_of(Context&, const InfiniteLight& light, const Origin&) {
