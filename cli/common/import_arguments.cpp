@@ -41,12 +41,13 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
         const std::size_t at = word.find('=');
         return at == std::string::npos || at == 0 ? "takes name=value, not '" + word + "'" : std::string();
       });
-  app.add_option("--camera", a.camera, "which sensor of a Mitsuba scene, or camera of a glTF, from 0")
+  app.add_option("--camera", a.camera,
+                 "which sensor of a Mitsuba scene, or camera of a glTF, FBX or COLLADA, from 0")
       ->check(CLI::Range(0, 999'999))
       ->capture_default_str();
   app.add_option("--missing", a.missing,
                  "if files of the scene are missing: refuse the scene, or replace images by grey and leave "
-                 "out meshes")
+                 "out meshes. OBJ, PLY, FBX, COLLADA and 3DS go on with grey images in any case")
       ->check(CLI::IsMember({"refuse", "replace"}))
       ->capture_default_str();
   app.add_option("--sky", a.sky,

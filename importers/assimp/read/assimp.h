@@ -15,7 +15,7 @@ namespace vitrail {
 // file with the same numbers does (obj/read/mtl.h). A light of colour c shows c·ρ·cos θ on a diffuse surface,
 // divided by the file's attenuation. The camera is the first one, or ImportOptions::camera of them; without
 // one the scene gets a view of all of it, without light a sky. All is read into memory. Throws Error: the
-// file is none of these, a vertex is not finite, an image is not there (unless replaced). MachineError: the
+// file is none of these, a vertex is not finite. MachineError: the
 // module vitrail-assimp.so is missing. UsageError: no such camera.
 ImportedScene read_assimp(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
                           const ImportOptions& options = {});
