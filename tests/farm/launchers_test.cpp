@@ -25,6 +25,9 @@ class Launchers : public PartitionedBox {
                        path(out), more.find("--crop") == std::string::npos ? "--crop 0,64,0,64" : "",
                        more.find("--spp") == std::string::npos ? "--spp 256" : "", more);
   }
+  // Of a render on two ranks: a signal by mpirun, or to a rank that has to be found, comes late on a busy
+  // machine.
+  static constexpr const char* long_enough = "--spp 1024";
   std::string alone(const std::string& out, const std::string& more = "") const {
     return vitrail("render") + arguments(out, more);
   }
@@ -87,8 +90,8 @@ TEST_F(Launchers, AJobsMemoryAndTimeAreTaken) {
 }
 
 TEST_F(Launchers, TermToMpirunLeavesWhatCanBeResumed) {
-  ASSERT_EQ(run(alone("whole.film")).status, 0);
-  Background job(mpi_vitrail("render", 2) + arguments("a.film"));
+  ASSERT_EQ(run(alone("whole.film", long_enough)).status, 0);
+  Background job(mpi_vitrail("render", 2) + arguments("a.film", long_enough));
   wait_for_checkpoint(job, "a.film");
   ASSERT_TRUE(job.running());
   job.send(SIGTERM);
@@ -97,7 +100,7 @@ TEST_F(Launchers, TermToMpirunLeavesWhatCanBeResumed) {
   EXPECT_FALSE(fs::exists(path("a.film")));
   for (int wait = 0; wait < 200 && !ranks_of("a.film").empty(); ++wait)  // mpirun does not wait for its ranks
     std::this_thread::sleep_for(50ms);
-  ASSERT_EQ(run(alone("a.film")).status, 0);
+  ASSERT_EQ(run(alone("a.film", long_enough)).status, 0);
   EXPECT_EQ(hash("a.film"), hash("whole.film"));
 }
 
@@ -116,11 +119,12 @@ TEST_F(Launchers, AKilledRenderIsBroughtBack) {
 }
 
 TEST_F(Launchers, AKilledRankOfMpirunIsBroughtBack) {
-  ASSERT_EQ(run(alone("whole.film")).status, 0);
+  ASSERT_EQ(run(alone("whole.film", long_enough)).status, 0);
   const std::string mpirun = mpi_vitrail("render", 2);
   const auto begin = mpirun.find("mpirun"), end = mpirun.find(" '");
-  Background job(mpirun.substr(0, begin) + alone("a.film", fmt::format("--restarts 9 --launcher '{}'",
-                                                                       mpirun.substr(begin, end - begin))));
+  Background job(mpirun.substr(0, begin) +
+                 alone("a.film", fmt::format("{} --restarts 9 --launcher '{}'", long_enough,
+                                             mpirun.substr(begin, end - begin))));
   EXPECT_TRUE(kill_a_rank(job, "a.film"));
   EXPECT_EQ(job.wait(), 0);
   EXPECT_EQ(hash("a.film"), hash("whole.film"));
