@@ -76,7 +76,8 @@ Numbers mean_color(const Pigment& pigment) {
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const double before = i ? entries[i - 1].at : std::min(entries[i].at, 0.0);
     const double after = i + 1 < entries.size() ? entries[i + 1].at : std::max(entries[i].at, 1.0);
-    const double weight = std::max((after - before) / 2, 1e-6);
+    const double weight =
+        std::max(pigment.pattern.kind == Word::average_ ? entries[i].at : (after - before) / 2, 1e-6);
     const Numbers c = color(entries[i]);
     for (std::size_t k = 0; k < 5; ++k) sum.v[k] += weight * c.v[k];
     weights += weight;
@@ -93,6 +94,8 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
   if (pattern.image && pattern.kind == Word::image_map_)
     return image_texture(*pattern.image, pattern, to_world, by_uv || pattern.uv_mapping, factor,
                          pigment.place);
+  if (pattern.kind == Word::average_ && pigment.map)
+    return average_texture(pigment, to_world, part, factor, by_uv);
   auto made = pattern_texture(pattern, to_world, pigment.place);
   if (!made) return spectrum_of(pigment.quick_color.value_or(mean_color(pigment)), part, factor);
   std::vector<BlendEntry> entries = pigment.map ? pigment.map->entries : default_entries(pattern.kind);
@@ -101,15 +104,41 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
     stop.at = static_cast<float>(std::clamp(entry.at, 0.0, 1.0));
     if (is_of_places(made->kind)) stop.at = 0;
     if (!made->map.empty() && !is_of_places(made->kind)) stop.at = std::max(stop.at, made->map.back().at);
-    if (!entry.pigment) {
-      stop.value = spectrum_of(entry.color, part, factor);
-    } else {
-      const Transform inner = to_world * entry.pigment->to_object;
-      stop.value = color_texture(*entry.pigment, inner, part, factor, by_uv);
-    }
+    stop.value = entry_texture(entry, to_world, part, factor, by_uv);
     made->map.push_back(std::move(stop));
   }
   return add(std::move(*made), part == Part::opacity, pigment.place);
+}
+
+SpectrumParameter Surfaces::entry_texture(const BlendEntry& entry, const Transform& to_world, Part part,
+                                          double factor, bool by_uv) {
+  if (!entry.pigment) return spectrum_of(entry.color, part, factor);
+  return color_texture(*entry.pigment, to_world * entry.pigment->to_object, part, factor, by_uv);
+}
+
+// The mean of all entries, by the weights that stand in their places.
+SpectrumParameter Surfaces::average_texture(const Pigment& pigment, const Transform& to_world, Part part,
+                                            double factor, bool by_uv) {
+  std::optional<SpectrumParameter> mean;
+  double weights = 0;
+  for (const BlendEntry& entry : pigment.map->entries) {
+    if (!(entry.at > 0)) continue;
+    weights += entry.at;
+    const SpectrumParameter value = entry_texture(entry, to_world, part, factor, by_uv);
+    const auto amount = static_cast<float>(entry.at / weights);
+    mean = mean ? add(MixTexture{*mean, value, amount}, part == Part::opacity, pigment.place) : value;
+  }
+  return mean.value_or(spectrum_of(mean_color(pigment), part, factor));
+}
+
+SpectrumParameter Surfaces::grain(double amount, const Place& place) {
+  constexpr double size = 1e-4;  // of a grain
+  PatternTexture grains;
+  grains.kind = PatternTexture::Kind::cells;
+  grains.texture_to_world = scale({size, size, size});
+  grains.map.push_back({0, Spectrum{ConstantSpectrum{static_cast<float>(1 + amount)}}});
+  grains.map.push_back({1, Spectrum{ConstantSpectrum{static_cast<float>(1 - amount)}}});
+  return add(std::move(grains), false, place);
 }
 
 FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform& to_world, double from,

@@ -52,7 +52,11 @@ class Surfaces {
 
   Surface made(const Look& look);
   Layer layer_of(const Texture& texture, const Transform& to_world, const Look& look);
+  // Of layers or a pattern of textures, else layer_of (make_layers.cpp).
+  Layer layered(const Texture& texture, const Transform& to_world, const Look& look);
   Layer blended(const Texture& texture, const Transform& to_world, const Look& look);
+  // (1 − amount)·first + amount·second; with the material, glow and opacity of both.
+  Layer mixed(const Layer& first, const Layer& second, const FloatParameter& amount, const Place& place);
   Id<Material> material_of(const Pigment& pigment, const Finish& finish, const Transform& to_world,
                            const Look& look);
   // What is solid of it, and what light goes through, in their shares; with its bumps (make_bumps.cpp).
@@ -75,6 +79,12 @@ class Surfaces {
   enum class Part { reflectance, factor, radiance, opacity };
   SpectrumParameter color_texture(const Pigment& pigment, const Transform& to_world, Part part, double factor,
                                   bool by_uv);
+  SpectrumParameter entry_texture(const BlendEntry& entry, const Transform& to_world, Part part,
+                                  double factor, bool by_uv);
+  SpectrumParameter average_texture(const Pigment& pigment, const Transform& to_world, Part part,
+                                    double factor, bool by_uv);
+  // A number of each point, 1 − amount … 1 + amount: grains too small to be seen.
+  SpectrumParameter grain(double amount, const Place& place);
   FloatParameter opacity_of(const Pigment& pigment, const Transform& to_world, bool by_uv);
   SpectrumParameter image_texture(const ImageMap& image, const Pattern& pattern, const Transform& to_world,
                                   bool by_uv, double factor, const Place& place);

@@ -147,6 +147,61 @@ TEST_F(PovrayPictures, Atmospheres) {
       0.03);
 }
 
+TEST_F(PovrayPictures, AveragesOfPigmentsAndTextures) {
+  const auto floor = [](const std::string& look) {
+    return linear + lamps + "plane { y, 0 " + look + " }\nsphere { <0, .9, 0>, .8 " + look + " }\n";
+  };
+  const std::string two =
+      "[1 checker rgb <.9, .2, .1> rgb <.1, .3, .9>] [3 gradient x color_map { [0 rgb 0] [1 rgb 1] } scale "
+      "2]";
+  expect_alike(floor("pigment { average pigment_map { " + two + " } } finish { ambient .2 }"), 0.02);
+  expect_alike(
+      floor("texture { average texture_map {"
+            " [2 pigment { checker rgb <.9, .2, .1> rgb <.1, .3, .9> } finish { ambient .4 diffuse .2 }]"
+            " [1 pigment { gradient x color_map { [0 rgb 0] [1 rgb 1] } } finish { ambient 0 }] } }"),
+      0.02);
+}
+
+TEST_F(PovrayPictures, TexturesOfAPatternEachWithItsGlowAndLayers) {
+  const std::string layers =
+      "#declare Layers = texture { pigment { rgb <.2, .3, .9> } finish { ambient .5 diffuse .2 } }"
+      " texture { pigment { checker rgbt <.9, .2, .1, 0> rgbt <1, 1, 1, .8> scale .3 }"
+      " finish { ambient .2 diffuse .5 } }\n";
+  for (const char* pattern : {"gradient x scale 3", "checker"}) {
+    const std::string kind = pattern;
+    const std::string dark = "pigment { rgb .3 } finish { ambient .05 diffuse .7 }";
+    const std::string look =
+        kind == "checker" ? "texture { checker texture { " + dark + " } texture { Layers } }"
+                          : "texture { gradient x texture_map { [0 " + dark + "] [1 Layers] } scale 3 }";
+    expect_alike(
+        linear + lamps + layers + "plane { y, 0 " + look + " }\nsphere { <0, .9, 0>, .8 " + look + " }",
+        0.02);
+  }
+}
+
+TEST_F(PovrayPictures, Grain) {
+  for (const char* finish : {"ambient .1 diffuse .6 crand .05", "ambient .1 diffuse .7 crand .15",
+                             "ambient .2 diffuse .6 brilliance 2 crand .06 phong .4"})
+    expect_alike(linear + lamps + "plane { y, 0 pigment { rgb <.8, .7, .5> } finish { " + finish +
+                     " } }\nsphere { <0, .9, 0>, .8 pigment { gradient y } finish { " + finish + " } }\n",
+                 0.025);
+}
+
+const std::string walls = ball + "plane { -z, -6 pigment { rgb .6 } }\n";
+
+TEST_F(PovrayPictures, FogOnTheGround) {
+  for (const char* fog : {"distance 4 rgb .6 fog_offset .2 fog_alt .6", "distance 2 rgb .1 fog_alt 1"})
+    expect_alike(linear + walls + "fog { fog_type 2 " + fog + " }", 0.03, 256);
+}
+
+TEST_F(PovrayPictures, FogWithTurbulence) {
+  for (const char* fog :
+       {"distance 8 rgb <.7, .8, .9> turbulence .5", "distance 3 rgb .9 turbulence 2 octaves 3",
+        "distance 4 rgb .6 fog_type 2 fog_offset .2 fog_alt .6 turbulence .8"})
+    expect_alike(linear + walls + "fog { " + fog + " }", 0.06, 256);
+  expect_alike(linear + walls + "fog { distance 6 rgb .9 turbulence .5 turb_depth .9 }", 0.09, 256);
+}
+
 TEST_F(PovrayPictures, Cameras) {
   const std::string around =
       "light_source { <1, 2, -1> rgb 1 }\nbox { -4, 4 pigment { checker rgb <.9, .3, .2>, rgb <.2, .4, .9> "
