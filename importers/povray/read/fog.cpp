@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/povray/read/fog.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "importers/povray/read/reader.h"
@@ -31,8 +32,14 @@ bool read_fog_part(Reader& reader, Fog& fog, Word word) {
       fog.turbulent = length(reader.vector("turbulence")) > 0;
       return true;
     case Word::turb_depth_:
+      fog.turb_depth = reader.number("turb_depth");
+      return true;
     case Word::octaves_:
+      fog.octaves = reader.integer("octaves");
+      return true;
     case Word::omega_:
+      fog.omega = reader.number("omega");
+      return true;
     case Word::lambda_:
       reader.number("a part of turbulence");
       return true;
@@ -71,13 +78,21 @@ Shared<Fog> read_fog_block(Reader& reader) {
   return std::make_shared<Fog>(fog);
 }
 
+double turbulent_share(const Fog& fog) {
+  if (!fog.turbulent) return 1;
+  double sum = 0, weight = 0.5;
+  for (int i = 0; i < std::clamp(fog.octaves, 1, 10); ++i, weight *= fog.omega) sum += weight;
+  constexpr double mean_transmittance = 0.4;  // e⁻ˣ where fog is seen neither as nothing nor as a wall
+  return 1 - mean_transmittance * std::clamp(fog.turb_depth * sum, 0.0, 1.0);
+}
+
 double mean_density(const Fog& fog, double low, double high) {
   if (!fog.ground || !std::isfinite(low)) return 1;
-  // ∫ of the density from the offset to a height: that height below it, alt·u/(1 + u) above it.
+  // ∫ of the density from the offset to a height: that height below it, alt·atan u above it.
   const auto integral = [&](double y) {
     const double above = y - fog.offset;
     if (above <= 0) return above;
-    return fog.alt > 0 ? fog.alt * above / (fog.alt + above) : 0;
+    return fog.alt > 0 ? fog.alt * std::atan(above / fog.alt) : 0;
   };
   return (integral(high) - integral(low)) / (high - low);
 }

@@ -7,7 +7,8 @@
 namespace vitrail::pov {
 
 // Over a distance d, what is seen becomes T·seen + (1 − T)·color with T = e^(−d/distance). Ground fog is as
-// dense up to the height `offset` along `up`, and (1 + (y − offset)/alt)⁻² of that at a height y above it.
+// dense up to the height `offset` along `up`, and 1/(1 + ((y − offset)/alt)²) of that at a height y above it, as povray
+// shows it (its documentation has another law).
 struct Fog {
   Place place;
   bool ground = false;
@@ -16,9 +17,17 @@ struct Fog {
   double offset = 0, alt = 0;
   Vector3d up{0, 1, 0};
   bool turbulent = false;
+  double turb_depth = 0.5;
+  int octaves = 6;
+  double omega = 0.5;
 };
 
 Shared<Fog> read_fog_block(Reader& reader);
+
+// By what its density is multiplied to be on the whole as dense as it is with its turbulence. As povray shows
+// it, an optical depth x becomes x·(1 − s·e⁻ˣ), with s = min(turb_depth·turbulence, 1) at a point of the ray:
+// thinner near the eye. The sums of noise have a mean of ½·Σ omegaⁱ.
+double turbulent_share(const Fog& fog);
 
 // The mean density between two heights, low < high; 1 where one of them is −∞.
 double mean_density(const Fog& fog, double low, double high);

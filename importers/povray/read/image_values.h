@@ -24,6 +24,8 @@ class ImageValues {
   Numbers color(Point3d p) const;
   // Grey, of the numbers as the file has them: image_pattern.
   double grey(Point3d p) const;
+  int width() const { return image_.width; }
+  int height() const { return image_.height; }
 
  private:
   std::optional<Point2d> square_of(Point3d p) const;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // normal {}: patterns that tilt normals (scene/models/pattern_normal.h), as the displacement of materials.
 // Several normals of a map or a list are several materials, blended by the pattern.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "importers/povray/read/image_values.h"
 #include "importers/povray/read/pattern_kinds.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/surfaces.h"
@@ -58,22 +61,66 @@ bool has_normals(const Bump& bump) {
 
 }  // namespace
 
+PatternTexture Surfaces::carrier_of(const SpectrumParameter& height, const Transform& to_world) const {
+  PatternTexture t;
+  t.kind = PatternTexture::Kind::planar;  // any: the map has one value
+  t.texture_to_world = to_world;
+  t.map.push_back({0, height});
+  return t;
+}
+
+// povray tilts by the difference between pixels, however large they are: the step of our gradient is one.
+std::optional<FloatParameter> Surfaces::bump_of_image(const Bump& bump, const Transform& to_world) {
+  const ImageMap& image = *bump.pattern.image;
+  if (image.map_type != 0 || bump.pattern.uv_mapping) {
+    dropped("a bump_map that is not planar: the surface is smooth", bump.place);
+    return std::nullopt;
+  }
+  if (image.filename.empty()) return std::nullopt;
+  const ImageValues values(reader_, image, bump.place);
+  const double steps = std::sqrt(static_cast<double>(values.width()) * values.height()) * bump_step;
+  const double size = 1 / steps;
+  const SpectrumParameter height =
+      image_texture(image, bump.pattern, to_world, Part::grey, false, bump.size * bump_step, bump.place);
+  return add(carrier_of(height, to_world * scale({size, size, size})), true, bump.place);
+}
+
+std::optional<FloatParameter> Surfaces::bump_of_pigment(const Bump& bump, const Transform& to_world,
+                                                        double height) {
+  const Pigment& pigment = *bump.pattern.pigment;
+  note_modifiers(bump.pattern, bump.place);
+  if (bump.map) approximated("a slope_map of a pigment_pattern: without it", bump.place);
+  const SpectrumParameter grey =
+      color_texture(pigment, to_world * pigment.to_object, Part::grey, height, false);
+  if (!std::holds_alternative<Id<vitrail::Texture>>(grey)) return std::nullopt;  // even
+  return add(carrier_of(grey, to_world), true, bump.place);
+}
+
+// What the map has at 1.
+double Surfaces::height_of(const Bump& bump, const Transform& to_world) {
+  const double height = bump.size * bump_height;
+  if (bump.scaled) return height;
+  // A height of the world, where ours is of the pattern's space.
+  const double size = std::cbrt(std::abs(determinant3(to_world)));
+  if (std::abs(length(transform_vector(to_world, {1, 0, 0})) - size) > 1e-6 * size ||
+      std::abs(length(transform_vector(to_world, {0, 1, 0})) - size) > 1e-6 * size)
+    approximated("no_bump_scale of a pattern that is not scaled evenly: by its mean scale", bump.place);
+  return height / size;
+}
+
 std::optional<FloatParameter> Surfaces::bump_texture(const Bump& bump, const Transform& to_world) {
-  if (bump.pattern.kind == Word::none || bump.size == 0) return std::nullopt;
+  if (bump.pattern.kind == Word::none || bump.size == 0 || !is_invertible(to_world)) return std::nullopt;
+  if (bump.pattern.kind == Word::bump_map_ && bump.pattern.image) return bump_of_image(bump, to_world);
+  if (bump.pattern.kind == Word::pigment_pattern_ && bump.pattern.pigment)
+    return bump_of_pigment(bump, to_world, height_of(bump, to_world));
   if (!pattern_kind(bump.pattern.kind)) {
-    dropped("a normal of this pattern: the surface is smooth", bump.place);
+    dropped(fmt::format("a normal of this pattern ({}): the surface is smooth", name_of(bump.pattern.kind)),
+            bump.place);
     return std::nullopt;
   }
   auto made = pattern_texture(bump.pattern, to_world, bump.place);
   if (!made) return std::nullopt;
-  double height = bump.size * bump_height;
-  if (!bump.scaled) {  // a height of the world, where ours is of the pattern's space
-    const double size = std::cbrt(std::abs(determinant3(to_world)));
-    height /= size;
-    if (std::abs(length(transform_vector(to_world, {1, 0, 0})) - size) > 1e-6 * size ||
-        std::abs(length(transform_vector(to_world, {0, 1, 0})) - size) > 1e-6 * size)
-      approximated("no_bump_scale of a pattern that is not scaled evenly: by its mean scale", bump.place);
-  }
+  const double height = height_of(bump, to_world);
   if (bump.map && bump.map->kind == Word::slope_map_ && !is_of_places(made->kind) &&
       !pushes_by_itself(made->kind)) {
     add_slopes(*made, *bump.map, height);

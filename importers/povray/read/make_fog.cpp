@@ -17,13 +17,14 @@ namespace vitrail::pov {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Tops of layers over the offset, in units of `alt`. What lies above the last is a fiftieth of the column.
-constexpr std::array tops{0.0, 0.15, 0.35, 0.6, 0.9, 1.3, 1.8, 2.5, 3.5, 5.0, 7.5, 12.0, 20.0, 50.0};
+// Tops of layers over the offset, in units of `alt`. What lies above the last is an eightieth of the column.
+constexpr std::array tops{0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.1,  1.3,  1.55, 1.85,
+                          2.2, 2.7,  3.3, 4.0,  5.0, 6.5,  9.0, 13.0, 20.0, 50.0};
 
 void note_approximations(Reader& reader, const Fog& fog) {
   const SourceLocation place = reader.location(fog.place);
   if (fog.ground) reader.notes.approximated("ground fog: layers, each of one density", place);
-  if (fog.turbulent) reader.notes.dropped("turbulence of fog", place);
+  if (fog.turbulent) reader.notes.approximated("turbulence of fog: its mean density, without swirls", place);
   if (fog.color.v[3] > 0) reader.notes.dropped("filter of a fog's color", place);
   if (fog.color.v[4] > 0) reader.notes.dropped("transmit of a fog's color: far away nothing is seen", place);
 }
@@ -34,7 +35,7 @@ std::optional<Id<Medium>> SceneMaker::fog_between(double low, double high) {
   double sigma = 0;
   RGB shines{0, 0, 0};
   for (const Shared<Fog>& fog : fogs_) {
-    const double part = mean_density(*fog, low, high) / fog->distance;
+    const double part = turbulent_share(*fog) * mean_density(*fog, low, high) / fog->distance;
     sigma += part;
     shines.r += part * reader_.linear(fog->color.v[0]);
     shines.g += part * reader_.linear(fog->color.v[1]);
@@ -54,11 +55,12 @@ std::optional<Id<Medium>> SceneMaker::fog_between(double low, double high) {
   return Id<Medium>{static_cast<std::uint32_t>(scene_.media.size() - 1)};
 }
 
-// A large disc at a height along `up`, with a medium on each side.
+// A large disc just below a height along `up`, with a medium on each side: a floor often lies at the height.
 void SceneMaker::add_fog_face(const Fog& fog, double height, std::optional<Id<Medium>> below,
                               std::optional<Id<Medium>> above) {
   const Point3d eye = world_.camera ? Point3d{} + world_.camera->location : Point3d{};
-  const double up = height - dot(eye - Point3d{}, fog.up);
+  constexpr double beneath = 1.7e-4;
+  const double up = height - beneath * fog.alt - dot(eye - Point3d{}, fog.up);
   Shape shape;
   shape.mesh = quadric_mesh({QuadricKind::disk, QuadricUv::pbrt, 0, 1});
   shape.object_to_world = translate(eye + fog.up * up - Point3d{}) * transform_of(Frame(fog.up)) *

@@ -44,15 +44,39 @@ Highlight highlight_of(const Finish& finish) {
   return {};
 }
 
+// `crand` c, as povray shows it: each lamp adds pigment·(diffuse·cosᵇθ − c·u), with u random in 0 … 1 and b
+// the brilliance. Its mean, diffuse·cosᵇθ − c/2, is that of a greater brilliance: equal at two angles.
+struct Falloff {
+  double diffuse = 0, brilliance = 1;
+  double grain = 0;  // of the mean, at most: it is times 1 − grain … 1 + grain
+};
+
+double darkened(const Finish& finish) { return std::max(finish.diffuse - finish.crand / 2, 0.0); }
+
+Falloff falloff_of(const Finish& finish) {
+  constexpr double straight = 0.9, aside = 0.6;  // cos θ
+  constexpr double least = 1.0 / 16;
+  const double b = std::max(finish.brilliance, 0.0);
+  const auto left = [&](double x) { return finish.diffuse * std::pow(x, b) - finish.crand / 2; };
+  const double first = left(straight);
+  if (!(first > 0)) return {};
+  const double second = std::max(left(aside), least * first);
+  Falloff f;
+  f.brilliance = std::log(first / second) / std::log(straight / aside);
+  f.diffuse = first / std::pow(straight, f.brilliance);
+  f.grain = std::min(finish.crand / 2 / first, 1.0);
+  return f;
+}
+
 std::string key_of(const Numbers& n) {
   return fmt::format("{},{},{},{},{};", n.v[0], n.v[1], n.v[2], n.v[3], n.v[4]);
 }
 
 std::string key_of(const Finish& f) {
   return key_of(f.ambient) + key_of(f.emission) + key_of(f.reflection_min) + key_of(f.reflection_max) +
-         fmt::format("{},{},{},{},{},{},{},{},{},{},{};", f.diffuse, f.brilliance, f.phong, f.phong_size,
+         fmt::format("{},{},{},{},{},{},{},{},{},{},{},{};", f.diffuse, f.brilliance, f.phong, f.phong_size,
                      f.specular, f.roughness, f.metallic, f.fresnel, f.reflection_metallic, f.diffuse_back,
-                     f.subsurface);
+                     f.subsurface, f.crand);
 }
 
 std::string key_of(const Look& look) {
@@ -116,29 +140,7 @@ Surface Surfaces::made(const Look& look) {
   static const auto black = std::make_shared<pov::Texture>();
   const pov::Texture& texture = look.texture ? *look.texture : *black;
   const Transform to_world = look.to_world * texture.to_object;
-  Layer result;
-  if (texture.layers.empty()) {
-    result = texture.pattern ? blended(texture, to_world, look) : layer_of(texture, to_world, look);
-  } else {
-    for (std::size_t i = 0; i < texture.layers.size(); ++i) {
-      const pov::Texture& one = *texture.layers[i];
-      const Transform at = to_world * one.to_object;
-      const Layer above = one.pattern ? blended(one, at, look) : layer_of(one, at, look);
-      const float* const opacity = std::get_if<float>(&above.opacity);
-      if (i == 0 || (opacity && *opacity >= 1)) {
-        result = above;
-        continue;
-      }
-      Layer both;
-      both.material = add(BlendMaterial{result.material, above.material, above.opacity}, one.place);
-      // What is behind shows through both.
-      const float* const below = std::get_if<float>(&result.opacity);
-      both.opacity = below && *below >= 1 ? FloatParameter{1.0f} : above.opacity;
-      both.glow = above.glow, both.glow_scale = above.glow_scale;
-      if (result.glow_scale > both.glow_scale) both.glow = result.glow, both.glow_scale = result.glow_scale;
-      result = both;
-    }
-  }
+  const Layer result = layered(texture, to_world, look);
   Surface surface{result.material, std::nullopt, result.opacity};
   if (result.glow_scale > 0) {
     AreaLight glow;
@@ -261,9 +263,14 @@ Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish,
     lobes.push_back({ConductorMaterial{metal(finish.metallic), roughness}, share});
     approximated("phong or specular: microfacets with a highlight as high", finish.place);
   }
-  const double diffuse = reader_.linear(finish.diffuse);
+  const Falloff falloff = falloff_of(finish);
+  const bool grainy = finish.crand > 0 && as_said;
+  const double diffuse = reader_.linear(grainy ? falloff.diffuse : darkened(finish));
   if (finish.brilliance != 1 && !as_said) approximated("brilliance: 1", finish.place);
-  if (finish.crand > 0) dropped("crand", finish.place);
+  if (finish.crand > 0)
+    approximated(grainy ? "crand: grain of our own places, and a greater brilliance for its dark"
+                        : "crand: the mean of its dark, without grain",
+                 finish.place);
   if (finish.irid > 0) dropped("irid", finish.place);
   if (finish.subsurface) dropped("subsurface", finish.place);
   if (reflection > 0 && !fresnel) {
@@ -291,13 +298,15 @@ Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish,
   }
   const double left = 1 - shares;
   const bool highlights = finish.phong > 0 || finish.specular > 0;
-  const bool as_finish = as_said && (highlights || finish.brilliance != 1 || diffuse > left);
-  const SpectrumParameter reflectance = color_texture(
+  const bool as_finish = as_said && (highlights || finish.brilliance != 1 || grainy || diffuse > left);
+  SpectrumParameter reflectance = color_texture(
       pigment, to_world, as_finish ? Part::factor : Part::reflectance, diffuse / left, look.by_uv);
+  if (grainy)
+    reflectance = add(ProductTexture{reflectance, grain(falloff.grain, finish.place)}, false, finish.place);
   MaterialModel base;
   if (as_finish) {
     FinishMaterial m{reflectance, highlight_color(pigment, finish, to_world, look)};
-    m.brilliance = static_cast<float>(std::max(finish.brilliance, 0.0));
+    m.brilliance = static_cast<float>(grainy ? falloff.brilliance : std::max(finish.brilliance, 0.0));
     m.phong = static_cast<float>(std::max(finish.phong, 0.0) / left);
     m.phong_size = static_cast<float>(std::max(finish.phong_size, 0.0));
     m.specular = static_cast<float>(std::max(finish.specular, 0.0) / left);
@@ -328,38 +337,6 @@ Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish,
     held += lobe.share;
     result = add(BlendMaterial{result, other, static_cast<float>(lobe.share / held)}, pigment.place);
   }
-  return result;
-}
-
-// A pattern between textures: each piece of its map is a blend.
-Surfaces::Layer Surfaces::blended(const pov::Texture& texture, const Transform& to_world, const Look& look) {
-  std::vector<std::pair<double, Layer>> layers;
-  if (texture.map)
-    for (const BlendEntry& entry : texture.map->entries)
-      if (entry.texture) {
-        const Transform at = to_world * entry.texture->to_object;
-        layers.emplace_back(entry.at, entry.texture->pattern ? blended(*entry.texture, at, look)
-                                      : entry.texture->layers.empty()
-                                          ? layer_of(*entry.texture, at, look)
-                                          : layer_of(*entry.texture->layers.back(),
-                                                     at * entry.texture->layers.back()->to_object, look));
-      }
-  if (layers.empty()) {
-    dropped("a pattern of textures without textures: black", texture.place);
-    return layer_of({}, to_world, look);
-  }
-  Layer result = layers.front().second;
-  const bool list = texture.pattern->kind == Word::checker_ || texture.pattern->kind == Word::brick_ ||
-                    texture.pattern->kind == Word::hexagon_;
-  for (std::size_t i = 1; i < layers.size(); ++i) {
-    const FloatParameter amount = amount_texture(*texture.pattern, to_world, layers[i - 1].first,
-                                                 layers[i].first, texture.place, list, i);
-    result.material = add(BlendMaterial{result.material, layers[i].second.material, amount}, texture.place);
-    if (layers[i].second.glow_scale > result.glow_scale)
-      result.glow = layers[i].second.glow, result.glow_scale = layers[i].second.glow_scale;
-  }
-  if (layers.size() > 1 && result.glow_scale > 0)
-    approximated("ambient and emission of a pattern of textures: those of the brightest", texture.place);
   return result;
 }
 

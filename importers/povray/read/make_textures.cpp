@@ -7,11 +7,23 @@
 
 #include "importers/povray/read/image_values.h"
 #include "importers/povray/read/pattern_kinds.h"
+#include "importers/povray/read/pigment_patterns.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/surfaces.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail::pov {
+
+namespace {
+
+PatternStop number_stop(double at, float value) {
+  PatternStop stop;
+  stop.at = static_cast<float>(std::clamp(at, 0.0, 1.0));
+  stop.value = Spectrum{ConstantSpectrum{value}};
+  return stop;
+}
+
+}  // namespace
 
 Id<vitrail::Texture> Surfaces::add(TextureModel model, bool is_float, const Place& place) {
   vitrail::Texture texture;
@@ -27,6 +39,7 @@ float Surfaces::opacity_of(const Numbers& color) const {
 
 Spectrum Surfaces::spectrum_of(const Numbers& color, Part part, double factor) const {
   if (part == Part::opacity) return ConstantSpectrum{opacity_of(color)};
+  if (part == Part::grey) return ConstantSpectrum{static_cast<float>(grey_of(color) * factor)};
   const RGB c{reader_.linear(color.v[0]) * factor, reader_.linear(color.v[1]) * factor,
               reader_.linear(color.v[2]) * factor};
   if (part == Part::radiance) return emission_from_rgb(c);
@@ -76,7 +89,8 @@ Numbers mean_color(const Pigment& pigment) {
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const double before = i ? entries[i - 1].at : std::min(entries[i].at, 0.0);
     const double after = i + 1 < entries.size() ? entries[i + 1].at : std::max(entries[i].at, 1.0);
-    const double weight = std::max((after - before) / 2, 1e-6);
+    const double weight =
+        std::max(pigment.pattern.kind == Word::average_ ? entries[i].at : (after - before) / 2, 1e-6);
     const Numbers c = color(entries[i]);
     for (std::size_t k = 0; k < 5; ++k) sum.v[k] += weight * c.v[k];
     weights += weight;
@@ -91,8 +105,17 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
     return spectrum_of(mean_color(pigment), part, factor);
   const Pattern& pattern = pigment.pattern;
   if (pattern.image && pattern.kind == Word::image_map_)
-    return image_texture(*pattern.image, pattern, to_world, by_uv || pattern.uv_mapping, factor,
+    return image_texture(*pattern.image, pattern, to_world, part, by_uv || pattern.uv_mapping, factor,
                          pigment.place);
+  if (pattern.kind == Word::average_ && pigment.map)
+    return average_texture(pigment, to_world, part, factor, by_uv);
+  if (pattern.kind == Word::pigment_pattern_ && pattern.pigment) {
+    const Pigment& inner = *pattern.pigment;
+    note_modifiers(pattern, pigment.place);
+    if (const auto both =
+            colored_by_grey(inner, pigment.map ? pigment.map->entries : default_entries(pattern.kind)))
+      return color_texture(*both, to_world * inner.to_object, part, factor, by_uv);
+  }
   auto made = pattern_texture(pattern, to_world, pigment.place);
   if (!made) return spectrum_of(pigment.quick_color.value_or(mean_color(pigment)), part, factor);
   std::vector<BlendEntry> entries = pigment.map ? pigment.map->entries : default_entries(pattern.kind);
@@ -101,24 +124,66 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
     stop.at = static_cast<float>(std::clamp(entry.at, 0.0, 1.0));
     if (is_of_places(made->kind)) stop.at = 0;
     if (!made->map.empty() && !is_of_places(made->kind)) stop.at = std::max(stop.at, made->map.back().at);
-    if (!entry.pigment) {
-      stop.value = spectrum_of(entry.color, part, factor);
-    } else {
-      const Transform inner = to_world * entry.pigment->to_object;
-      stop.value = color_texture(*entry.pigment, inner, part, factor, by_uv);
-    }
+    stop.value = entry_texture(entry, to_world, part, factor, by_uv);
     made->map.push_back(std::move(stop));
   }
-  return add(std::move(*made), part == Part::opacity, pigment.place);
+  return add(std::move(*made), is_number(part), pigment.place);
+}
+
+SpectrumParameter Surfaces::entry_texture(const BlendEntry& entry, const Transform& to_world, Part part,
+                                          double factor, bool by_uv) {
+  if (!entry.pigment) return spectrum_of(entry.color, part, factor);
+  return color_texture(*entry.pigment, to_world * entry.pigment->to_object, part, factor, by_uv);
+}
+
+// The mean of all entries, by the weights that stand in their places.
+SpectrumParameter Surfaces::average_texture(const Pigment& pigment, const Transform& to_world, Part part,
+                                            double factor, bool by_uv) {
+  std::optional<SpectrumParameter> mean;
+  double weights = 0;
+  for (const BlendEntry& entry : pigment.map->entries) {
+    if (!(entry.at > 0)) continue;
+    weights += entry.at;
+    const SpectrumParameter value = entry_texture(entry, to_world, part, factor, by_uv);
+    const auto amount = static_cast<float>(entry.at / weights);
+    mean = mean ? add(MixTexture{*mean, value, amount}, is_number(part), pigment.place) : value;
+  }
+  return mean.value_or(spectrum_of(mean_color(pigment), part, factor));
+}
+
+SpectrumParameter Surfaces::grain(double amount, const Place& place) {
+  constexpr double size = 1e-4;  // of a grain
+  PatternTexture grains;
+  grains.kind = PatternTexture::Kind::cells;
+  grains.texture_to_world = scale({size, size, size});
+  grains.map = {number_stop(0, static_cast<float>(1 + amount)),
+                number_stop(1, static_cast<float>(1 - amount))};
+  return add(std::move(grains), false, place);
+}
+
+void Surfaces::note_modifiers(const Pattern& pattern, const Place& place) {
+  const bool changed = pattern.frequency != 1 || pattern.phase != 0 || pattern.turbulence != Vector3d{} ||
+                       (pattern.wave != Word::none && pattern.wave != Word::ramp_wave_);
+  if (changed) approximated("waves and turbulence of a pigment_pattern: those of the pigment alone", place);
 }
 
 FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform& to_world, double from,
                                         double to, const Place& place, bool list, std::size_t index) {
+  if (pattern.kind == Word::pigment_pattern_ && pattern.pigment) {
+    BlendEntry first, second;
+    first.at = from, first.color = Finish::grey(0);
+    second.at = to, second.color = Finish::grey(1);
+    note_modifiers(pattern, place);
+    if (const auto both = colored_by_grey(*pattern.pigment, {first, second})) {
+      const SpectrumParameter amount =
+          color_texture(*both, to_world * pattern.pigment->to_object, Part::grey, 1, false);
+      if (const auto* id = std::get_if<Id<vitrail::Texture>>(&amount)) return *id;
+      return static_cast<float>(grey_of(mean_color(*both)));
+    }
+  }
   auto made = pattern_texture(pattern, to_world, place);
   if (!made) return 0.5f;
-  const auto stop = [&](double at, float value) {
-    made->map.push_back({static_cast<float>(std::clamp(at, 0.0, 1.0)), Spectrum{ConstantSpectrum{value}}});
-  };
+  const auto stop = [&](double at, float value) { made->map.push_back(number_stop(at, value)); };
   if (list) {
     for (std::size_t i = 0; i <= std::max<std::size_t>(index, 1); ++i) stop(0, i == index ? 1.0f : 0.0f);
     if (made->kind == PatternTexture::Kind::hexagon && index < 2) stop(0, 0);
@@ -181,7 +246,7 @@ void Surfaces::set_encoding(ImageTexture& texture, const ImageMap& image) const 
 }
 
 SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& pattern,
-                                          const Transform& to_world, bool by_uv, double factor,
+                                          const Transform& to_world, Part part, bool by_uv, double factor,
                                           const Place& place) {
   if (image.filename.empty()) return Spectrum{ConstantSpectrum{static_cast<float>(0.5 * factor)}};
   ImageTexture texture;
@@ -189,7 +254,10 @@ SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& 
   texture.wrap = image.once ? Wrap::black : Wrap::repeat;
   texture.filter = image.interpolate > 0 ? TextureFilter::bilinear : TextureFilter::nearest;
   texture.scale = static_cast<float>(factor);
-  set_encoding(texture, image);
+  if (is_number(part))
+    texture.encoding = Encoding::linear, texture.number = ImageNumber::luminance;
+  else
+    set_encoding(texture, image);
   if (by_uv) {
     texture.mapping = UvMapping{};
   } else if (image.map_type == 0) {
@@ -204,7 +272,7 @@ SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& 
     approximated("an image around a sphere, cylinder or torus: by (u,v) of the surface", place);
     texture.mapping = UvMapping{-1, 0, 1, 0, 1, 0};  // of a sphere u runs the other way
   }
-  return add(std::move(texture), false, place);
+  return add(std::move(texture), is_number(part), place);
 }
 
 }  // namespace vitrail::pov

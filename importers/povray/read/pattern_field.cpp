@@ -10,6 +10,7 @@
 #include "importers/povray/read/object_hits.h"
 #include "importers/povray/read/pattern_kinds.h"
 #include "importers/povray/read/pattern_warps.h"
+#include "importers/povray/read/pigment_patterns.h"
 #include "importers/povray/read/reader.h"
 #include "scene/models/pattern.h"
 #include "scene/models/pattern_shapes.h"
@@ -17,8 +18,6 @@
 namespace vitrail::pov {
 
 namespace {
-
-double grey_of(const Numbers& c) { return 0.297 * c.v[0] + 0.589 * c.v[1] + 0.114 * c.v[2]; }
 
 // What a pattern without a record of its own gives is between 0 and 1: `planar` takes it there unchanged, to
 // what frequency, phase and wave make of it.

@@ -52,7 +52,11 @@ class Surfaces {
 
   Surface made(const Look& look);
   Layer layer_of(const Texture& texture, const Transform& to_world, const Look& look);
+  // Of layers or a pattern of textures, else layer_of (make_layers.cpp).
+  Layer layered(const Texture& texture, const Transform& to_world, const Look& look);
   Layer blended(const Texture& texture, const Transform& to_world, const Look& look);
+  // (1 − amount)·first + amount·second; with the material, glow and opacity of both.
+  Layer mixed(const Layer& first, const Layer& second, const FloatParameter& amount, const Place& place);
   Id<Material> material_of(const Pigment& pigment, const Finish& finish, const Transform& to_world,
                            const Look& look);
   // What is solid of it, and what light goes through, in their shares; with its bumps (make_bumps.cpp).
@@ -71,16 +75,30 @@ class Surfaces {
                                     const Look& look);
   Id<Material> clear_material(const Pigment& pigment, const Finish& finish, const Interior* interior);
 
-  // Textures (make_textures.cpp): what of a colour becomes the value. A factor may be above 1.
-  enum class Part { reflectance, factor, radiance, opacity };
+  // Textures (make_textures.cpp): what of a colour becomes the value. A factor may be above 1. `grey` is that
+  // of its numbers as they are.
+  enum class Part { reflectance, factor, radiance, opacity, grey };
+  static bool is_number(Part part) { return part == Part::opacity || part == Part::grey; }
   SpectrumParameter color_texture(const Pigment& pigment, const Transform& to_world, Part part, double factor,
                                   bool by_uv);
+  SpectrumParameter entry_texture(const BlendEntry& entry, const Transform& to_world, Part part,
+                                  double factor, bool by_uv);
+  SpectrumParameter average_texture(const Pigment& pigment, const Transform& to_world, Part part,
+                                    double factor, bool by_uv);
+  // A number of each point, 1 − amount … 1 + amount: grains too small to be seen.
+  SpectrumParameter grain(double amount, const Place& place);
   FloatParameter opacity_of(const Pigment& pigment, const Transform& to_world, bool by_uv);
   SpectrumParameter image_texture(const ImageMap& image, const Pattern& pattern, const Transform& to_world,
-                                  bool by_uv, double factor, const Place& place);
+                                  Part part, bool by_uv, double factor, const Place& place);
+  // A displacement that is everywhere what another texture is there (make_bumps.cpp).
+  PatternTexture carrier_of(const SpectrumParameter& height, const Transform& to_world) const;
+  std::optional<FloatParameter> bump_of_image(const Bump& bump, const Transform& to_world);
+  std::optional<FloatParameter> bump_of_pigment(const Bump& bump, const Transform& to_world, double height);
+  double height_of(const Bump& bump, const Transform& to_world);
   void set_encoding(ImageTexture& texture, const ImageMap& image) const;
   std::optional<PatternTexture> pattern_texture(const Pattern& pattern, const Transform& to_world,
                                                 const Place& place);
+  void note_modifiers(const Pattern& pattern, const Place& place);  // of a pigment_pattern
   FloatParameter amount_texture(const Pattern& pattern, const Transform& to_world, double from, double to,
                                 const Place& place, bool second_of_list, std::size_t index);
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "film/develop.h"
 #include "importers/povray/read/povray.h"
 #include "scene/spectra/color.h"
@@ -145,6 +147,97 @@ TEST_F(PovrayPictures, Atmospheres) {
   expect_alike(
       linear + walls + "fog { distance 4 rgb <.4, .5, .6> } sphere { 0, 90 pigment { rgb 1 } no_shadow }",
       0.03);
+}
+
+TEST_F(PovrayPictures, AveragesOfPigmentsAndTextures) {
+  const auto floor = [](const std::string& look) {
+    return linear + lamps + "plane { y, 0 " + look + " }\nsphere { <0, .9, 0>, .8 " + look + " }\n";
+  };
+  const std::string two =
+      "[1 checker rgb <.9, .2, .1> rgb <.1, .3, .9>] [3 gradient x color_map { [0 rgb 0] [1 rgb 1] } scale "
+      "2]";
+  expect_alike(floor("pigment { average pigment_map { " + two + " } } finish { ambient .2 }"), 0.02);
+  expect_alike(
+      floor("texture { average texture_map {"
+            " [2 pigment { checker rgb <.9, .2, .1> rgb <.1, .3, .9> } finish { ambient .4 diffuse .2 }]"
+            " [1 pigment { gradient x color_map { [0 rgb 0] [1 rgb 1] } } finish { ambient 0 }] } }"),
+      0.02);
+}
+
+TEST_F(PovrayPictures, TexturesOfAPatternEachWithItsGlowAndLayers) {
+  const std::string layers =
+      "#declare Layers = texture { pigment { rgb <.2, .3, .9> } finish { ambient .5 diffuse .2 } }"
+      " texture { pigment { checker rgbt <.9, .2, .1, 0> rgbt <1, 1, 1, .8> scale .3 }"
+      " finish { ambient .2 diffuse .5 } }\n";
+  for (const char* pattern : {"gradient x scale 3", "checker"}) {
+    const std::string kind = pattern;
+    const std::string dark = "pigment { rgb .3 } finish { ambient .05 diffuse .7 }";
+    const std::string look =
+        kind == "checker" ? "texture { checker texture { " + dark + " } texture { Layers } }"
+                          : "texture { gradient x texture_map { [0 " + dark + "] [1 Layers] } scale 3 }";
+    expect_alike(
+        linear + lamps + layers + "plane { y, 0 " + look + " }\nsphere { <0, .9, 0>, .8 " + look + " }",
+        0.02);
+  }
+}
+
+TEST_F(PovrayPictures, Grain) {
+  for (const char* finish : {"ambient .1 diffuse .6 crand .05", "ambient .1 diffuse .7 crand .15",
+                             "ambient .2 diffuse .6 brilliance 2 crand .06 phong .4"})
+    expect_alike(linear + lamps + "plane { y, 0 pigment { rgb <.8, .7, .5> } finish { " + finish +
+                     " } }\nsphere { <0, .9, 0>, .8 pigment { gradient y } finish { " + finish + " } }\n",
+                 0.025);
+}
+
+const std::string walls = ball + "plane { -z, -6 pigment { rgb .6 } }\n";
+
+TEST_F(PovrayPictures, FogOnTheGround) {
+  for (const char* fog : {"distance 4 rgb .6 fog_offset .2 fog_alt .6", "distance 2 rgb .1 fog_alt 1"})
+    expect_alike(linear + walls + "fog { fog_type 2 " + fog + " }", 0.03, 256);
+}
+
+TEST_F(PovrayPictures, FogWithTurbulence) {
+  for (const char* fog :
+       {"distance 8 rgb <.7, .8, .9> turbulence .5", "distance 3 rgb .9 turbulence 2 octaves 3",
+        "distance 4 rgb .6 fog_type 2 fog_offset .2 fog_alt .6 turbulence .8"})
+    expect_alike(linear + walls + "fog { " + fog + " }", 0.06, 256);
+  expect_alike(linear + walls + "fog { distance 6 rgb .9 turbulence .5 turb_depth .9 }", 0.09, 256);
+}
+
+TEST_F(PovrayPictures, PatternsOfPigments) {
+  const auto shown = [&](const std::string& look) {
+    return linear + lamps + "plane { y, 0 " + look + " }\nsphere { <0, .9, 0>, .8 " + look + " }\n";
+  };
+  const std::string rings =
+      "pigment_pattern { onion color_map { [0 rgb 1] [.4 rgb .2] [.4 rgb <.9, .1, .5>] [1 rgb 0] } scale .7 "
+      "} ";
+  const std::string boxes = "pigment_pattern { checker rgb <.9, .2, .1>, rgb <.1, .3, .9> scale .6 } ";
+  const std::string steps =
+      "color_map { [.25 rgb <.9, .2, .1>] [.25 rgb <.2, .8, .3>] [.7 rgb <.1, .2, .9>] } ";
+  expect_alike(shown("pigment { " + rings + steps + "scale 1.3 } finish { ambient .3 }"), 0.02);
+  expect_alike(shown("pigment { " + boxes + steps + "} finish { ambient .3 }"), 0.02);
+  expect_alike(shown("texture { " + rings +
+                     "texture_map { [.2 pigment { rgb <.9, .8, .1> } finish { ambient .5 }]"
+                     " [.8 pigment { rgb <.1, .2, .3> } finish { specular .8 roughness .05 }] } }"),
+               0.02);
+  expect_alike(
+      shown("pigment { rgb .7 } normal { pigment_pattern { leopard color_map { [0 rgb 0] [1 rgb .6] }"
+            " scale .1 } 1.5 } finish { ambient .1 specular .5 roughness .05 }"),
+      0.03);
+}
+
+TEST_F(PovrayPictures, BumpMaps) {
+  std::string pixels = "P2\n64 64\n255\n";
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x)
+      pixels += fmt::format("{} ", std::lround(127 + 90 * std::sin(x * 0.39) * std::cos(y * 0.2)));
+  folder_.write("bumps.pgm", pixels);
+  for (const char* more : {"", " scale 3 rotate x*90"})
+    expect_alike(linear + lamps +
+                     "plane { z, 0 pigment { rgb .7 } normal { bump_map { pgm \"bumps.pgm\" bump_size 6"
+                     " interpolate 2 }" +
+                     more + " } finish { ambient .1 specular .4 roughness .05 } }\n",
+                 0.03);
 }
 
 TEST_F(PovrayPictures, Cameras) {

@@ -72,10 +72,10 @@ TEST_F(ReadPovrayMedia, GroundFogIsAsThickAsItsLayers) {
     EXPECT_GT(sigma(shape.interior), sigma(shape.exterior));
     below = shape.exterior, last = height;
   }
-  EXPECT_NEAR(last, 101, 1e-9);
-  EXPECT_NEAR(column, 2.0 / 10 * 50 / 51, 1e-5);  // alt/distance · u/(1 + u)
+  EXPECT_NEAR(last, 101, 1e-3);
+  EXPECT_NEAR(column, 2.0 / 10 * std::atan(50.0), 1e-4);  // alt/distance · atan u
   // The camera is a quarter of alt above the offset.
-  EXPECT_NEAR(sigma(fog.scene.camera_medium), 0.1 * (0.35 / 1.35 - 0.15 / 1.15) / 0.2, 1e-5);
+  EXPECT_NEAR(sigma(fog.scene.camera_medium), 0.1 * (std::atan(0.3) - std::atan(0.15)) / 0.15, 1e-5);
   EXPECT_TRUE(says(fog, "ground fog"));
 }
 

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several textures on one surface: layers over each other, and patterns between textures.
+#include <algorithm>
+
+#include "importers/povray/read/pattern_kinds.h"
+#include "importers/povray/read/reader.h"
+#include "importers/povray/read/surfaces.h"
+
+namespace vitrail::pov {
+
+namespace {
+
+SpectrumParameter as_spectrum(const FloatParameter& number) {
+  if (const auto* id = std::get_if<Id<vitrail::Texture>>(&number)) return *id;
+  return Spectrum{ConstantSpectrum{std::get<float>(number)}};
+}
+
+}  // namespace
+
+Surfaces::Layer Surfaces::mixed(const Layer& first, const Layer& second, const FloatParameter& amount,
+                                const Place& place) {
+  Layer both = first;
+  both.material = add(BlendMaterial{first.material, second.material, amount}, place);
+  both.glow_scale = std::max(first.glow_scale, second.glow_scale);
+  if (both.glow_scale > 0) both.glow = add(MixTexture{first.glow, second.glow, amount}, false, place);
+  if (first.opacity != second.opacity)
+    both.opacity =
+        add(MixTexture{as_spectrum(first.opacity), as_spectrum(second.opacity), amount}, true, place);
+  return both;
+}
+
+Surfaces::Layer Surfaces::layered(const pov::Texture& texture, const Transform& to_world, const Look& look) {
+  if (texture.layers.empty())
+    return texture.pattern ? blended(texture, to_world, look) : layer_of(texture, to_world, look);
+  Layer result;
+  for (std::size_t i = 0; i < texture.layers.size(); ++i) {
+    const pov::Texture& one = *texture.layers[i];
+    const Layer above = layered(one, to_world * one.to_object, look);
+    const float* const opacity = std::get_if<float>(&above.opacity);
+    if (i == 0 || (opacity && *opacity >= 1)) {
+      result = above;
+      continue;
+    }
+    // What is behind shows through both.
+    const float* const below = std::get_if<float>(&result.opacity);
+    const FloatParameter through = below && *below >= 1 ? FloatParameter{1.0f} : above.opacity;
+    result = mixed(result, above, above.opacity, one.place);
+    result.opacity = through;
+  }
+  return result;
+}
+
+// Each piece of the map is a mixture of both its ends; `average` is one of all, by their weights.
+Surfaces::Layer Surfaces::blended(const pov::Texture& texture, const Transform& to_world, const Look& look) {
+  std::vector<std::pair<double, Layer>> layers;
+  if (texture.map)
+    for (const BlendEntry& entry : texture.map->entries)
+      if (entry.texture)
+        layers.emplace_back(entry.at, layered(*entry.texture, to_world * entry.texture->to_object, look));
+  if (layers.empty()) {
+    dropped("a pattern of textures without textures: black", texture.place);
+    return layer_of({}, to_world, look);
+  }
+  Layer result = layers.front().second;
+  const Word kind = texture.pattern->kind;
+  const bool list = kind == Word::checker_ || kind == Word::brick_ || kind == Word::hexagon_;
+  double weights = layers.front().first;
+  for (std::size_t i = 1; i < layers.size(); ++i) {
+    weights += layers[i].first;
+    const FloatParameter amount =
+        kind == Word::average_
+            ? FloatParameter{static_cast<float>(weights > 0 ? layers[i].first / weights : 0)}
+            : amount_texture(*texture.pattern, to_world, layers[i - 1].first, layers[i].first, texture.place,
+                             list, i);
+    result = mixed(result, layers[i].second, amount, texture.place);
+  }
+  return result;
+}
+
+}  // namespace vitrail::pov
