@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <optional>
 
@@ -38,8 +39,6 @@ double error_of(const nlohmann::ordered_json& pictures) {
 
 void require_checkable(const fs::path& out) {
   const std::string format = out.extension().string();
-  if (format == ".pov")
-    throw UsageError("--check reads the scene that was written, and POV-Ray's is not read");
   if (format == ".obj" || format == ".ply")
     throw UsageError("--check compares pictures, and " + format.substr(1) + " has no camera");
 }
@@ -48,11 +47,20 @@ nlohmann::ordered_json compare_pictures(const fs::path& in, const std::vector<st
                                         const fs::path& out, const FilmSettings& film) {
   constexpr double longer_side = 64;
   const double scale = std::clamp(longer_side / std::max(film.width, film.height), 0.001, 1.0);
+  std::vector<std::string> extent{"--scale", fmt::format("{}", scale)};
+  if (out.extension() == ".pov") {  // which does not say how large its picture is
+    const auto side = [&](int pixels) { return std::max(1, static_cast<int>(std::lround(scale * pixels))); };
+    const int width = side(film.width), height = side(film.height);
+    extent = {"--width",  std::to_string(width),
+              "--height", std::to_string(height),
+              "--crop",   fmt::format("0,{},0,{}", width, height)};
+  }
   const TemporaryFolder folder;
   const auto render = [&](const fs::path& scene, const std::string& to, const std::string& spp,
                           const char* seed, std::vector<std::string> words) {
-    words.insert(words.end(), {scene.string(), "-o", to, "--spp", spp, "--scale", fmt::format("{}", scale),
-                               "--seed", seed, "--aov", "none", "--quiet"});
+    words.insert(words.end(), extent.begin(), extent.end());
+    words.insert(words.end(),
+                 {scene.string(), "-o", to, "--spp", spp, "--seed", seed, "--aov", "none", "--quiet"});
     run_program("vitrail-render", words);
   };
   nlohmann::ordered_json pictures;

@@ -22,7 +22,7 @@ nlohmann::ordered_json compare_pictures(const std::filesystem::path& in,
 // "looks the same: luminance +0.20 % ± 0.41 %".
 std::string pictures_in_words(const nlohmann::ordered_json& pictures);
 
-// Throws UsageError where no reader is there (.pov), or no camera (.obj, .ply).
+// Throws UsageError where the format has no camera (.obj, .ply).
 void require_checkable(const std::filesystem::path& out);
 
 }  // namespace vitrail

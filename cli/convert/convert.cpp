@@ -96,17 +96,12 @@ std::vector<std::string> reading_options(const Arguments& a) {
   return words;
 }
 
-bool is_checked_by_us(const Arguments& a, const std::filesystem::path& out) {
-  return a.check == "ours" || (a.check == "peer" && out.extension() != ".pov");
-}
-
 bool passed(const nlohmann::ordered_json& check) { return check.is_null() || check.value("passed", true); }
 
 // With --strict nothing is written where the input is not read exactly already.
 int run(const Arguments& a) {
   require_export_format(a.output);
-  const bool by_us = is_checked_by_us(a, a.output);
-  if (by_us) require_checkable(a.output);
+  if (!a.check.empty()) require_checkable(a.output);
   require_input(a.input, {InputKind::scene});
   note_input(a.input);
   require_outputs(a);
@@ -129,7 +124,7 @@ int run(const Arguments& a) {
   std::ranges::move(edits, std::back_inserter(diagnostics));
   const std::vector<ConversionItem> items = conversion_items(imported.scene, diagnostics);
   nlohmann::ordered_json pictures, peer;
-  if (by_us && !refused)
+  if (!a.check.empty() && !refused)
     pictures = compare_pictures(a.input, reading_options(a), a.output, imported.scene.film);
   if (a.check == "peer" && !refused)
     peer = check_in_peer({a.input, a.output, reading_options(a), a.peer}, imported.scene.film);
@@ -152,7 +147,7 @@ int run(const Arguments& a) {
 
 int run_many(const Arguments& a) {
   if (a.output.empty()) throw UsageError("--to needs the folder for all: -o FOLDER");
-  if (is_checked_by_us(a, "scene." + a.format)) require_checkable("scene." + a.format);
+  if (!a.check.empty()) require_checkable("scene." + a.format);
   if (a.pack) throw UsageError("--pack takes one scene, not --to");
   if (!a.report.empty()) throw UsageError("--to gives every scene its report: leave --report out");
   ManyConversions many{a.files, a.output, a.format, a.at_once, a.again,

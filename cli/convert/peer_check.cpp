@@ -7,10 +7,12 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "cli/common/run_program.h"
 #include "cli/common/temporary_folder.h"
+#include "cli/convert/block_luminances.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {
@@ -37,14 +39,18 @@ const Peer& peer_of(const fs::path& out) {
   return *found;
 }
 
-struct Extent {
-  int width, height;
-};
-// 64 pixels, or about.
-Extent small(const FilmSettings& film) {
-  const double scale = 8 / std::sqrt(static_cast<double>(film.width) * film.height);
-  const auto of = [&](int side) { return std::max(1, static_cast<int>(std::lround(scale * side))); };
-  return {of(film.width), of(film.height)};
+// 64 pixels, or about: of the sizes up to 160, the one that comes nearest to the film's shape.
+SmallPicture small(const FilmSettings& film) {
+  const double shape = std::log(static_cast<double>(film.width) / film.height);
+  SmallPicture best{8, 8};
+  double least = std::numeric_limits<double>::infinity();
+  for (int width = 1; width <= 160; ++width)
+    for (int height = std::max(1, 32 / width); width * height <= 160; ++height) {
+      const double off = std::abs(std::log(static_cast<double>(width) / height) - shape) +
+                         0.01 * std::abs(std::log(width * height / 64.0));
+      if (off < least) best = {width, height}, least = off;
+    }
+  return best;
 }
 
 std::string text_of(const std::string& file) {
@@ -67,14 +73,14 @@ std::string last_words(const std::string& text) {
 }
 
 // The input as vitrail shows it, for a peer that does not read it.
-std::string picture_of_input(const PeerCheck& check, const FilmSettings& film,
+std::string picture_of_input(const PeerCheck& check, SmallPicture size, int samples_per_pixel,
                              const TemporaryFolder& folder) {
   const std::string exact = folder.file("before.film"), picture = folder.file("before.exr");
-  const Extent size = small(film);
   std::vector<std::string> words = check.options;
-  words.insert(words.end(), {check.in.string(), "-o", exact, "--spp", "1024", "--width",
-                             std::to_string(size.width), "--height", std::to_string(size.height), "--crop",
-                             fmt::format("0,{},0,{}", size.width, size.height), "--aov", "none", "--quiet"});
+  words.insert(words.end(),
+               {check.in.string(), "-o", exact, "--spp", std::to_string(samples_per_pixel), "--width",
+                std::to_string(size.width), "--height", std::to_string(size.height), "--crop",
+                fmt::format("0,{},0,{}", size.width, size.height), "--aov", "none", "--quiet"});
   run_program("vitrail-render", words);
   run_program("vitrail-develop", {exact, "-o", picture, "--quiet"});
   return picture;
@@ -86,9 +92,9 @@ Json in_mitsuba(const PeerCheck& check, const std::string& python, const FilmSet
                     errors = folder.file("errors");
   std::ofstream(script) << mitsuba_script;
   const bool reads_input = check.in.extension() == ".xml" && check.options.empty();
-  const Extent size = small(film);
+  const SmallPicture size = small(film);
   const std::string reference =
-      reads_input ? fs::absolute(check.in).string() : picture_of_input(check, film, folder);
+      reads_input ? fs::absolute(check.in).string() : picture_of_input(check, size, 1024, folder);
   const ForeignEnd end = run_foreign({python, script, fs::absolute(check.out).string(), reference,
                                       std::to_string(size.width), std::to_string(size.height)},
                                      said, errors);
@@ -108,6 +114,41 @@ Json in_program(const std::vector<std::string>& words, const TemporaryFolder& fo
   Json variant{{"variant", "any"}, {"loads", end.status == 0}, {"passed", end.status == 0}};
   if (end.status != 0) variant["said"] = last_words(text_of(errors));
   return {{"variants", {variant}}};
+}
+
+// POV-Ray's picture of a scene, in linear colours. It looks for images in its working directory and in those
+// of +L, not beside the scene.
+Json picture_by_povray(const std::string& program, const fs::path& scene, SmallPicture size,
+                       const std::string& picture, const TemporaryFolder& folder) {
+  return in_program(
+      {program, "+I" + scene.string(), "+L" + scene.parent_path().string(), fmt::format("+W{}", size.width),
+       fmt::format("+H{}", size.height), "-D", "+A0.0", "+AM1", "+R4", "-J", "+FE", "+O" + picture},
+      folder);
+}
+
+// Blocks of a larger picture are compared: POV-Ray filters no pixel beyond its edges.
+Json in_povray(const PeerCheck& check, const std::string& program, const FilmSettings& film,
+               const TemporaryFolder& folder) {
+  constexpr double tolerance = 0.02;
+  const SmallPicture size = small(film),
+                     all{size.width * SmallPicture::block, size.height * SmallPicture::block};
+  const std::string after = folder.file("after.exr"), before = folder.file("itself.exr");
+  Json found = picture_by_povray(program, fs::absolute(check.out), all, after, folder);
+  if (found.contains("missing") || !found["variants"][0]["passed"].get<bool>()) return found;
+  Json& variant = found["variants"][0];
+  const bool reads_input = check.in.extension() == ".pov" && check.options.empty();
+  if (reads_input) {
+    const Json input = picture_by_povray(program, fs::absolute(check.in), all, before, folder)["variants"][0];
+    if (!input["passed"].get<bool>()) {
+      variant["not_compared"] = input["said"];
+      return found;
+    }
+  }
+  const std::string reference = reads_input ? before : picture_of_input(check, all, 64, folder);
+  variant["compared_with"] = reads_input ? "itself" : "vitrail";
+  variant.update(
+      compare_luminances(block_luminances(after, size), block_luminances(reference, size), tolerance));
+  return found;
 }
 
 // Programs go on to print all that they were given.
@@ -135,17 +176,15 @@ Json check_in_peer(const PeerCheck& check, const FilmSettings& film) {
   const Peer& peer = peer_of(check.out);
   const std::string program = check.program.empty() ? peer.program : check.program;
   const TemporaryFolder folder;
-  const std::string out = fs::absolute(check.out).string();
   Json found{{"name", peer.name}};
   if (std::string_view(peer.name) == "Mitsuba")
     found.update(in_mitsuba(check, program, film, folder));
   else if (std::string_view(peer.name) == "POV-Ray")
-    // It looks for images in its working directory and in those of +L, not beside the scene.
-    found.update(in_program({program, "+I" + out, "+L" + fs::path(out).parent_path().string(), "+W8", "+H8",
-                             "-D", "+O" + folder.file("picture.png")},
-                            folder));
+    found.update(in_povray(check, program, film, folder));
   else
-    found.update(in_program({program, "--spp", "1", "--outfile", folder.file("picture.exr"), out}, folder));
+    found.update(in_program(
+        {program, "--spp", "1", "--outfile", folder.file("picture.exr"), fs::absolute(check.out).string()},
+        folder));
   if (found.contains("missing")) {
     if (!check.program.empty()) throw UsageError("--peer: " + found.at("missing").get<std::string>());
     return found;

@@ -18,7 +18,8 @@ struct PeerCheck {
 };
 
 // Loads `out` there: Mitsuba in each common variant, which renders 64 pixels and compares them with those of
-// `in`, by itself where it reads that too, else by vitrail; POV-Ray and pbrt render without a comparison.
+// `in`, by itself where it reads that too, else by vitrail; POV-Ray likewise; pbrt renders without a
+// comparison.
 //
 //   {"name": "Mitsuba", "version": "3.9.1", "passed": true, "variants": [{"variant": "scalar_rgb", "loads":
 //    true, "compared_with": "itself", "luminance_ratio": 1.0003, "worst_pixel": 0.004, "passed": true}]}

@@ -218,10 +218,35 @@ TEST_F(Convert, PovRayTakesWhatIsWritten) {
   write("t.pfm", std::string("PF\n1 1\n-1.0\n") + std::string(12, '\0'));
   const auto result = convert(in + " " + path("out.pov") + " --check=peer");
   EXPECT_EQ(result.status, 0) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("POV-Ray renders it"));
+  EXPECT_THAT(result.output, HasSubstr("POV-Ray renders it"));  // it is black
   std::ifstream written(path("out.pov"));
   const std::string text{std::istreambuf_iterator<char>(written), {}};
   EXPECT_THAT(text, HasSubstr("image_map"));
+}
+
+TEST_F(Convert, PovRayShowsWhatIsWritten) {
+  if (std::system("povray --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no povray on the path";
+  const std::string in = write("in.pbrt", R"(LookAt 0 0 5 0 0 0 0 1 0 Camera "perspective" PixelFilter "box"
+          Film "rgb" "integer xresolution" 40 "integer yresolution" 20 WorldBegin
+          AttributeBegin Translate 0 0 4 LightSource "point" AttributeEnd
+          AttributeBegin AreaLightSource "diffuse" "rgb L" [2 1.5 1]
+          Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point3 P" [2 2 2 2 3 2 3 3 2 3 2 2] AttributeEnd
+          Texture "t" "spectrum" "imagemap" "string filename" "t.pfm" Material "diffuse" "texture reflectance" "t"
+          Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point3 P" [-9 -9 0 9 -9 0 9 9 0 -9 9 0])");
+  write("t.pfm", std::string("PF\n1 1\n-1.0\n") + std::string("\0\0\0\x3f\0\0\0\x3f\0\0\0\x3f", 12));  // ½
+  const auto asked = convert(in + " " + path("out.pov") + " --check=peer");
+  EXPECT_EQ(asked.status, 0) << asked.output;
+  EXPECT_THAT(asked.output, HasSubstr("looks the same"));
+  EXPECT_THAT(asked.output, HasSubstr("POV-Ray shows it as vitrail shows the input"));
+  const std::string other = write("other.sh",
+                                  "#!/bin/sh\n"  // with one more lamp
+                                  "for word; do case $word in +I*) scene=${word#+I};; esac; done\n"
+                                  "echo 'light_source { <0, 1, 4> color rgb 1 }' >> \"$scene\"\n"
+                                  "exec povray \"$@\"\n");
+  std::filesystem::permissions(other, std::filesystem::perms::owner_all);
+  const auto spoilt = convert(in + " " + path("out.pov") + " --check=peer --peer " + other);
+  EXPECT_EQ(spoilt.status, 1) << spoilt.output;
+  EXPECT_THAT(spoilt.output, HasSubstr("POV-Ray shows it otherwise than vitrail shows the input"));
 }
 
 TEST_F(Convert, InspectKnowsEverySpectrum) {

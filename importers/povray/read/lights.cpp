@@ -68,9 +68,11 @@ bool read_light_part(Reader& reader, LightShape& light, Object& object, const To
     case Word::adaptive_:
       if (reader.number_follows()) reader.numbers();
       return true;
+    case Word::area_illumination_:
+      light.each_lights = reader.flag();
+      return true;
     case Word::jitter_:
     case Word::orient_:
-    case Word::area_illumination_:
       reader.flag();
       return true;
     case Word::looks_like_: {

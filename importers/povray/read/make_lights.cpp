@@ -37,6 +37,10 @@ void SceneMaker::add_light(const Object& object, const LightShape& light, const 
   if (light.shadowless && reader_.for_export)
     reader_.notes.approximated("shadowless: the light has shadows", place);
   if (light.projected) reader_.notes.dropped("projected_through", place);
+  if (std::optional<AreaLamp> lamp = area_lamp(light, to_world)) {
+    lamp->place = object.place;
+    return lamps_.push_back(*lamp);
+  }
   const std::vector<Vector3d> offsets = light.area ? grid_of(light) : std::vector<Vector3d>{{}};
   const double share = std::numbers::pi / static_cast<double>(offsets.size());
   const RGB color{reader_.linear(light.color.v[0]) * share, reader_.linear(light.color.v[1]) * share,

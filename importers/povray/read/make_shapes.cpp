@@ -105,6 +105,7 @@ Scene SceneMaker::make() {
   add_atmosphere();
   const Target target{scene_.shapes, scene_.instances};
   for (const auto& object : world_.objects) add(*object, {}, {reader_.defaults.texture, {}, nullptr}, target);
+  add_lamps();
   add_surroundings();
   set_eye_medium();
   return std::move(scene_);

@@ -64,6 +64,8 @@ struct LightShape {
   Point3d position;
   Numbers color = Finish::grey(1);
   bool parallel = false, shadowless = false, area = false, circular = false;
+  bool each_lights =
+      false;  // area_illumination: each light of the area lights by itself, not its middle alone
   Point3d point_at;
   double radius_deg = 30, falloff_deg = 45, tightness = 0;
   Vector3d axis1, axis2;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "importers/povray/read/area_lamp.h"
 #include "importers/povray/read/surfaces.h"
 #include "importers/povray/read/world.h"
 #include "scene/records/scene.h"
@@ -65,6 +66,8 @@ class SceneMaker {
   // Lights and surroundings (make_lights.cpp).
   void add_light(const Object& object, const LightShape& light, const Transform& to_world);
   void add_surroundings();
+  // Lamps that are rectangles (area_lamp.h), once all shapes are there.
+  void add_lamps();
   // Fog (make_fog.cpp).
   void add_fog();
   std::optional<Id<Medium>> fog_between(double low, double high);
@@ -98,6 +101,7 @@ class SceneMaker {
   std::vector<Shared<Object>> kept_;  // what the maps' keys point to
   std::optional<Id<Material>> clear_sheet_;
   std::map<std::uint32_t, Id<Material>> shadowless_;
+  std::vector<AreaLamp> lamps_;
   std::vector<Shared<Fog>> fogs_;         // that are there
   std::optional<Id<Medium>> atmosphere_;  // or fog, where there is no object
   std::optional<Id<Medium>> eye_medium_;  // of an object that the eye is in

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/povray/write/write_lights.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "importers/images/mean_intensity.h"
@@ -111,7 +112,9 @@ bool is_rgb_light(const LightModel& model) {
 std::string facing(const Context& context, const Rectangle& r, Vector3d front, RGB radiance) {
   constexpr int n = 16;
   const double f = fade_distance(context), area = length(r.edge_u) * length(r.edge_v);
-  const Point3d middle = r.corner + r.edge_u * 0.5 + r.edge_v * 0.5;
+  // A little in front: in its own plane POV-Ray lights the back of the mesh that shows it, without bounds.
+  const double before = 1e-4 * std::min(length(r.edge_u), length(r.edge_v));
+  const Point3d middle = r.corner + r.edge_u * 0.5 + r.edge_v * 0.5 + front * before;
   // POV-Ray puts the first and the last light on the ends of the axes; samples belong in the middle of cells.
   const double inner = (n - 1.0) / n;
   return fmt::format(

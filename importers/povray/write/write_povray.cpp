@@ -174,8 +174,8 @@ class Writer {
     AreaLight source = *light;
     if (!is_unseen) source.scale *= *share;
     const std::string text = shows_reflection() ? rectangle_light_text(context_, *rectangle, source) : "";
-    // The source stands for the mesh: it must not be in its light's way, nor be counted a second time.
-    return is_unseen ? text : text + shape_text(shape, mesh, "no_shadow no_radiosity ");
+    // The source stands for the mesh, which must not be counted a second time.
+    return is_unseen ? text : text + shape_text(shape, mesh, "no_radiosity ");
   }
 
   static bool is_gone(const Shape& shape) { return shape.opacity == FloatParameter{0.0f}; }

@@ -130,6 +130,23 @@ TEST_F(PovrayPictures, Shadows) {
                0.02);
 }
 
+// Spotlights in all directions across an area that fade with the square of the distance are a lamp, seen by
+// what glows in its place alone. 16 lights a metre apart by 1/16: .002 of a metre, 1/(2π·f²) times 8.
+TEST_F(PovrayPictures, LampsThatAreRectangles) {
+  const std::string lamp =
+      "light_source { <.5, 2, -.4> rgb <318310, 270563, 222817> spotlight radius 90 falloff 90 tightness 1"
+      " point_at <.5, 1, -.4> area_light <.9375, 0, 0>, <0, 0, .9375>, 16, 16 adaptive 4 area_illumination"
+      " fade_distance .002 fade_power 2 }\n";
+  const std::string room =
+      "plane { y, 0 pigment { rgb <.5, .6, .7> } finish { ambient 0 diffuse 1 } }\n"
+      "sphere { <0, .5, 0>, .5 pigment { rgb <.8, .5, .3> } finish { ambient 0 diffuse 1 } }\n";
+  const std::string glow =
+      "polygon { 5, <0, 1.5, -.9>, <1, 1.5, -.9>, <1, 1.5, .1>, <0, 1.5, .1>, <0, 1.5, -.9> translate .5 * y"
+      " pigment { rgb 1 } finish { ambient 0 diffuse 0 emission rgb <8, 6.8, 5.6> } no_shadow }\n";
+  expect_alike(linear + lamp + room, 0.02, 256);
+  expect_alike(linear + lamp + room + glow, 0.02, 256);
+}
+
 TEST_F(PovrayPictures, Atmospheres) {
   const std::string walls = ball + "plane { -z, -6 pigment { rgb .6 } }\n";
   for (const char* media :

@@ -222,5 +222,39 @@ TEST_F(ReadPovrayPictures, AShapeWithoutEndIsMadeWithinItsBounds) {
   EXPECT_NEAR(box.upper.z, 3, 1e-3);
 }
 
+// 2π·318310·.002² = 8: of a square metre.
+TEST_F(ReadPovrayPictures, SpotlightsAcrossAnAreaAreALamp) {
+  const auto lamp = [](const std::string& part, int down) {
+    return "light_source { <.5, 2, -.4> rgb <318310, 270563, 222817> spotlight radius 90 falloff 90 "
+           "tightness 1"
+           " point_at <.5, " +
+           std::to_string(2 - down) + ", -.4> area_light <.9375, 0, 0>, <0, 0, .9375>, 16, 16 adaptive 4 " +
+           part + " fade_distance .002 fade_power 2 }\n";
+  };
+  const std::string glow =
+      "mesh2 { vertex_vectors { 4, <0, 2, -.9>, <1, 2, -.9>, <1, 2, .1>, <0, 2, .1> } face_indices { 2, <0, "
+      "1, 2>, "
+      "<0, 2, 3> } pigment { rgb 1 } finish { ambient 0 diffuse 0 emission rgb <8, 6.8, 5.6> } no_shadow }\n";
+  const Scene unseen = read(gamma_1 + ball + lamp("area_illumination", 1)).scene,
+              seen = read(gamma_1 + ball + lamp("area_illumination", 1) + glow).scene,
+              both =
+                  read(gamma_1 + ball + lamp("area_illumination", 1) + lamp("area_illumination", -1) + glow)
+                      .scene,
+              grid = read(gamma_1 + ball + lamp("", 1) + glow).scene;
+  const auto light_of = [](const Scene& scene) -> const AreaLight& {
+    return scene.area_lights.at(scene.shapes.at(1).area_light->value);
+  };
+  for (const Scene* scene : {&unseen, &seen, &both}) {
+    EXPECT_TRUE(scene->lights.empty());
+    ASSERT_EQ(scene->shapes.size(), 2u);
+    EXPECT_TRUE(light_of(*scene).sampled);
+    EXPECT_NEAR(luminance(std::get<Spectrum>(light_of(*scene).radiance)), 6.9, 0.1);
+    EXPECT_EQ(light_of(*scene).two_sided, scene == &both);
+    EXPECT_EQ(scene->shapes[1].opacity == FloatParameter{0.0f}, scene == &unseen);
+  }
+  EXPECT_EQ(grid.lights.size(), 64u);
+  EXPECT_FALSE(light_of(grid).sampled);
+}
+
 }  // namespace
 }  // namespace vitrail
