@@ -27,7 +27,7 @@ Numbers beyond() {
 bool keeps_numbers(const Reader& reader, const ImageMap& map) {
   const std::string suffix = std::filesystem::path(map.filename).extension().string();
   const bool has_no_curve = suffix == ".ppm" || suffix == ".pgm" || suffix == ".tif" || suffix == ".tiff";
-  return !map.gamma && (reader.version < 3.7 || has_no_curve);
+  return !map.gamma && !map.gamma_srgb && (reader.version < 3.7 || has_no_curve);
 }
 
 ImageValues::ImageValues(Reader& reader, const ImageMap& map, const Place& place)

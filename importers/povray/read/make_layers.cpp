@@ -20,13 +20,36 @@ SpectrumParameter as_spectrum(const FloatParameter& number) {
 Surfaces::Layer Surfaces::mixed(const Layer& first, const Layer& second, const FloatParameter& amount,
                                 const Place& place) {
   Layer both = first;
-  both.material = add(BlendMaterial{first.material, second.material, amount}, place);
+  if (first.opacity == FloatParameter{0.0f})  // the opacity says how much there is of what is not clear
+    both.material = second.material;
+  else if (second.opacity != FloatParameter{0.0f})
+    both.material = add(BlendMaterial{first.material, second.material, amount}, place);
   both.glow_scale = std::max(first.glow_scale, second.glow_scale);
   if (both.glow_scale > 0) both.glow = add(MixTexture{first.glow, second.glow, amount}, false, place);
-  if (first.opacity != second.opacity)
+  if (first.opacity == FloatParameter{0.0f} && second.opacity == FloatParameter{1.0f})
+    both.opacity = amount;
+  else if (first.opacity != second.opacity)
     both.opacity =
         add(MixTexture{as_spectrum(first.opacity), as_spectrum(second.opacity), amount}, true, place);
   return both;
+}
+
+// An average of a texture, of one that only glows, and of black less once: the first texture, which also
+// glows.
+void Surfaces::add_glow_alone(std::vector<std::pair<double, Layer>>& layers) const {
+  const auto is_black = [&](const Layer& layer) {
+    const auto* const diffuse = std::get_if<DiffuseMaterial>(&scene_.materials[layer.material.value].model);
+    const auto* const reflects = diffuse ? std::get_if<Spectrum>(&diffuse->reflectance) : nullptr;
+    return reflects && luminance(*reflects) == 0 && layer.opacity == FloatParameter{1.0f};
+  };
+  if (layers.size() != 3) return;
+  const auto& [weight, glowing] = layers[1];
+  const auto& [less, black] = layers[2];
+  if (layers[0].first != weight || weight != -less || !is_black(glowing) || !is_black(black) ||
+      layers[0].second.glow_scale > 0)
+    return;
+  layers[0].second.glow = glowing.glow, layers[0].second.glow_scale = glowing.glow_scale;
+  layers.resize(1);
 }
 
 Surfaces::Layer Surfaces::layered(const pov::Texture& texture, const Transform& to_world, const Look& look) {
@@ -61,8 +84,9 @@ Surfaces::Layer Surfaces::blended(const pov::Texture& texture, const Transform& 
     dropped("a pattern of textures without textures: black", texture.place);
     return layer_of({}, to_world, look);
   }
-  Layer result = layers.front().second;
   const Word kind = texture.pattern->kind;
+  if (kind == Word::average_) add_glow_alone(layers);
+  Layer result = layers.front().second;
   const bool list = kind == Word::checker_ || kind == Word::brick_ || kind == Word::hexagon_;
   double weights = layers.front().first;
   for (std::size_t i = 1; i < layers.size(); ++i) {

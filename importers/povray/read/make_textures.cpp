@@ -181,6 +181,11 @@ FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform&
       return static_cast<float>(grey_of(mean_color(*both)));
     }
   }
+  if (pattern.kind == Word::image_pattern_ && pattern.image && from == 0 && to == 1) {
+    const SpectrumParameter amount =
+        image_texture(*pattern.image, pattern, to_world, Part::grey, pattern.uv_mapping, 1, place);
+    if (const auto* id = std::get_if<Id<vitrail::Texture>>(&amount)) return *id;
+  }
   auto made = pattern_texture(pattern, to_world, place);
   if (!made) return 0.5f;
   const auto stop = [&](double at, float value) { made->map.push_back(number_stop(at, value)); };
@@ -254,8 +259,9 @@ SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& 
   texture.wrap = image.once ? Wrap::black : Wrap::repeat;
   texture.filter = image.interpolate > 0 ? TextureFilter::bilinear : TextureFilter::nearest;
   texture.scale = static_cast<float>(factor);
-  if (is_number(part))
-    texture.encoding = Encoding::linear, texture.number = ImageNumber::luminance;
+  if (is_number(part)) texture.number = ImageNumber::luminance;
+  if (is_number(part) && !image.gamma && !image.gamma_srgb)
+    texture.encoding = Encoding::linear;  // the numbers of the file
   else
     set_encoding(texture, image);
   if (by_uv) {

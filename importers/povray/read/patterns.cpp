@@ -334,7 +334,7 @@ ImageMap read_image_map(Reader& reader, double* bump_size) {
         break;
       }
       case Word::gamma_:
-        if (reader.accept(Word::srgb_)) break;
+        if ((image.gamma_srgb = reader.accept(Word::srgb_))) break;
         image.gamma = reader.number("gamma");
         break;
       case Word::bump_size_: {

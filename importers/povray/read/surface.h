@@ -36,6 +36,7 @@ struct ImageMap {
   int interpolate = 0;
   double filter_all = 0, transmit_all = 0;
   std::optional<double> gamma;  // of the file
+  bool gamma_srgb = false;      // `gamma srgb` stands with it
 };
 
 // What is done to the point before the pattern is looked up, in the order of the file.

@@ -256,5 +256,35 @@ TEST_F(ReadPovrayPictures, SpotlightsAcrossAnAreaAreALamp) {
   EXPECT_FALSE(light_of(grid).sampled);
 }
 
+// As they are written for shapes with an opacity that is an image, and for shapes that glow.
+TEST_F(ReadPovrayPictures, WhatIsClearIsNoPartOfAMixture) {
+  folder_.write("a.ppm", "P3\n2 1\n255\n255 255 255  0 0 0\n");
+  const auto with = [&](const std::string& texture) {
+    return read(
+        gamma_1 +
+        "mesh2 { vertex_vectors { 3, <0,0,0>, <1,0,0>, <0,1,0> } uv_vectors { 3, <0,0>, <1,0>, <0,1> }"
+        " face_indices { 1, <0,1,2> } texture { " +
+        texture + " } }");
+  };
+  const ImportedScene masked = with(
+      "uv_mapping image_pattern { ppm \"a.ppm\" gamma srgb } texture_map { [0 pigment { rgbt 1 } finish { "
+      "diffuse 0 }]"
+      " [1 pigment { rgb .5 } finish { ambient 0 diffuse 1 }] }");
+  EXPECT_TRUE(masked.diagnostics.empty());
+  EXPECT_NEAR(red(std::get<DiffuseMaterial>(model_of(masked)).reflectance), 0.5, 1e-6);
+  const auto* const amount = std::get_if<Id<Texture>>(&masked.scene.shapes.at(0).opacity);
+  ASSERT_TRUE(amount);
+  const auto& image = std::get<ImageTexture>(masked.scene.textures.at(amount->value).model);
+  EXPECT_EQ(image.number, ImageNumber::luminance);
+  EXPECT_EQ(image.encoding, Encoding::automatic);
+  const ImportedScene glows = with(
+      "average texture_map { [1 pigment { rgb .5 } finish { ambient 0 diffuse 1 }]"
+      " [1 pigment { rgb 1 } finish { ambient 0 diffuse 0 emission rgb <6, 5, 4> }]"
+      " [-1 pigment { rgb 0 } finish { ambient 0 diffuse 0 }] }");
+  EXPECT_TRUE(glows.diagnostics.empty());
+  EXPECT_NEAR(red(std::get<DiffuseMaterial>(model_of(glows)).reflectance), 0.5, 1e-6);
+  EXPECT_NEAR(luminance(std::get<Spectrum>(glows.scene.area_lights.at(0).radiance)), 5.14, 0.01);
+}
+
 }  // namespace
 }  // namespace vitrail
