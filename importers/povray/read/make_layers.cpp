@@ -21,6 +21,7 @@ Surfaces::Layer Surfaces::mixed(const Layer& first, const Layer& second, const F
                                 const Place& place) {
   Layer both = first;
   both.material = add(BlendMaterial{first.material, second.material, amount}, place);
+  both.clears = first.clears && second.clears;
   both.glow_scale = std::max(first.glow_scale, second.glow_scale);
   if (both.glow_scale > 0) both.glow = add(MixTexture{first.glow, second.glow, amount}, false, place);
   if (first.opacity != second.opacity)

@@ -28,6 +28,7 @@ struct Surface {
   Id<Material> material;
   std::optional<Id<AreaLight>> glow;
   FloatParameter opacity = 1.0f;
+  bool clears = false;  // glass that light passes for the most part: POV-Ray's shadows of it are light
 };
 
 class Surfaces {
@@ -48,6 +49,7 @@ class Surfaces {
     FloatParameter opacity = 1.0f;
     SpectrumParameter glow = Spectrum{ConstantSpectrum{0}};
     float glow_scale = 0;
+    bool clears = false;
   };
 
   Surface made(const Look& look);

@@ -240,6 +240,39 @@ TEST_F(PovrayPictures, BumpMaps) {
                  0.03);
 }
 
+// Without photons povray's light passes glass straight.
+TEST_F(PovrayPictures, ShadowsOfClearGlass) {
+  expect_alike(
+      linear + lamps +
+          "plane { y, 0 pigment { checker rgb <.8, .7, .6>, rgb <.3, .4, .2> } finish { ambient .15 } }\n"
+          "sphere { <-.4, .8, 1>, .8 pigment { rgbt <1, 1, 1, .95> } finish { ambient 0 diffuse 0 }"
+          " interior { ior 1.05 } }",
+      0.03);
+}
+
+TEST_F(PovrayPictures, NormalsBeginAsTheDefaultOne) {
+  expect_alike(linear + lamps +
+                   "#default { pigment { rgb .7 } normal { onion .8 scale .4 } finish { phong .5 } }\n"
+                   "plane { y, 0 normal { slope_map { [0 <0, 1>] [.5 <1, 1>] [.5 <1, -1>] [1 <0, -1>] } } }",
+               0.03);
+}
+
+TEST_F(PovrayPictures, OrthographicCameras) {
+  const std::string around =
+      lamps +
+      "plane { z, 1 inverse pigment { checker rgb <.9, .3, .2>, rgb <.2, .4, .9> scale .7 } }\n"
+      "box { -.4, .4 rotate y*30 pigment { rgb <.2, .9, .3> } }\n";
+  for (const char* view :
+       {"location -6*z look_at 0", "location -6*z direction 2*z look_at 0", "location -4*z",
+        "location -6*z look_at 0 right 4*x", "location -6*z look_at 0 up 2*y",
+        "location <1, 2, -6> look_at 0 angle 30", "location -3*z look_at 0 translate x"})
+    expect_alike(fmt::format("#version 3.7; global_settings {{ assumed_gamma 1 }}\n"
+                             "camera {{ orthographic {} }}\n",
+                             view) +
+                     around,
+                 0.03);
+}
+
 TEST_F(PovrayPictures, Cameras) {
   const std::string around =
       "light_source { <1, 2, -1> rgb 1 }\nbox { -4, 4 pigment { checker rgb <.9, .3, .2>, rgb <.2, .4, .9> "
