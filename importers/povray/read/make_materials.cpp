@@ -27,6 +27,16 @@ const Finish& default_finish() {
 
 double greatest(const Numbers& color) { return std::max({color.v[0], color.v[1], color.v[2]}); }
 
+// The greatest number of its colours.
+double brightest(const Pigment& pigment) {
+  if (pigment.color) return greatest(*pigment.color);
+  double most = 0;
+  if (pigment.map)
+    for (const BlendEntry& entry : pigment.map->entries)
+      most = std::max(most, entry.pigment ? brightest(*entry.pigment) : greatest(entry.color));
+  return most;
+}
+
 // The share of light that passes into a body and out of it, on its way to what is behind, without bends.
 double passed_twice(const Numbers& color) {
   double sum = 0;
@@ -310,7 +320,8 @@ Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish,
   }
   const double left = 1 - shares;
   const bool highlights = finish.phong > 0 || finish.specular > 0;
-  const bool as_finish = as_said && (highlights || finish.brilliance != 1 || grainy || diffuse > left);
+  const bool as_finish = as_said && (highlights || finish.brilliance != 1 || grainy ||
+                                     diffuse * std::max(brightest(pigment), 1.0) > left);
   SpectrumParameter reflectance = color_texture(
       pigment, to_world, as_finish ? Part::factor : Part::reflectance, diffuse / left, look.by_uv);
   if (grainy)

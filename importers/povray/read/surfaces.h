@@ -96,6 +96,9 @@ class Surfaces {
   PatternTexture carrier_of(const SpectrumParameter& height, const Transform& to_world) const;
   std::optional<FloatParameter> bump_of_image(const Bump& bump, const Transform& to_world);
   std::optional<FloatParameter> bump_of_pigment(const Bump& bump, const Transform& to_world, double height);
+  std::optional<FloatParameter> bump_of_quilts(const Bump& bump, const Transform& to_world);
+  std::optional<SpectrumParameter> distance_from_middles(const Pattern& quilted, Vector3d axis,
+                                                         const Transform& to_world, const Place& place);
   double height_of(const Bump& bump, const Transform& to_world);
   void set_encoding(ImageTexture& texture, const ImageMap& image) const;
   std::optional<PatternTexture> pattern_texture(const Pattern& pattern, const Transform& to_world,

@@ -226,6 +226,14 @@ TEST_F(PovrayPictures, PatternsOfPigments) {
       0.03);
 }
 
+TEST_F(PovrayPictures, Quilts) {
+  for (const char* normal : {"quilted 1 scale .5", "quilted .6 control0 0 control1 1 scale .7 rotate y*20",
+                             "quilted 1.5 control0 .5 control1 .2 translate .3"})
+    expect_alike(linear + lamps + "plane { z, 0 pigment { rgb .7 } normal { " + normal +
+                     " } finish { ambient .1 phong .5 phong_size 20 } }\n",
+                 0.03);
+}
+
 TEST_F(PovrayPictures, BumpMaps) {
   std::string pixels = "P2\n64 64\n255\n";
   for (int y = 0; y < 64; ++y)
@@ -238,6 +246,14 @@ TEST_F(PovrayPictures, BumpMaps) {
                      " interpolate 2 }" +
                      more + " } finish { ambient .1 specular .4 roughness .05 } }\n",
                  0.03);
+}
+
+TEST_F(PovrayPictures, ColorsAboveOne) {
+  for (const char* pigment :
+       {"rgb <1.6, 1.2, .4>", "checker rgb .9 rgb 1.5", "gradient x color_map { [0 rgb 0] [1 rgb 2] }"})
+    expect_alike(linear + "light_source { <-3, 5, -4> rgb .6 }\nplane { y, 0 pigment { " + pigment +
+                     " } finish { ambient .05 diffuse .9 } }\n",
+                 0.02);
 }
 
 // Without photons povray's light passes glass straight.
