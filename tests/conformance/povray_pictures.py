@@ -65,6 +65,13 @@ def report_of(scene, options):
     return json.loads(done.stdout)
 
 
+def sized(options, report):
+    """As high as the scene's own picture is for its width: POV-Ray stretches what the camera sees, we do not."""
+    columns, rows = report["view"]["pixels"]
+    height = options.height or max(8, round(options.width * rows / columns))
+    return argparse.Namespace(**{**vars(options), "height": height})
+
+
 def notes_of(report):
     return [item["what"] for item in report["not_exact"]]
 
@@ -113,6 +120,7 @@ def nearer_share(depth, radius):
 
 def silhouettes(scene, folder, options):
     report = report_of(scene, options)
+    options = sized(options, report)
     bare = folder / "bare.pov"
     nothing = "pigment { color rgbt <0, 0, 0, 1> }"
     bare.write_text(f'#include "{scene}"\nbackground {{ color rgbt <0, 0, 0, 1> }}\nsky_sphere {{ {nothing} }}\n')
@@ -143,7 +151,9 @@ def blocks_of(image):
 
 
 def blocks(scene, folder, options):
-    for note in notes_of(report_of(scene, options)):
+    report = report_of(scene, options)
+    options = sized(options, report)
+    for note in notes_of(report):
         if any(word in note for word in WITHOUT_BLOCKS):
             raise Skipped(f"has {note[:60]}")
     if b"radiosity" in scene.read_bytes():
@@ -156,12 +166,15 @@ def blocks(scene, folder, options):
 
 def sheet_of(rows, path, columns=4):
     """Pairs side by side, POV-Ray's at the left, the worst first."""
-    width, height = 2 * rows[0][1][0].width + 2, rows[0][1][0].height + 2
+    across = rows[0][1][0].width
+    width, height = 2 * across + 2, round(across * 3 / 4) + 2
     sheet = Image.new("RGB", (columns * (width + 4), -(-len(rows) // columns) * height))
     for i, (_, pair) in enumerate(rows):
         for j, image in enumerate(pair):
+            image = image.convert("RGB")
+            image.thumbnail((across, height - 2))
             corner = ((i % columns) * (width + 4) + j * (width // 2 + 1), i // columns * height)
-            sheet.paste(image.convert("RGB"), corner)
+            sheet.paste(image, corner)
     sheet.save(path, quality=80)
 
 
@@ -172,7 +185,7 @@ def main():
     parser.add_argument("--list", type=pathlib.Path, help="a scene a line, below the folder of povray-examples")
     parser.add_argument("--bin", type=pathlib.Path, default=HERE.parents[2] / "build/release/bin")
     parser.add_argument("--width", type=int, default=120)
-    parser.add_argument("--height", type=int, default=90)
+    parser.add_argument("--height", type=int, help="of all; else each has the scene's own aspect")
     parser.add_argument("--spp", type=int, default=32, help="of blocks")
     parser.add_argument("--seconds", type=float, default=120, help="of each program")
     parser.add_argument("--out", type=pathlib.Path, help="a line a scene: its number, or why there is none")

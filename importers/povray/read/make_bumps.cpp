@@ -113,6 +113,7 @@ std::optional<FloatParameter> Surfaces::bump_texture(const Bump& bump, const Tra
   if (bump.pattern.kind == Word::bump_map_ && bump.pattern.image) return bump_of_image(bump, to_world);
   if (bump.pattern.kind == Word::pigment_pattern_ && bump.pattern.pigment)
     return bump_of_pigment(bump, to_world, height_of(bump, to_world));
+  if (bump.pattern.kind == Word::quilted_) return bump_of_quilts(bump, to_world);
   if (!pattern_kind(bump.pattern.kind)) {
     dropped(fmt::format("a normal of this pattern ({}): the surface is smooth", name_of(bump.pattern.kind)),
             bump.place);

@@ -27,6 +27,26 @@ const Finish& default_finish() {
 
 double greatest(const Numbers& color) { return std::max({color.v[0], color.v[1], color.v[2]}); }
 
+// The greatest number of its colours.
+double brightest(const Pigment& pigment) {
+  if (pigment.color) return greatest(*pigment.color);
+  double most = 0;
+  if (pigment.map)
+    for (const BlendEntry& entry : pigment.map->entries)
+      most = std::max(most, entry.pigment ? brightest(*entry.pigment) : greatest(entry.color));
+  return most;
+}
+
+// The share of light that passes into a body and out of it, on its way to what is behind, without bends.
+double passed_twice(const Numbers& color) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double once = std::clamp(color.v[i] * color.v[3] + color.v[4], 0.0, 1.0);
+    sum += once * once / 3;
+  }
+  return sum;
+}
+
 // Lobes beside the diffuse one, with their shares of all light.
 struct Lobe {
   MaterialModel model;
@@ -141,7 +161,7 @@ Surface Surfaces::made(const Look& look) {
   const pov::Texture& texture = look.texture ? *look.texture : *black;
   const Transform to_world = look.to_world * texture.to_object;
   const Layer result = layered(texture, to_world, look);
-  Surface surface{result.material, std::nullopt, result.opacity};
+  Surface surface{result.material, std::nullopt, result.opacity, result.clears};
   if (result.glow_scale > 0) {
     AreaLight glow;
     glow.radiance = result.glow;
@@ -169,6 +189,7 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
   const bool colored = opacity && *opacity < 1 && pigment.color && pigment.color->v[3] > 0;
   Body body{pigment, finish, placed, look, std::nullopt, texture.place};
   if (clear || colored) body.solid = *opacity;
+  layer.clears = clear && passed_twice(mean_color(pigment)) > 0.5;
   const Bump* const bump = texture.normal.get();
   layer.material = bumpy(body, bump, bump ? to_world * bump->to_object : to_world);
   if (body.solid) layer.opacity = 1.0f;
@@ -222,7 +243,8 @@ Id<Material> Surfaces::clear_material(const Pigment& pigment, const Finish& fini
     glass.transmittance_factor = Spectrum{unbounded_from_rgb(through)};
     glass.reflectance_factor = Spectrum{ConstantSpectrum{reflects}};
     approximated(
-        "a clear surface with ior: a dielectric, whose reflection is Fresnel's and whose shadow is dark",
+        "a clear surface with ior: a dielectric, whose reflection is Fresnel's and whose shadow is dark or "
+        "none",
         finish.place.line ? finish.place : pigment.place);
     return add(glass, pigment.place);
   }
@@ -298,7 +320,8 @@ Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish,
   }
   const double left = 1 - shares;
   const bool highlights = finish.phong > 0 || finish.specular > 0;
-  const bool as_finish = as_said && (highlights || finish.brilliance != 1 || grainy || diffuse > left);
+  const bool as_finish = as_said && (highlights || finish.brilliance != 1 || grainy ||
+                                     diffuse * std::max(brightest(pigment), 1.0) > left);
   SpectrumParameter reflectance = color_texture(
       pigment, to_world, as_finish ? Part::factor : Part::reflectance, diffuse / left, look.by_uv);
   if (grainy)

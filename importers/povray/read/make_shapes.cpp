@@ -142,6 +142,8 @@ void SceneMaker::add(const Object& object, const Transform& parent_to_world, Loo
   }
   look.no_shadow = look.no_shadow || object.no_shadow;
   look.hollow = look.hollow || object.hollow;
+  if (object.interior_texture)
+    reader_.notes.dropped("interior_texture: the texture of the outside", reader_.location(object.place));
   if (object.no_image) {
     reader_.notes.dropped("an object with no_image", reader_.location(object.place));
     return;
@@ -229,7 +231,8 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
   if (piece.look && piece.look->interior) own.interior = piece.look->interior;
   Surface surface = surfaces_.of(own);
   if (own.no_shadow && reader_.for_export) surface = without_shadow(surface, own.of_lamp, object);
-  if (own.no_shadow && !reader_.for_export) surface.material = shadowless(surface.material);
+  const bool passes = surface.clears && !world_.photons;
+  if ((own.no_shadow || passes) && !reader_.for_export) surface.material = shadowless(surface.material);
   Shape shape;
   shape.mesh = piece.mesh;
   shape.material = surface.material;

@@ -175,6 +175,7 @@ Shared<Bump> read_normal_block(Reader& reader) {
   const char close = opened(reader);
   const Reader::Deeper deeper(reader, reader.here());
   Bump bump;
+  if (reader.defaults.texture && reader.defaults.texture->normal) bump = *reader.defaults.texture->normal;
   bump.place = reader.here();
   for (;;) {
     reader.comma();
@@ -188,6 +189,7 @@ Shared<Bump> read_normal_block(Reader& reader) {
       const Word word = token.symbol->word;
       if (names_pattern(word)) {
         reader.next();
+        bump.pattern.image.reset();
         read_pattern(reader, word, bump.pattern, bump.map);
         reader.comma();
         if (reader.number_follows()) bump.size = reader.number("the size of bumps");

@@ -28,6 +28,7 @@ struct Surface {
   Id<Material> material;
   std::optional<Id<AreaLight>> glow;
   FloatParameter opacity = 1.0f;
+  bool clears = false;  // glass that light passes for the most part: POV-Ray's shadows of it are light
 };
 
 class Surfaces {
@@ -48,6 +49,7 @@ class Surfaces {
     FloatParameter opacity = 1.0f;
     SpectrumParameter glow = Spectrum{ConstantSpectrum{0}};
     float glow_scale = 0;
+    bool clears = false;
   };
 
   Surface made(const Look& look);
@@ -95,6 +97,9 @@ class Surfaces {
   PatternTexture carrier_of(const SpectrumParameter& height, const Transform& to_world) const;
   std::optional<FloatParameter> bump_of_image(const Bump& bump, const Transform& to_world);
   std::optional<FloatParameter> bump_of_pigment(const Bump& bump, const Transform& to_world, double height);
+  std::optional<FloatParameter> bump_of_quilts(const Bump& bump, const Transform& to_world);
+  std::optional<SpectrumParameter> distance_from_middles(const Pattern& quilted, Vector3d axis,
+                                                         const Transform& to_world, const Place& place);
   double height_of(const Bump& bump, const Transform& to_world);
   void set_encoding(ImageTexture& texture, const ImageMap& image) const;
   std::optional<PatternTexture> pattern_texture(const Pattern& pattern, const Transform& to_world,

@@ -50,6 +50,12 @@ void size_by_angle(CameraView& c, Vector3d target) {
   c.angle = 0;  // once: what transforms the camera comes after it
 }
 
+// Without an angle, and with neither `right` nor `up`, it is as large as a perspective view is there.
+void size_by_distance(CameraView& c, Vector3d target) {
+  const double factor = length(target - c.location) / length(c.direction);
+  if (factor > 0 && std::isfinite(factor)) c.right = c.right * factor, c.up = c.up * factor;
+}
+
 }  // namespace
 
 Shared<CameraView> read_camera_block(Reader& reader) {
@@ -58,12 +64,16 @@ Shared<CameraView> read_camera_block(Reader& reader) {
   CameraView c;
   c.place = reader.here();
   std::optional<Vector3d> target;
+  bool sized = false;
   const auto settle = [&] {
     if (c.angle > 0 && c.kind == Word::perspective_ && c.angle < 180)
       c.direction =
           normalize(c.direction) * (0.5 * length(c.right) / std::tan(c.angle * std::numbers::pi / 360));
     if (c.kind == Word::orthographic_ && c.angle > 0 && c.angle < 180)
       size_by_angle(c, target.value_or(Vector3d{0, 0, 1}));
+    else if (c.kind == Word::orthographic_ && !sized)
+      size_by_distance(c, target.value_or(Vector3d{0, 0, 1}));
+    sized = true;
     if (target) look_at(reader, c, *target);
     target.reset();
   };
@@ -71,6 +81,7 @@ Shared<CameraView> read_camera_block(Reader& reader) {
     reader.comma();
     if (const auto named = reader.identifier<Shared<CameraView>>()) {
       c = **named;
+      sized = true;
       continue;
     }
     Transform step;
@@ -113,10 +124,10 @@ Shared<CameraView> read_camera_block(Reader& reader) {
         c.direction = reader.vector("direction");
         break;
       case Word::right_:
-        c.right = reader.vector("right");
+        c.right = reader.vector("right"), sized = true;
         break;
       case Word::up_:
-        c.up = reader.vector("up");
+        c.up = reader.vector("up"), sized = true;
         break;
       case Word::sky_:
         c.sky = reader.vector("sky");

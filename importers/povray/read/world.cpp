@@ -38,6 +38,7 @@ void read_global_settings(Reader& reader, World& world) {
         skip_block(reader);
         break;
       case Word::photons_:
+        world.photons = true;
         skip_block(reader);
         reader.notes.approximated("photons: paths find what they light, or do not",
                                   reader.location(token.place));

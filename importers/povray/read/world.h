@@ -21,7 +21,7 @@ struct World {
   std::vector<Shared<MediaBlock>> media;  // around everything
   std::optional<Numbers> background;
   std::optional<Numbers> ambient_light;
-  bool radiosity = false;
+  bool radiosity = false, photons = false;
   int max_trace_level = 5;
   Place background_place;
 };

@@ -243,6 +243,14 @@ TEST_F(PovrayPictures, PatternsOfPigments) {
       0.03);
 }
 
+TEST_F(PovrayPictures, Quilts) {
+  for (const char* normal : {"quilted 1 scale .5", "quilted .6 control0 0 control1 1 scale .7 rotate y*20",
+                             "quilted 1.5 control0 .5 control1 .2 translate .3"})
+    expect_alike(linear + lamps + "plane { z, 0 pigment { rgb .7 } normal { " + normal +
+                     " } finish { ambient .1 phong .5 phong_size 20 } }\n",
+                 0.03);
+}
+
 TEST_F(PovrayPictures, BumpMaps) {
   std::string pixels = "P2\n64 64\n255\n";
   for (int y = 0; y < 64; ++y)
@@ -254,6 +262,47 @@ TEST_F(PovrayPictures, BumpMaps) {
                      "plane { z, 0 pigment { rgb .7 } normal { bump_map { pgm \"bumps.pgm\" bump_size 6"
                      " interpolate 2 }" +
                      more + " } finish { ambient .1 specular .4 roughness .05 } }\n",
+                 0.03);
+}
+
+TEST_F(PovrayPictures, ColorsAboveOne) {
+  for (const char* pigment :
+       {"rgb <1.6, 1.2, .4>", "checker rgb .9 rgb 1.5", "gradient x color_map { [0 rgb 0] [1 rgb 2] }"})
+    expect_alike(linear + "light_source { <-3, 5, -4> rgb .6 }\nplane { y, 0 pigment { " + pigment +
+                     " } finish { ambient .05 diffuse .9 } }\n",
+                 0.02);
+}
+
+// Without photons povray's light passes glass straight.
+TEST_F(PovrayPictures, ShadowsOfClearGlass) {
+  expect_alike(
+      linear + lamps +
+          "plane { y, 0 pigment { checker rgb <.8, .7, .6>, rgb <.3, .4, .2> } finish { ambient .15 } }\n"
+          "sphere { <-.4, .8, 1>, .8 pigment { rgbt <1, 1, 1, .95> } finish { ambient 0 diffuse 0 }"
+          " interior { ior 1.05 } }",
+      0.03);
+}
+
+TEST_F(PovrayPictures, NormalsBeginAsTheDefaultOne) {
+  expect_alike(linear + lamps +
+                   "#default { pigment { rgb .7 } normal { onion .8 scale .4 } finish { phong .5 } }\n"
+                   "plane { y, 0 normal { slope_map { [0 <0, 1>] [.5 <1, 1>] [.5 <1, -1>] [1 <0, -1>] } } }",
+               0.03);
+}
+
+TEST_F(PovrayPictures, OrthographicCameras) {
+  const std::string around =
+      lamps +
+      "plane { z, 1 inverse pigment { checker rgb <.9, .3, .2>, rgb <.2, .4, .9> scale .7 } }\n"
+      "box { -.4, .4 rotate y*30 pigment { rgb <.2, .9, .3> } }\n";
+  for (const char* view :
+       {"location -6*z look_at 0", "location -6*z direction 2*z look_at 0", "location -4*z",
+        "location -6*z look_at 0 right 4*x", "location -6*z look_at 0 up 2*y",
+        "location <1, 2, -6> look_at 0 angle 30", "location -3*z look_at 0 translate x"})
+    expect_alike(fmt::format("#version 3.7; global_settings {{ assumed_gamma 1 }}\n"
+                             "camera {{ orthographic {} }}\n",
+                             view) +
+                     around,
                  0.03);
 }
 
