@@ -81,7 +81,7 @@ std::optional<FloatParameter> Surfaces::bump_of_image(const Bump& bump, const Tr
   const double steps = std::sqrt(static_cast<double>(values.width()) * values.height()) * bump_step;
   const double size = 1 / steps;
   const SpectrumParameter height =
-      image_texture(image, bump.pattern, to_world, Part::grey, false, bump.size * bump_step, bump.place);
+      image_texture(image, bump.pattern, to_world, Part::grey, false, {}, bump.size * bump_step, bump.place);
   return add(carrier_of(height, to_world * scale({size, size, size})), true, bump.place);
 }
 

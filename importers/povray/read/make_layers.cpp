@@ -15,6 +15,44 @@ SpectrumParameter as_spectrum(const FloatParameter& number) {
   return Spectrum{ConstantSpectrum{std::get<float>(number)}};
 }
 
+bool is_clear_coat(const pov::Texture& texture) {
+  const bool is_clear = texture.layers.empty() && !texture.pattern && texture.pigment &&
+                        texture.pigment->color &&
+                        texture.pigment->color->v[3] + texture.pigment->color->v[4] >= 1;
+  return is_clear && texture.finish && texture.finish->diffuse == 0;
+}
+
+// A surface below a layer that lets all light through: with the mirror and highlights of that. None where the
+// surface has its own.
+Shared<pov::Texture> coated(const pov::Texture& below, const pov::Texture& coat) {
+  if (!below.layers.empty() || below.pattern || !below.finish) return nullptr;
+  const Finish& under = *below.finish;
+  const bool mirrors = under.has_reflection && std::max({under.reflection_max.v[0], under.reflection_max.v[1],
+                                                         under.reflection_max.v[2]}) > 0;
+  if (mirrors || under.phong > 0 || under.specular > 0 || (below.normal && coat.normal)) return nullptr;
+  auto finish = std::make_shared<Finish>(*coat.finish);
+  finish->ambient = under.ambient, finish->emission = under.emission, finish->diffuse = under.diffuse;
+  finish->diffuse_back = under.diffuse_back, finish->brilliance = under.brilliance,
+  finish->crand = under.crand;
+  auto both = std::make_shared<pov::Texture>(below);
+  both->finish = finish;
+  if (coat.normal) both->normal = coat.normal;
+  return both;
+}
+
+// The layers, clear coats in what is below them.
+std::vector<Shared<pov::Texture>> without_coats(const std::vector<Shared<pov::Texture>>& layers) {
+  std::vector<Shared<pov::Texture>> left;
+  for (const Shared<pov::Texture>& layer : layers) {
+    const auto both = !left.empty() && is_clear_coat(*layer) ? coated(*left.back(), *layer) : nullptr;
+    if (both)
+      left.back() = both;
+    else
+      left.push_back(layer);
+  }
+  return left;
+}
+
 }  // namespace
 
 Surfaces::Layer Surfaces::mixed(const Layer& first, const Layer& second, const FloatParameter& amount,
@@ -57,8 +95,9 @@ Surfaces::Layer Surfaces::layered(const pov::Texture& texture, const Transform& 
   if (texture.layers.empty())
     return texture.pattern ? blended(texture, to_world, look) : layer_of(texture, to_world, look);
   Layer result;
-  for (std::size_t i = 0; i < texture.layers.size(); ++i) {
-    const pov::Texture& one = *texture.layers[i];
+  const std::vector<Shared<pov::Texture>> layers = without_coats(texture.layers);
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const pov::Texture& one = *layers[i];
     const Layer above = layered(one, to_world * one.to_object, look);
     const float* const opacity = std::get_if<float>(&above.opacity);
     if (i == 0 || (opacity && *opacity >= 1)) {

@@ -156,6 +156,33 @@ Surface Surfaces::of(const Look& look) {
   return made_[key] = made(look);
 }
 
+Surface Surfaces::with_inside(Surface surface, const Look& look) {
+  Look inside = look;
+  inside.texture = look.interior_texture;
+  const Surface back = of(inside);
+  const Place& place = look.interior_texture->place;
+  const std::vector<MaterialTraits> traits = traits_of(scene_.materials);
+  if (traits[surface.material.value].transmits || traits[back.material.value].transmits ||
+      surface.opacity != FloatParameter{1.0f} || back.opacity != FloatParameter{1.0f}) {
+    dropped("interior_texture where light comes through: the texture of the outside", place);
+    return surface;
+  }
+  if (surface.material != back.material) {
+    const auto [known, is_new] =
+        sides_.try_emplace({surface.material.value, back.material.value}, surface.material);
+    if (is_new) known->second = add(TwoSidedMaterial{surface.material, back.material}, place);
+    surface.material = known->second;
+  }
+  if (surface.glow && !back.glow) {
+    AreaLight front = scene_.area_lights[surface.glow->value];
+    front.two_sided = false;
+    surface.glow = append(scene_.area_lights, std::move(front));
+  } else if (surface.glow != back.glow) {
+    approximated("ambient and emission of an interior_texture: those of the outside", place);
+  }
+  return surface;
+}
+
 Surface Surfaces::made(const Look& look) {
   static const auto black = std::make_shared<pov::Texture>();
   const pov::Texture& texture = look.texture ? *look.texture : *black;

@@ -78,8 +78,16 @@ bool is_closed(const Object& object) {
   if (const auto* mesh = std::get_if<MeshShape>(&object.shape)) return mesh->closed;
   if (const auto* box = std::get_if<BoxShape>(&object.shape)) return !rectangle(*box);
   if (const auto* cone = std::get_if<ConeShape>(&object.shape)) return !cone->open;
-  if (const auto* solid = std::get_if<SolidShape>(&object.shape)) return solid->inside != nullptr;
+  if (const auto* solid = std::get_if<SolidShape>(&object.shape)) return !solid->patch;
   return !std::holds_alternative<DiscShape>(object.shape);
+}
+
+// Whether its normals, as it is made, look to its inside.
+bool faces_in(const Object& object, const Transform& to_world) {
+  const auto* const mesh = std::get_if<MeshShape>(&object.shape);
+  const auto* const solid = std::get_if<SolidShape>(&object.shape);
+  const bool clockwise = (mesh && mesh->clockwise) || (solid && solid->patch);
+  return clockwise != swaps_handedness(to_world);
 }
 
 Numbers ambient_of(const World& world) {
@@ -126,6 +134,7 @@ Id<TriangleMesh> SceneMaker::quadric_mesh(const Quadric& quadric) {
 
 void SceneMaker::add(const Object& object, const Transform& parent_to_world, Look look, Target target) {
   if (object.texture) look.texture = object.texture, look.to_world = parent_to_world;
+  if (object.texture || object.interior_texture) look.interior_texture = object.interior_texture;
   if (object.interior)
     look.interior = object.interior, look.medium = media_of(object, *object.interior, parent_to_world);
   look.by_uv = look.by_uv || object.uv_mapping;
@@ -142,8 +151,6 @@ void SceneMaker::add(const Object& object, const Transform& parent_to_world, Loo
   }
   look.no_shadow = look.no_shadow || object.no_shadow;
   look.hollow = look.hollow || object.hollow;
-  if (object.interior_texture)
-    reader_.notes.dropped("interior_texture: the texture of the outside", reader_.location(object.place));
   if (object.no_image) {
     reader_.notes.dropped("an object with no_image", reader_.location(object.place));
     return;
@@ -227,9 +234,11 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
   if (piece.look && piece.look->texture) {
     own.texture = piece.look->texture;
     own.to_world = to_world * piece.look->to_world;
+    own.interior_texture = nullptr;
   }
   if (piece.look && piece.look->interior) own.interior = piece.look->interior;
   Surface surface = surfaces_.of(own);
+  if (own.interior_texture) surface = surfaces_.with_inside(surface, own);
   if (own.no_shadow && reader_.for_export) surface = without_shadow(surface, own.of_lamp, object);
   const bool passes = surface.clears && !world_.photons;
   if ((own.no_shadow || passes) && !reader_.for_export) surface.material = shadowless(surface.material);
@@ -245,6 +254,8 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
         shape.object_to_world *
         turned_to_image(inverse(to_world) * own.to_world * own.texture->to_object * image->to_object);
   shape.flip_orientation = !piece.faces_out != object.inverse;
+  if (own.interior_texture && faces_in(object, shape.object_to_world))
+    shape.flip_orientation = !shape.flip_orientation;
   shape.origin = origin(object.place);
   if (own.medium && (own.hollow || lets_light_in(shape)))
     fill(shape, *own.medium);

@@ -23,6 +23,16 @@ PatternStop number_stop(double at, float value) {
   return stop;
 }
 
+// What a pigment's transforms do to (u, v, 0).
+UvMapping uv_mapping(Transform to_uv, const std::vector<Warp>& warps) {
+  for (const Warp& warp : warps)
+    if (warp.kind == Warp::Kind::transform) to_uv = to_uv * warp.transform;
+  if (!is_invertible(to_uv)) return {};
+  const Transform m = inverse(to_uv);
+  const auto at = [&](std::size_t row, std::size_t column) { return static_cast<float>(m.m[row][column]); };
+  return {at(0, 0), at(0, 1), at(0, 3), at(1, 0), at(1, 1), at(1, 3)};
+}
+
 }  // namespace
 
 Id<vitrail::Texture> Surfaces::add(TextureModel model, bool is_float, const Place& place) {
@@ -105,8 +115,8 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
     return spectrum_of(mean_color(pigment), part, factor);
   const Pattern& pattern = pigment.pattern;
   if (pattern.image && pattern.kind == Word::image_map_)
-    return image_texture(*pattern.image, pattern, to_world, part, by_uv || pattern.uv_mapping, factor,
-                         pigment.place);
+    return image_texture(*pattern.image, pattern, to_world, part, by_uv || pattern.uv_mapping,
+                         pigment.to_object, factor, pigment.place);
   if (pattern.kind == Word::average_ && pigment.map)
     return average_texture(pigment, to_world, part, factor, by_uv);
   if (pattern.kind == Word::pigment_pattern_ && pattern.pigment) {
@@ -183,7 +193,7 @@ FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform&
   }
   if (pattern.kind == Word::image_pattern_ && pattern.image && from == 0 && to == 1) {
     const SpectrumParameter amount =
-        image_texture(*pattern.image, pattern, to_world, Part::grey, pattern.uv_mapping, 1, place);
+        image_texture(*pattern.image, pattern, to_world, Part::grey, pattern.uv_mapping, {}, 1, place);
     if (const auto* id = std::get_if<Id<vitrail::Texture>>(&amount)) return *id;
   }
   auto made = pattern_texture(pattern, to_world, place);
@@ -251,8 +261,8 @@ void Surfaces::set_encoding(ImageTexture& texture, const ImageMap& image) const 
 }
 
 SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& pattern,
-                                          const Transform& to_world, Part part, bool by_uv, double factor,
-                                          const Place& place) {
+                                          const Transform& to_world, Part part, bool by_uv,
+                                          const Transform& to_uv, double factor, const Place& place) {
   if (image.filename.empty()) return Spectrum{ConstantSpectrum{static_cast<float>(0.5 * factor)}};
   ImageTexture texture;
   texture.filename = std::filesystem::absolute(image.filename).string();
@@ -265,7 +275,7 @@ SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& 
   else
     set_encoding(texture, image);
   if (by_uv) {
-    texture.mapping = UvMapping{};
+    texture.mapping = uv_mapping(to_uv, pattern.warps);
   } else if (image.map_type == 0) {
     PlanarMapping planar{to_world};
     for (const Warp& warp : pattern.warps)

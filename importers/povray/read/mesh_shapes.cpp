@@ -67,7 +67,9 @@ void read_triangle(Reader& reader, Object& object, bool smooth) {
   read_corners(reader, smooth, p, n);
   Listed listed;
   listed.add(reader, p, smooth ? &n : nullptr, nullptr);
-  object.shape = MeshShape{{part_of(std::move(listed), nullptr)}};
+  // Of one that is smooth the normals say where its outside is.
+  const bool clockwise = !smooth || dot(cross(p[1] - p[0], p[2] - p[0]), n[0] + n[1] + n[2]) <= 0;
+  object.shape = MeshShape{{part_of(std::move(listed), nullptr)}, false, clockwise};
 }
 
 void read_polygon(Reader& reader, Object& object) {
@@ -103,6 +105,7 @@ void read_polygon(Reader& reader, Object& object) {
 void read_mesh(Reader& reader, Object& object) {
   std::map<const Texture*, std::pair<Shared<Texture>, Listed>> parts;
   MeshShape shape;
+  shape.clockwise = true;
   for (;;) {
     reader.comma();
     const bool flat = reader.accept(Word::triangle_), smooth = !flat && reader.accept(Word::smooth_triangle_);
@@ -217,6 +220,7 @@ MeshShape shape_of(const Lists& l) {
   std::map<int, std::vector<std::size_t>> by_texture;
   for (std::size_t i = 0; i < l.faces.size(); ++i) by_texture[l.face_textures[i]].push_back(i);
   MeshShape shape;
+  shape.clockwise = true;
   const auto& nf = l.normal_faces.empty() ? l.faces : l.normal_faces;
   const auto& uf = l.uv_faces.empty() ? l.faces : l.uv_faces;
   const bool normals = !l.normals.empty() && nf.size() == l.faces.size() &&

@@ -46,7 +46,8 @@ struct MeshShape {
     std::shared_ptr<const TriangleMesh> mesh;
   };
   std::vector<Part> parts;
-  bool closed = false;  // has an inside (inside_vector)
+  bool closed = false;     // has an inside (inside_vector)
+  bool clockwise = false;  // seen from its outside the corners run clockwise
 };
 // A shape of importers/solids, made where it is needed.
 struct SolidShape {
@@ -54,6 +55,7 @@ struct SolidShape {
   std::optional<solids::Unbounded> unbounded;  // in place of it
   std::function<bool(Point3d)> inside;         // where a formula says it; else its triangles do
   std::optional<Bounds3d> box;  // what POV-Ray takes for its extents; else those of what is made
+  bool patch = false;           // encloses nothing; seen from its outside the corners run clockwise
 };
 struct GroupShape {
   Word kind = Word::union_;  // union_, merge_, intersection_, difference_, light_group_

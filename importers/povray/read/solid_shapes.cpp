@@ -148,7 +148,7 @@ SolidShape bicubic_patch(Reader& reader) {
     p = reader.point("a point of a patch");
     reader.comma();
   }
-  return {[points] { return solids::bicubic_patch(points); }, {}, {}, {}};
+  return {[points] { return solids::bicubic_patch(points); }, {}, {}, {}, true};
 }
 
 std::array<double, 4> four(Reader& reader, const char*) {

@@ -21,6 +21,7 @@ struct Look {
   bool hollow = false;
   bool of_lamp = false;              // it stands around a light, as what that looks like
   std::optional<Id<Medium>> medium;  // in its interior
+  Shared<Texture> interior_texture;  // none: that of the outside
 };
 
 // What a Shape takes of it.
@@ -38,6 +39,8 @@ class Surfaces {
       : reader_(reader), scene_(scene), ambient_(ambient) {}
 
   Surface of(const Look& look);
+  // With what `interior_texture` shows from inside, as its back.
+  Surface with_inside(Surface surface, const Look& look);
   // Radiance by a pigment, as of a sky: a colour or a texture.
   SpectrumParameter radiance_of(const Pigment& pigment, const Transform& to_world);
   // The last is above: where one is not all there, those before it show through. One at least.
@@ -91,8 +94,10 @@ class Surfaces {
   // A number of each point, 1 − amount … 1 + amount: grains too small to be seen.
   SpectrumParameter grain(double amount, const Place& place);
   FloatParameter opacity_of(const Pigment& pigment, const Transform& to_world, bool by_uv);
+  // `to_uv`: of the pigment alone, where the image lies by (u,v).
   SpectrumParameter image_texture(const ImageMap& image, const Pattern& pattern, const Transform& to_world,
-                                  Part part, bool by_uv, double factor, const Place& place);
+                                  Part part, bool by_uv, const Transform& to_uv, double factor,
+                                  const Place& place);
   // A displacement that is everywhere what another texture is there (make_bumps.cpp).
   PatternTexture carrier_of(const SpectrumParameter& height, const Transform& to_world) const;
   std::optional<FloatParameter> bump_of_image(const Bump& bump, const Transform& to_world);
@@ -126,6 +131,7 @@ class Surfaces {
   Numbers ambient_;
   std::optional<FloatParameter> displacement_;  // of materials that are added
   std::map<std::string, Surface> made_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Id<Material>> sides_;  // by the two materials
   std::vector<Shared<Texture>> kept_;
 };
 

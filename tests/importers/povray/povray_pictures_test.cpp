@@ -130,6 +130,36 @@ TEST_F(PovrayPictures, Shadows) {
                0.02);
 }
 
+// `interior_texture`: where normals look away, also in a mirror and by the order of corners.
+TEST_F(PovrayPictures, Insides) {
+  const std::string sides =
+      " pigment { rgb <1, .2, .2> } finish { ambient 0 diffuse 1 } } interior_texture {"
+      " pigment { rgb <.2, 1, .2> } finish { ambient 0 diffuse 1 } }";
+  const std::string flat = "triangle { <-.3, -.3, 0>, <.3, -.3, 0>, <-.3, .3, 0> }";
+  std::string text =
+      "#version 3.7; global_settings { assumed_gamma 1 } camera { orthographic location -4*z look_at 0"
+      " right 8*x up 6*y } light_source { <1, 2, -9> rgb 1 }\n";
+  int place = 0;
+  for (const std::string shape :
+       {std::string("sphere { 0, .4"), std::string("cone { -.4*y, .4, .4*y, .3 open rotate 40*x"),
+        std::string("disc { 0, z, .4"), std::string("disc { 0, -z, .4"), std::string("box { -.4, .4"),
+        std::string("polygon { 5, <-.4,-.4>, <.4,-.4>, <.4,.4>, <-.4,.4>, <-.4,-.4>"), "mesh { " + flat,
+        std::string("triangle { <-.3, -.3, 0>, <-.3, .3, 0>, <.3, -.3, 0>"),
+        std::string("smooth_triangle { <-.3, -.3, 0>, -z, <-.3, .3, 0>, -z, <.3, -.3, 0>, -z"),
+        std::string(
+            "mesh2 { vertex_vectors { 3, <-.3,-.3,0>, <.3,-.3,0>, <-.3,.3,0> } face_indices { 1, <0,1,2> }"),
+        std::string("torus { .3, .1 rotate 60*x"),
+        std::string("difference { box { -.4, .4 } sphere { <0, 0, -.4>, .3 }")})
+    for (const char* mirrored : {"", " scale <1, 1, -1>"}) {
+      text +=
+          shape + mirrored +
+          fmt::format(" translate <{}, {}, 0> texture {{", place % 6 * 1.3 - 3.25, place / 6 * 1.4 - 2.1) +
+          sides + " }\n";
+      ++place;
+    }
+  expect_alike(text, 0.05, 64);  // a third is edges; without it, half of the picture
+}
+
 // Spotlights in all directions across an area that fade with the square of the distance are a lamp, seen by
 // what glows in its place alone. 16 lights a metre apart by 1/16: .002 of a metre, 1/(2π·f²) times 8.
 TEST_F(PovrayPictures, LampsThatAreRectangles) {
