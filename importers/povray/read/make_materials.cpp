@@ -112,6 +112,36 @@ Surface Surfaces::of(const Look& look) {
   return made_[key] = made(look);
 }
 
+Surface Surfaces::of_sides(const Look& look, const Place& place) {
+  const Surface outside = of(look);
+  if (!look.interior_texture) return outside;
+  Look within = look;
+  within.texture = look.interior_texture, within.to_world = look.interior_to_world;
+  const Surface inside = of(within);
+  const std::array<std::uint32_t, 3> key{outside.material.value, inside.material.value,
+                                         outside.glow ? outside.glow->value + 1 : 0};
+  const auto [known, is_new] = sides_.try_emplace(key);
+  if (is_new) {
+    const std::vector<MaterialTraits> traits = traits_of(scene_.materials);
+    const auto is_opaque = [&](const Surface& s) {
+      return s.opacity == FloatParameter{1.0f} && !traits[s.material.value].transmits;
+    };
+    if (is_opaque(outside) && is_opaque(inside) && !inside.glow) {
+      known->second = outside;
+      if (inside.material != outside.material)
+        known->second->material = add(TwoSidedMaterial{outside.material, inside.material}, place);
+      if (outside.glow) {
+        AreaLight front = scene_.area_lights[outside.glow->value];
+        front.two_sided = false;
+        known->second->glow = append(scene_.area_lights, std::move(front));
+      }
+    }
+  }
+  if (known->second) return *known->second;
+  approximated("interior_texture, where it glows or light goes through: the texture outside", place);
+  return outside;
+}
+
 Surface Surfaces::made(const Look& look) {
   static const auto black = std::make_shared<pov::Texture>();
   const pov::Texture& texture = look.texture ? *look.texture : *black;

@@ -125,6 +125,8 @@ Id<TriangleMesh> SceneMaker::quadric_mesh(const Quadric& quadric) {
 
 void SceneMaker::add(const Object& object, const Transform& parent_to_world, Look look, Target target) {
   if (object.texture) look.texture = object.texture, look.to_world = parent_to_world;
+  if (object.interior_texture)
+    look.interior_texture = object.interior_texture, look.interior_to_world = parent_to_world;
   if (object.interior)
     look.interior = object.interior, look.medium = media_of(object, *object.interior, parent_to_world);
   look.by_uv = look.by_uv || object.uv_mapping;
@@ -226,7 +228,11 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
     own.to_world = to_world * piece.look->to_world;
   }
   if (piece.look && piece.look->interior) own.interior = piece.look->interior;
-  Surface surface = surfaces_.of(own);
+  const Surface whole = surfaces_.of(own);
+  Surface surface = surfaces_.of_sides(own, object.place);
+  // To POV-Ray the outside of a triangle is where its corners turn clockwise.
+  const bool is_turned = std::holds_alternative<MeshShape>(object.shape) &&
+                         (surface.material != whole.material || surface.glow != whole.glow);
   if (own.no_shadow && reader_.for_export) surface = without_shadow(surface, own.of_lamp, object);
   if (own.no_shadow && !reader_.for_export) surface.material = shadowless(surface.material);
   Shape shape;
@@ -240,7 +246,7 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
     shape.object_to_world =
         shape.object_to_world *
         turned_to_image(inverse(to_world) * own.to_world * own.texture->to_object * image->to_object);
-  shape.flip_orientation = !piece.faces_out != object.inverse;
+  shape.flip_orientation = (!piece.faces_out != object.inverse) != is_turned;
   shape.origin = origin(object.place);
   if (own.medium && (own.hollow || lets_light_in(shape)))
     fill(shape, *own.medium);
