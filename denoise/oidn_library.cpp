@@ -50,8 +50,8 @@ void add_libraries_under(const fs::path& prefix, std::vector<fs::path>& found) {
 
 [[noreturn]] void fail(const std::string& what) {
   throw MachineError(fmt::format(
-      "cannot denoise: {}; `pip install pyoidn` installs Intel Open Image Denoise 2 into a Python "
-      "environment, where it is found, and {} names the library or its folder elsewhere",
+      "cannot denoise: {}. `pip install pyoidn` installs Intel Open Image Denoise 2 into a Python "
+      "environment, and Vitrail finds it there. {} names the library, or its folder, elsewhere",
       what, place_variable));
 }
 

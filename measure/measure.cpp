@@ -58,12 +58,12 @@ Measurement measure(const MeasureOptions& options, const Execute& execute, const
   m.most_bias = options.most_bias;
   const Plan plan =
       make_plan(options, m.axes, sample_wall_s, std::max(0.0, start.wall_s - sample_wall_s) + 0.2);
-  news.say(
-      fmt::format("{} × {} pixels, {} samples, {} seeds a setting, a reference of 2 × {}: {} renders, about "
-                  "{:.0f} s; then the search for a recommendation, up to {} more, some of up to {} times the "
-                  "samples (pictures in the folder are not rendered again)",
-                  timed.picture.width, timed.picture.height, plan.spp, options.seeds, plan.reference_spp,
-                  plan.renders, plan.wall_s, plan.search_renders, most_samples_factor));
+  news.say(fmt::format(
+      "{} × {} pixels, {} samples, {} seeds a setting, a reference of 2 × {}: {} renders, about "
+      "{:.0f} s. The search for a recommendation then takes up to {} more renders, some of up to {} "
+      "times the samples. Pictures in the folder are not rendered again",
+      timed.picture.width, timed.picture.height, plan.spp, options.seeds, plan.reference_spp, plan.renders,
+      plan.wall_s, plan.search_renders, most_samples_factor));
 
   Session session(runs, options, plan.spp, plan.renders + plan.search_renders, news);
   m.reference_spp = plan.reference_spp;

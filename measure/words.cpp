@@ -66,9 +66,8 @@ std::vector<std::string> findings(const Measurement& m) {
   const MeasuredSetting& own = m.settings[0];
   std::vector<std::string> lines;
   lines.push_back(
-      fmt::format("The reference, of 2 × {} samples and paths of any length, is itself off by a relMSE of "
-                  "{:.2g}; that is "
-                  "taken out of the errors of the others.",
+      fmt::format("The reference has 2 × {} samples and paths of any length. It is itself off by a relMSE of "
+                  "{:.2g}, which is taken out of the other errors.",
                   m.reference_spp, m.reference.relmse));
   lines.push_back(fmt::format("Noise falls as samples^−{:.2f} here.", m.law.slope));
   if (own.error.is_biased() || judge(own.error.luminance, m.most_bias) == LightVerdict::beyond)
@@ -77,11 +76,10 @@ std::vector<std::string> findings(const Measurement& m) {
   else
     lines.push_back(fmt::format("The scene's own setting shows no bias above {:.2g}.",
                                 std::max(0.0, own.error.bias.value) + own.error.bias.half_width));
-  lines.push_back(
-      fmt::format("The whole picture has {:.2f} times the pixels of those measured; a sample of all of it "
-                  "takes {:.3g} CPU "
-                  "seconds, and there were {:.1f} CPU seconds a second.",
-                  m.full_size, own.sample_s * m.full_size, m.parallelism));
+  lines.push_back(fmt::format(
+      "The whole picture has {:.2f} times as many pixels. A sample of each of them takes {:.3g} CPU "
+      "seconds, and there were {:.1f} CPU seconds a second.",
+      m.full_size, own.sample_s * m.full_size, m.parallelism));
   if (own.farm.is_known())
     lines.push_back(fmt::format(
         "The whole picture at its {} samples would take about {:.2g} s on a cluster of {} × {} cores "

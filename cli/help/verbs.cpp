@@ -40,7 +40,7 @@ std::span<const Verb> verbs() {
        "cut a scene into sub-domains, one file each: a bundle",
        {{"vitrail partition city.pbrt -o city.vit", "sub-domains of 64 MiB"},
         {"vitrail partition city.pbrt -o city.vit --domains 64 --memory 4G",
-         "64 of them, of a scene that may be larger than memory"},
+         "64 sub-domains; the scene may be larger than memory"},
         {"vitrail partition city.pbrt -o city.vit --profile rays.json",
          "cut where the rays of an earlier render went"}}},
       {"verify",

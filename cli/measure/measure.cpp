@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
          "plan each setting's seconds for the whole picture on a cluster of this many ranks; 0: no plan")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
-  app.add_option("--threads", options.farm.threads, "threads of each of these ranks")
+  app.add_option("--threads", options.farm.threads, "threads a rank")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   app.add_option("--width", options.width, "width of the measured pictures, in pixels")

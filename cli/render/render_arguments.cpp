@@ -214,7 +214,7 @@ void declare_outputs(CLI::App& app, RenderArguments& a) {
   app.add_option("--profile", o.outputs.profile,
                  "write how many rays each domain traced and sent on, for `partition --profile` and `plan`");
   app.add_option("--trace", o.outputs.trace,
-                 "write the activity of each thread of each rank over time: loads, batches, idleness, "
+                 "write what each thread does over time: loads, batches, idleness, "
                  "messages; for Perfetto (ui.perfetto.dev)");
 }
 
@@ -251,8 +251,8 @@ void declare(CLI::App& app, RenderArguments& a) {
   app.remove_option(app.get_option("--camera"));
   app.add_option(
       "--camera", a.camera,
-      "which sensor of a Mitsuba scene, or camera of a glTF, from 0; or FILE: the camera of another "
-      "scene of any format, without partitioning again");
+      "N: which sensor of a Mitsuba scene, or camera of a glTF, FBX or COLLADA, from 0. FILE: the camera of "
+      "another scene of any format, without partitioning again");
   declare_rgb_option(app, a.rgb);
   declare_mesh_options(app, a.meshes);
   app.add_flag("--no-cache{false}", a.cached,

@@ -160,7 +160,7 @@ def main():
     parser.add_argument("--up", default="y", help="axis of the model that points up, as -z (default y)")
     parser.add_argument("--north", default="-z", help="axis of the model that points north (default -z)")
     parser.add_argument("--set", action="append", default=[], metavar="NAME.PROPERTY=VALUE", help="as of render")
-    parser.add_argument("--every", type=int, default=30, metavar="DAYS", help="between days that are measured")
+    parser.add_argument("--every", type=int, default=30, metavar="DAYS", help="between days that are measured (default 30)")
     parser.add_argument("--spp", type=int, default=64, help="as of render (default 64)")
     parser.add_argument("--force", action="store_true", help="measure again what is there")
     parser.add_argument("--vitrail", default=which("vitrail") or "vitrail", help="the program, if not on the PATH")

@@ -26,12 +26,13 @@ MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t p
   const std::uint64_t least = std::max(peak, fixed + least_queue_bytes + largest_domain);
   if (budget < least)
     throw MachineError(fmt::format(
-        "--memory {:.0f}M is too little: {:.0f}M for the program and the film, {:.0f}M for the "
-        "largest domain and the objects in it, {:.0f}M while the scene is read or the picture made; "
-        "at least {:.0f}M is needed, or more domains",
-        static_cast<double>(budget) / mib, static_cast<double>(fixed) / mib,
-        static_cast<double>(largest_domain) / mib, static_cast<double>(peak) / mib,
-        static_cast<double>(least + mib - 1) / mib));
+        "--memory {:.0f}M is too little. Give at least {:.0f}M, or cut the scene into more domains. The "
+        "program "
+        "and the film take {:.0f}M, the largest domain and its objects {:.0f}M; reading the scene and making "
+        "the picture take {:.0f}M",
+        static_cast<double>(budget) / mib, static_cast<double>(least + mib - 1) / mib,
+        static_cast<double>(fixed) / mib, static_cast<double>(largest_domain) / mib,
+        static_cast<double>(peak) / mib));
   const std::uint64_t free = budget - fixed;
   const std::uint64_t queues =
       std::clamp(free / 5, least_queue_bytes, std::min(most_queue_bytes, free - largest_domain));

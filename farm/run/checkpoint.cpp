@@ -147,8 +147,8 @@ std::optional<Held> held_by(const std::filesystem::path& file, const char* kind,
   if (reason.empty()) return held;
   const JobOutputs& o = asked.options.outputs;
   if (held.film.samples() == 0 || o.dry_run || picture_was_written(file, o)) return std::nullopt;
-  throw Error(fmt::format("this {} cannot be resumed, and its {:.4g} samples a pixel would be lost: {}{}",
-                          kind, samples_of_a_pixel(held.film), reason, ways_out),
+  throw Error(fmt::format("this {} cannot be resumed. Its {:.4g} samples a pixel would be lost: {}{}", kind,
+                          samples_of_a_pixel(held.film), reason, ways_out),
               {file.string()});
 }
 

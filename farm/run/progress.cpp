@@ -115,8 +115,10 @@ std::string text_of(const TargetError& target) {
 
 // What the render is after.
 std::string text_of(const Goal& goal) {
-  const std::string samples =
-      fmt::format("{} samples {}", goal.samples, goal.adaptive ? "a pixel on the average" : "each");
+  const std::string samples = fmt::format("{} sample{} {}", goal.samples, goal.samples == 1 ? "" : "s",
+                                          goal.adaptive       ? "a pixel on the average"
+                                          : goal.samples == 1 ? "a pixel"
+                                                              : "each");
   if (!goal.target) return samples;
   return fmt::format("to an error of {}, at most {}", text_of(*goal.target), samples);
 }
@@ -150,8 +152,12 @@ void print_start(const RenderOptions& options, const Manifest& m, const Goal& go
   const std::string domains = m.domains.size() == 1 ? "" : fmt::format(", {} domains", m.domains.size());
   const std::string workers = fmt::format(
       "{}{} thread{}", ranks == 1 ? "" : fmt::format("{} ranks × ", ranks), threads, threads == 1 ? "" : "s");
-  say("vitrail: rendering {} × {} pixels, {}{}, {}\n", c.x1 - c.x0, c.y1 - c.y0, text_of(goal), domains,
-      workers);
+  // A sensor is a column of pixels.
+  const std::string what = options.picture.sensors.empty()
+                               ? fmt::format("rendering {} × {} pixels", c.x1 - c.x0, c.y1 - c.y0)
+                               : fmt::format("measuring at {} sensor{} of {} pixels", c.x1 - c.x0,
+                                             c.x1 - c.x0 == 1 ? "" : "s", c.y1 - c.y0);
+  say("vitrail: {}, {}{}, {}\n", what, text_of(goal), domains, workers);
 }
 
 void print_end(const RenderOptions& options, const RenderStats& s) {

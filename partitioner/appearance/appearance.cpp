@@ -198,9 +198,8 @@ void report_endless_medium(const Scene& scene, const Light& light, Notes& report
   const Medium& medium = scene.media.at(scene.camera_medium->value);
   if (std::holds_alternative<std::monostate>(medium.density))
     report.approximated(
-        "light from infinitely far comes through as much of the medium around the camera as the scene is "
-        "wide, as pbrt and Mitsuba have it where they choose a light; there none comes by rays that meet "
-        "nothing",
+        "light from infinitely far crosses as much of the medium around the camera as the scene is wide. "
+        "pbrt and Mitsuba do so where they choose a light; their rays that meet nothing bring no light",
         light.origin);
 }
 
@@ -247,8 +246,9 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
     result.lights.push_back(std::move(baked));
     if (const auto* sky = std::get_if<SkyLight>(&light.model); sky && glass && SkyModel(*sky).has_sun())
       report.approximated(
-          "where smooth glass or what scatters below a smooth surface is, the light that mirrors and curved "
-          "glass throw of the sun's disc is found by photons alone (--integrator photon)",
+          "mirrors and curved glass throw sunlight. Only photons (--integrator photon) find this light on "
+          "smooth "
+          "glass, and on what scatters below a smooth surface",
           light.origin);
     report_endless_medium(scene, light, report);
     const auto* environment = std::get_if<EnvironmentLight>(&light.model);

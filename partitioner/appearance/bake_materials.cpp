@@ -197,7 +197,7 @@ BakedMaterial bake_material(const Material& material, const std::vector<std::int
   if (material.displacement) {
     result.material.displacement = textures.bake(*material.displacement);
     if (textures.reads_attribute(*result.material.displacement))
-      result.notes.push_back("what textures by face and attributes of meshes say of its bumps is left out");
+      result.notes.push_back("its bumps leave out textures by face and attributes of meshes");
   }
   if (material.normal_map) result.material.normal_map = textures.bake_vector(*material.normal_map);
   return result;

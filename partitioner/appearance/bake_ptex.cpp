@@ -204,8 +204,8 @@ std::string in_words(const PtexFile& file, int halvings) {
   const std::size_t faces = file.faces().size();
   if (file.is_of_triangles()) return fmt::format("the mean of each of its {} triangles", faces);
   return fmt::format(
-      "the texels of its {} faces{}, smoothed as pbrt does from near by, but that within a texel of their "
-      "edges the next face does not count",
+      "the texels of its {} faces{}, smoothed as pbrt does from near by; only within a texel of an edge they "
+      "leave out the next face",
       faces, halvings == 0 ? "" : fmt::format(", {} times halved", halvings));
 }
 

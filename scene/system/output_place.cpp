@@ -17,9 +17,11 @@ namespace fs = std::filesystem;
 
 void require_folder_of(const fs::path& file) {
   const fs::path folder = fs::absolute(behind_links(file)).parent_path();
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw MachineError(
-        fmt::format("cannot write {}: {}: {}", file.string(), folder.string(), std::strerror(errno)));
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) return;
+  const int reason = errno;
+  throw MachineError(fmt::format("cannot write {}: {}: {}{}", file.string(), folder.string(),
+                                 std::strerror(reason),
+                                 reason == ENOENT ? "; make this folder first (mkdir -p)" : ""));
 }
 
 void require_short_name(const fs::path& named) {

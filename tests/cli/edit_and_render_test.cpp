@@ -135,7 +135,7 @@ TEST_F(EditAndRender, ARefusalSaysExactlyWhatDiffers) {
   const auto refusal = [&](const std::string& options) {
     const CommandResult refused = render("-o x.film " + options);
     EXPECT_EQ(refused.status, 3) << options << refused.output;
-    EXPECT_THAT(refused.output, HasSubstr("x.film: this film cannot be resumed, and its 64 samples a pixel"));
+    EXPECT_THAT(refused.output, HasSubstr("x.film: this film cannot be resumed. Its 64 samples a pixel"));
     const std::size_t begin = refused.output.find("lost: ") + 6;
     return refused.output.substr(begin, refused.output.find("; --force") - begin);
   };

@@ -108,6 +108,24 @@ TEST_F(Mistakes, AShallowDepthOfSensorsIsWarnedOf) {
     EXPECT_THAT(measured(option), Not(HasSubstr("scattering events"))) << option;
 }
 
+// What is counted is what the user asked for: a sensor is no row of pixels.
+TEST_F(Mistakes, SensorsAreNotCountedAsAPicture) {
+  write("sensors.txt", "0 0 0  0 0 1\n0 1 0  0 0 1\n");
+  const CommandResult result = verb("render", path("in.pbrt") + " --sensors " + path("sensors.txt") + " -o " +
+                                                  path("out.csv") + " --spp 1 --max-depth 1");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("measuring at 2 sensors of 16 pixels, 1 sample a pixel"));
+}
+
+TEST_F(Mistakes, AFolderThatIsNotThereIsToBeMade) {
+  for (const char* command : {"render {} -o {}.png --spp 1", "partition {} -o {}.vit", "convert {} {}.xml"}) {
+    const CommandResult result =
+        run(vitrail(fmt::format(fmt::runtime(command), path("in.pbrt"), path("not/there/out"))));
+    EXPECT_EQ(result.status, 4) << command << ": " << result.output;
+    EXPECT_THAT(result.output, HasSubstr("make this folder first (mkdir -p)")) << command;
+  }
+}
+
 TEST_F(Mistakes, WaysToSampleThatAreNotThere) {
   for (const auto& [option, hint] : {std::pair("--filter box:", "number of pixels"),
                                      {"--filter box:0", "number of pixels"},

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_words = 30;
+constexpr int most_words = 25;
 
 struct Sentence {
   std::string text;

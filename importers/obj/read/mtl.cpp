@@ -92,7 +92,7 @@ class MtlReader {
     TextCursor ahead = cursor_;
     if (ahead.word() != "-halo") return;
     cursor_ = ahead;
-    note(Fidelity::dropped, "-halo of d of a material");
+    note(Fidelity::dropped, "option -halo of d");
   }
 
   bool read_map_statement(std::string_view keyword) {

@@ -54,7 +54,8 @@ struct MtlSurface {
 // Appends the records that a material stands for. MTL says how to shade, not what things are made of; it is
 // read as the programs mean it that write it:
 //   Pr, Pm, Ps, Pc, Pcr, aniso and their maps   PrincipledMaterial (roughness Pr, metallic Pm, sheen Ps,
-//                                               clearcoat Pc, its gloss 1 − Pcr); Ns gives a missing Pr
+//                                               clearcoat Pc, its gloss 1 − Pcr); Ns gives a missing Pr.
+//                                               With all of these, as Blender writes, Tf is what it transmits
 //   Ni > 1, with d < 1 or illum 4, 6, 7, 9      smooth DielectricMaterial of that index; Tf is what it
 //                                               transmits. (Maya writes illum 4 with Ni 1 for opaque ones.)
 //                                               A ThinDielectricMaterial where it encloses nothing

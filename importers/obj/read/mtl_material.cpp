@@ -152,6 +152,12 @@ class Builder {
            find("map_Pm") || find("map_Ps");
   }
 
+  // Blender's "PBR Extensions" are all of these, for every material. Tf is there only where something is
+  // transmitted: its mean is Blender's weight of transmission.
+  bool is_of_blender() const {
+    return mtl_.pr && mtl_.pm && mtl_.ps && mtl_.pc && mtl_.pcr && mtl_.aniso && mtl_.tf;
+  }
+
   // Phong's exponent as the width of microfacets.
   float alpha() {
     const double exponent = mtl_.ns.value_or(1);
@@ -166,7 +172,8 @@ class Builder {
     if (mtl_.d && mtl_.tr && *mtl_.d != 1 - *mtl_.tr) note(Fidelity::dropped, "Tr: its d says otherwise");
     if (is_opaque_by_tr())
       note(Fidelity::approximated, "Tr 1 without d: taken as opaque, as MeshLab means it");
-    if (mtl_.tf && !glass && *mtl_.tf != RGB{1, 1, 1}) note(Fidelity::dropped, "Tf, without Ni above 1");
+    if (mtl_.tf && !glass && !is_of_blender() && *mtl_.tf != RGB{1, 1, 1})
+      note(Fidelity::dropped, "Tf of a material that is not glass");
     if (glass) return dielectric();
     if (opacity() <= 0 && !find("map_d")) return InterfaceMaterial{};
     if (is_physically_based()) return principled();
@@ -213,6 +220,9 @@ class Builder {
     material.clearcoat = static_cast<float>(mtl_.pc.value_or(0));
     material.clearcoat_gloss = static_cast<float>(mtl_.pc ? 1 - mtl_.pcr.value_or(0) : 0);
     material.anisotropic = static_cast<float>(mtl_.aniso.value_or(0));
+    if (is_of_blender())
+      material.spec_trans =
+          static_cast<float>(std::clamp((mtl_.tf->r + mtl_.tf->g + mtl_.tf->b) / 3.0, 0., 1.));
     material.eta = eta_of_coat();
     return material;
   }

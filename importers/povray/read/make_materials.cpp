@@ -156,31 +156,34 @@ Surface Surfaces::of(const Look& look) {
   return made_[key] = made(look);
 }
 
-Surface Surfaces::with_inside(Surface surface, const Look& look) {
-  Look inside = look;
-  inside.texture = look.interior_texture;
-  const Surface back = of(inside);
-  const Place& place = look.interior_texture->place;
-  const std::vector<MaterialTraits> traits = traits_of(scene_.materials);
-  if (traits[surface.material.value].transmits || traits[back.material.value].transmits ||
-      surface.opacity != FloatParameter{1.0f} || back.opacity != FloatParameter{1.0f}) {
-    dropped("interior_texture where light comes through: the texture of the outside", place);
-    return surface;
+Surface Surfaces::of_sides(const Look& look, const Place& place) {
+  const Surface outside = of(look);
+  if (!look.interior_texture) return outside;
+  Look within = look;
+  within.texture = look.interior_texture, within.to_world = look.interior_to_world;
+  const Surface inside = of(within);
+  const std::array<std::uint32_t, 3> key{outside.material.value, inside.material.value,
+                                         outside.glow ? outside.glow->value + 1 : 0};
+  const auto [known, is_new] = sides_.try_emplace(key);
+  if (is_new) {
+    const std::vector<MaterialTraits> traits = traits_of(scene_.materials);
+    const auto is_opaque = [&](const Surface& s) {
+      return s.opacity == FloatParameter{1.0f} && !traits[s.material.value].transmits;
+    };
+    if (is_opaque(outside) && is_opaque(inside) && !inside.glow) {
+      known->second = outside;
+      if (inside.material != outside.material)
+        known->second->material = add(TwoSidedMaterial{outside.material, inside.material}, place);
+      if (outside.glow) {
+        AreaLight front = scene_.area_lights[outside.glow->value];
+        front.two_sided = false;
+        known->second->glow = append(scene_.area_lights, std::move(front));
+      }
+    }
   }
-  if (surface.material != back.material) {
-    const auto [known, is_new] =
-        sides_.try_emplace({surface.material.value, back.material.value}, surface.material);
-    if (is_new) known->second = add(TwoSidedMaterial{surface.material, back.material}, place);
-    surface.material = known->second;
-  }
-  if (surface.glow && !back.glow) {
-    AreaLight front = scene_.area_lights[surface.glow->value];
-    front.two_sided = false;
-    surface.glow = append(scene_.area_lights, std::move(front));
-  } else if (surface.glow != back.glow) {
-    approximated("ambient and emission of an interior_texture: those of the outside", place);
-  }
-  return surface;
+  if (known->second) return *known->second;
+  approximated("interior_texture, where it glows or light goes through: the texture outside", place);
+  return outside;
 }
 
 Surface Surfaces::made(const Look& look) {

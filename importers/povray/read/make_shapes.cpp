@@ -134,7 +134,8 @@ Id<TriangleMesh> SceneMaker::quadric_mesh(const Quadric& quadric) {
 
 void SceneMaker::add(const Object& object, const Transform& parent_to_world, Look look, Target target) {
   if (object.texture) look.texture = object.texture, look.to_world = parent_to_world;
-  if (object.texture || object.interior_texture) look.interior_texture = object.interior_texture;
+  if (object.texture || object.interior_texture)
+    look.interior_texture = object.interior_texture, look.interior_to_world = parent_to_world;
   if (object.interior)
     look.interior = object.interior, look.medium = media_of(object, *object.interior, parent_to_world);
   look.by_uv = look.by_uv || object.uv_mapping;
@@ -234,11 +235,12 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
   if (piece.look && piece.look->texture) {
     own.texture = piece.look->texture;
     own.to_world = to_world * piece.look->to_world;
-    own.interior_texture = nullptr;
+    if (piece.look->texture != look.texture) own.interior_texture = nullptr;
   }
   if (piece.look && piece.look->interior) own.interior = piece.look->interior;
-  Surface surface = surfaces_.of(own);
-  if (own.interior_texture) surface = surfaces_.with_inside(surface, own);
+  const Surface whole = surfaces_.of(own);
+  Surface surface = surfaces_.of_sides(own, object.place);
+  const bool has_sides = surface.material != whole.material || surface.glow != whole.glow;
   if (own.no_shadow && reader_.for_export) surface = without_shadow(surface, own.of_lamp, object);
   const bool passes = surface.clears && !world_.photons;
   if ((own.no_shadow || passes) && !reader_.for_export) surface.material = shadowless(surface.material);
@@ -254,8 +256,7 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
         shape.object_to_world *
         turned_to_image(inverse(to_world) * own.to_world * own.texture->to_object * image->to_object);
   shape.flip_orientation = !piece.faces_out != object.inverse;
-  if (own.interior_texture && faces_in(object, shape.object_to_world))
-    shape.flip_orientation = !shape.flip_orientation;
+  if (has_sides && faces_in(object, shape.object_to_world)) shape.flip_orientation = !shape.flip_orientation;
   shape.origin = origin(object.place);
   if (own.medium && (own.hollow || lets_light_in(shape)))
     fill(shape, *own.medium);

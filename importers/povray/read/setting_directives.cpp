@@ -40,7 +40,7 @@ Symbol* Reader::raw_name(const char* what) {
 void Reader::declare(bool local) {
   Symbol* name = raw_name("the name that is declared");
   if (name->name == "deprecated" && (accept(Word::once_) || peek().kind == TokenKind::text)) {
-    text("what is said of a deprecated name");
+    text("the message of a deprecated name");
     name = raw_name("the name that is declared");
   }
   const Place place = last_;

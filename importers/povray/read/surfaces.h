@@ -21,7 +21,8 @@ struct Look {
   bool hollow = false;
   bool of_lamp = false;              // it stands around a light, as what that looks like
   std::optional<Id<Medium>> medium;  // in its interior
-  Shared<Texture> interior_texture;  // none: that of the outside
+  Shared<Texture> interior_texture;  // of the inside; null: as outside
+  Transform interior_to_world;
 };
 
 // What a Shape takes of it.
@@ -39,8 +40,9 @@ class Surfaces {
       : reader_(reader), scene_(scene), ambient_(ambient) {}
 
   Surface of(const Look& look);
-  // With what `interior_texture` shows from inside, as its back.
-  Surface with_inside(Surface surface, const Look& look);
+  // With its interior_texture, if it has one, at the back. Where that glows, or light goes through either,
+  // the texture outside is that of both, with a note.
+  Surface of_sides(const Look& look, const Place& place);
   // Radiance by a pigment, as of a sky: a colour or a texture.
   SpectrumParameter radiance_of(const Pigment& pigment, const Transform& to_world);
   // The last is above: where one is not all there, those before it show through. One at least.
@@ -131,7 +133,7 @@ class Surfaces {
   Numbers ambient_;
   std::optional<FloatParameter> displacement_;  // of materials that are added
   std::map<std::string, Surface> made_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Id<Material>> sides_;  // by the two materials
+  std::map<std::array<std::uint32_t, 3>, std::optional<Surface>> sides_;  // by outside, inside, glow
   std::vector<Shared<Texture>> kept_;
 };
 

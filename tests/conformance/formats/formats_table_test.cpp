@@ -196,8 +196,8 @@ std::string page() {
   return R"(# What is read, rendered and written
 
 Made by `tests/conformance/formats` from what the programs say; do not edit. Each plugin stands in a small scene,
-each parameter is set in it to another value than the usual one, and the row says what reading,
-rendering and writing report beyond what they report without it.
+and each parameter in it gets an unusual value. A row says what reading, rendering and writing report
+beyond what they report without it.
 
 ✓ exact · no effect on what is kept of a scene ≈ approximated ✗ dropped (≈) exact within a plugin that is approximated.
 Numbers are of the list below each table. What comes out exactly is held by pictures

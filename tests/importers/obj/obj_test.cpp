@@ -507,6 +507,21 @@ TEST_F(Obj, Principled) {
   EXPECT_THAT(imported_.diagnostics, IsEmpty());
 }
 
+// Blender 5.0 writes Tf for a principled material that transmits, with illum 2 and d 1.
+TEST_F(Obj, TransmissionOfBlender) {
+  const std::string blender =
+      "Kd .8 .8 .8\nKs .5 .5 .5\nNi 1.5\nd 1\nillum 2\nPr 0\nPm 0\nPs 0\nPc 0\nPcr .03\naniso 0\nanisor 0\n";
+  EXPECT_EQ(std::get<PrincipledMaterial>(material(blender)).spec_trans, FloatParameter(0.0f));
+  EXPECT_EQ(std::get<PrincipledMaterial>(material(blender + "Tf .75 .75 .75\n")).spec_trans,
+            FloatParameter(.75f));
+  EXPECT_THAT(imported_.diagnostics, IsEmpty());
+  // Of another program white says nothing, and a colour is lost.
+  EXPECT_EQ(std::get<PrincipledMaterial>(material("Pr .2\nTf 1 1 1\n")).spec_trans, FloatParameter(0.0f));
+  EXPECT_THAT(imported_.diagnostics, IsEmpty());
+  material("Pr .2\nNi 1.5\nTf .5 1 1\n");
+  EXPECT_THAT(imported_.diagnostics, SizeIs(1));
+}
+
 TEST_F(Obj, ImagesAndTheirOptions) {
   folder_.write("a b.png", "");
   const auto reflectance = [&](const std::string& mtl) {

@@ -177,6 +177,31 @@ TEST_F(PovrayPictures, LampsThatAreRectangles) {
   expect_alike(linear + lamp + room + glow, 0.02, 256);
 }
 
+// Each shape from both sides, red outside and blue inside. Of triangles the order of the corners decides.
+TEST_F(PovrayPictures, TexturesOfTheInside) {
+  const std::string sides =
+      " texture { pigment { rgb <.8,.1,.1> } finish { ambient 0 diffuse .9 } }"
+      " interior_texture { pigment { rgb <.1,.2,.9> } finish { ambient 0 diffuse .9 } } }\n";
+  for (const std::string shape :
+       {"sphere { <0,.7,0>, 1 clipped_by { plane { z, 0 } }",
+        "sphere { <0,.7,0>, 1 clipped_by { plane { -z, 0 } }",
+        "cylinder { <-1,.7,0>, <1,.7,0>, .7 open rotate 60*y", "disc { <0,.7,0>, z, 1",
+        "disc { <0,.7,0>, -z, 1", "mesh { triangle { <-1,0,0>, <1,0,0>, <0,1.5,0> }",
+        "mesh { triangle { <1,0,0>, <-1,0,0>, <0,1.5,0> }",
+        "mesh2 { vertex_vectors { 3, <-1,0,0>, <1,0,0>, <0,1.5,0> } face_indices { 1, <0,1,2> }",
+        "difference { box { <-1,0,-1>, <1,1.4,1> } box { <-.8,.2,-2>, <.8,1.2,.8> }"})
+    expect_alike(linear + "background { rgb 1 } " + lamps + shape + sides, 0.02);
+}
+
+// A triangle that glows outside alone.
+TEST_F(PovrayPictures, LightOfTheOutside) {
+  for (const std::string corners : {"<-1,0,0>, <1,0,0>", "<1,0,0>, <-1,0,0>"})
+    expect_alike(linear + lamps + "mesh { triangle { " + corners +
+                     ", <0,1.5,0> } texture { pigment { rgb .2 } finish { emission .6 diffuse 1 } }"
+                     " interior_texture { pigment { rgb .2 } finish { ambient 0 diffuse 1 } } }",
+                 0.02);
+}
+
 TEST_F(PovrayPictures, Atmospheres) {
   const std::string walls = ball + "plane { -z, -6 pigment { rgb .6 } }\n";
   for (const char* media :
