@@ -7,8 +7,8 @@
 namespace vitrail::pov {
 
 // Over a distance d, what is seen becomes T·seen + (1 − T)·color with T = e^(−d/distance). Ground fog is as
-// dense up to the height `offset` along `up`, and 1/(1 + ((y − offset)/alt)²) of that at a height y above it, as povray
-// shows it (its documentation has another law).
+// dense up to the height `offset` along `up`, and 1/(1 + ((y − offset)/alt)²) of that at a height y above it,
+// as povray shows it (its documentation has another law).
 struct Fog {
   Place place;
   bool ground = false;

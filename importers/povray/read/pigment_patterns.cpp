@@ -74,6 +74,9 @@ std::optional<Pigment> colored_by(const Pigment& inner, const std::vector<BlendE
   const std::vector<BlendEntry> entries =
       inner.map ? inner.map->entries : default_entries(inner.pattern.kind);
   if (!kind || entries.empty() || std::ranges::any_of(entries, has_pigment)) return std::nullopt;
+  constexpr std::size_t most_crossings = 1 << 20;
+  if (outer.size() > most_crossings / (entries.size() * static_cast<std::size_t>(pieces)))
+    return std::nullopt;
   const bool list = is_of_places(*kind);
   const std::vector<Crossing> places = crossings(entries, number, list ? 1 : pieces);
   BlendMap map;
