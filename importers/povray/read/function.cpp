@@ -271,7 +271,8 @@ Shared<Function> read_function(Reader& reader) {
   reader.expect('{', "behind function");
   const Token first = reader.next();
   if (first.is(Word::pigment_)) {
-    function->pigment = std::make_shared<PatternField>(reader, *read_pigment_block(reader));
+    function->source = read_pigment_block(reader);
+    function->pigment = std::make_shared<PatternField>(reader, *function->source);
   } else if (first.is(Word::pattern_)) {
     function->pattern = std::make_shared<PatternField>(reader, *read_pattern_block(reader));
   } else if (first.is(Word::transform_)) {

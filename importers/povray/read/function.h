@@ -2,6 +2,7 @@
 // `function {}`: a formula of numbers, compiled to the code of a stack machine.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -60,6 +61,7 @@ struct Function {
   std::size_t depth = 0;  // of the stack
   // In place of code:
   std::shared_ptr<const PatternField> pattern, pigment;  // a number or a colour at a point
+  Shared<Pigment> source;                                // of `pigment`
   Shared<Placement> placement;                           // a point moved
   std::shared_ptr<const Spline> spline;
 
@@ -75,6 +77,17 @@ inline constexpr std::uint8_t grey_component = 5, height_component = 6;
 double evaluate(const Function& function, const double* arguments);
 // Of a function that gives a vector.
 Numbers evaluate_vector(const Function& function, const double* arguments);
+
+// By Instruction::component.
+double component_of(const Numbers& color, std::uint8_t component);
+
+// A function of x, y and z that looks at them in one place alone: it takes one number of a pigment there.
+struct FormulaOfColor {
+  Shared<Pigment> pigment;
+  std::uint8_t component = 0;
+  Function function;  // of that number
+};
+std::optional<FormulaOfColor> formula_of_color(const Function& function);
 
 // Behind the word `function`.
 Shared<Function> read_function(Reader& reader);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stack machine that carries out functions.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -14,14 +15,36 @@ namespace {
 
 using Op = Instruction::Op;
 
-double component(const Numbers& n, std::uint8_t which) {
+bool looks_around(const Instruction& i) {
+  return i.op == Op::argument || i.op == Op::call || i.op == Op::part;
+}
+
+}  // namespace
+
+double component_of(const Numbers& n, std::uint8_t which) {
   if (which == grey_component) return 0.297 * n.v[0] + 0.589 * n.v[1] + 0.114 * n.v[2];
   // As povray shows it: 255/256 of a number of two bytes.
   if (which == height_component) return 0.996093 * (n.v[0] + n.v[1] / 255);
   return n.v[which];
 }
 
-}  // namespace
+std::optional<FormulaOfColor> formula_of_color(const Function& f) {
+  const auto part = std::ranges::find(f.code, Op::part, &Instruction::op);
+  if (part - f.code.begin() < 3 || part == f.code.end()) return std::nullopt;
+  const Function& callee = *f.callees[part->index];
+  if (!callee.source) return std::nullopt;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const Instruction& argument = *(part - 3 + k);
+    if (argument.op != Op::argument || argument.index != k) return std::nullopt;
+  }
+  if (std::ranges::count_if(f.code, looks_around) != 4) return std::nullopt;
+  FormulaOfColor formula{callee.source, part->component, {}};
+  formula.function.parameters.resize(1);
+  formula.function.depth = f.depth;
+  formula.function.code.assign(f.code.begin(), part - 2);  // with the first argument
+  formula.function.code.insert(formula.function.code.end(), part + 1, f.code.end());
+  return formula;
+}
 
 Numbers evaluate_vector(const Function& f, const double* a) {
   if (f.pigment) return f.pigment->color({a[0], a[1], a[2]});
@@ -33,7 +56,7 @@ Numbers evaluate_vector(const Function& f, const double* a) {
 double evaluate(const Function& f, const double* arguments) {
   if (f.built_in) return f.built_in(arguments);
   if (f.pattern) return f.pattern->value({arguments[0], arguments[1], arguments[2]});
-  if (f.gives_vector()) return component(evaluate_vector(f, arguments), f.pigment ? grey_component : 0);
+  if (f.gives_vector()) return component_of(evaluate_vector(f, arguments), f.pigment ? grey_component : 0);
   std::array<double, Function::most_operands + 2> stack;
   std::size_t top = 0;  // operands
   constexpr double tolerance = 1e-10;
@@ -74,7 +97,7 @@ double evaluate(const Function& f, const double* arguments) {
       case Op::part: {
         const Function& callee = *f.callees[i.index];
         top -= callee.arguments();
-        stack[top] = component(evaluate_vector(callee, stack.data() + top), i.component);
+        stack[top] = component_of(evaluate_vector(callee, stack.data() + top), i.component);
         ++top;
         continue;
       }

@@ -119,12 +119,10 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
                          pigment.to_object, factor, pigment.place);
   if (pattern.kind == Word::average_ && pigment.map)
     return average_texture(pigment, to_world, part, factor, by_uv);
-  if (pattern.kind == Word::pigment_pattern_ && pattern.pigment) {
-    const Pigment& inner = *pattern.pigment;
+  if (const auto both = as_pattern_of_pigment(
+          pattern, pigment.map ? pigment.map->entries : default_entries(pattern.kind))) {
     note_modifiers(pattern, pigment.place);
-    if (const auto both =
-            colored_by_grey(inner, pigment.map ? pigment.map->entries : default_entries(pattern.kind)))
-      return color_texture(*both, to_world * inner.to_object, part, factor, by_uv);
+    return color_texture(*both, to_world * both->to_object, part, factor, by_uv);
   }
   auto made = pattern_texture(pattern, to_world, pigment.place);
   if (!made) return spectrum_of(pigment.quick_color.value_or(mean_color(pigment)), part, factor);
@@ -174,22 +172,20 @@ SpectrumParameter Surfaces::grain(double amount, const Place& place) {
 void Surfaces::note_modifiers(const Pattern& pattern, const Place& place) {
   const bool changed = pattern.frequency != 1 || pattern.phase != 0 || pattern.turbulence != Vector3d{} ||
                        (pattern.wave != Word::none && pattern.wave != Word::ramp_wave_);
-  if (changed) approximated("waves and turbulence of a pigment_pattern: those of the pigment alone", place);
+  if (changed)
+    approximated("waves and turbulence of a pattern that asks a pigment: those of the pigment alone", place);
 }
 
 FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform& to_world, double from,
                                         double to, const Place& place, bool list, std::size_t index) {
-  if (pattern.kind == Word::pigment_pattern_ && pattern.pigment) {
-    BlendEntry first, second;
-    first.at = from, first.color = Finish::grey(0);
-    second.at = to, second.color = Finish::grey(1);
+  BlendEntry first, second;
+  first.at = from, first.color = Finish::grey(0);
+  second.at = to, second.color = Finish::grey(1);
+  if (const auto both = as_pattern_of_pigment(pattern, {first, second})) {
     note_modifiers(pattern, place);
-    if (const auto both = colored_by_grey(*pattern.pigment, {first, second})) {
-      const SpectrumParameter amount =
-          color_texture(*both, to_world * pattern.pigment->to_object, Part::grey, 1, false);
-      if (const auto* id = std::get_if<Id<vitrail::Texture>>(&amount)) return *id;
-      return static_cast<float>(grey_of(mean_color(*both)));
-    }
+    const SpectrumParameter amount = color_texture(*both, to_world * both->to_object, Part::grey, 1, false);
+    if (const auto* id = std::get_if<Id<vitrail::Texture>>(&amount)) return *id;
+    return static_cast<float>(grey_of(mean_color(*both)));
   }
   if (pattern.kind == Word::image_pattern_ && pattern.image && from == 0 && to == 1) {
     const SpectrumParameter amount =

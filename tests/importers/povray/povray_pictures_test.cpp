@@ -298,6 +298,21 @@ TEST_F(PovrayPictures, PatternsOfPigments) {
       0.03);
 }
 
+TEST_F(PovrayPictures, FormulasOfColors) {
+  const auto channel = [](const char* name, const char* color) {
+    return fmt::format("[function {{ pow(P(x,y,z).{}, 1.8) }} color_map {{ [0 rgb 0] [1 rgb {}] }}] ", name,
+                       color);
+  };
+  expect_alike(
+      linear + lamps +
+          "#declare P = function { pigment { onion color_map { [0 rgb <.9, .3, .1>] [.6 rgb <.2, .8, .4>]"
+          " [1 rgb .1] } scale .8 rotate x*30 } }\n"
+          "plane { y, 0 pigment { average pigment_map { " +
+          channel("x", "<3, 0, 0>") + channel("y", "<0, 3, 0>") + channel("z", "<0, 0, 3>") +
+          "} scale 1.5 } finish { ambient .2 diffuse .7 } }\n",
+      0.02);
+}
+
 TEST_F(PovrayPictures, Quilts) {
   for (const char* normal : {"quilted 1 scale .5", "quilted .6 control0 0 control1 1 scale .7 rotate y*20",
                              "quilted 1.5 control0 .5 control1 .2 translate .3"})
