@@ -2,6 +2,7 @@
 // The C interface only.
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -29,11 +30,21 @@ void add_all(void* from, void* to, int* count, MPI_Datatype*) {
   for (int i = 0; i < *count; ++i) static_cast<T*>(to)[i] += static_cast<const T*>(from)[i];
 }
 
+// Each rank that one speaks with over TCP is a socket; the usual limit, 1024 files, is for programs of
+// select().
+void allow_many_sockets() {
+  rlimit files{};
+  if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+  files.rlim_cur = files.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &files);
+}
+
 class MpiTransport final : public Transport {
  public:
   MpiTransport(int* argc, char*** argv) {
     // On machines with more ranks than cores a rank that spins takes the core from one that works.
     ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+    allow_many_sockets();
     int provided = 0;
     MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
     if (provided < MPI_THREAD_FUNNELED)

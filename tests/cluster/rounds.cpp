@@ -3,6 +3,7 @@
 // it. Rank 0 prints, of all ranks, the most sockets that are open and the mean processor time of a round in
 // µs.
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <time.h>
 
 #include <algorithm>
@@ -68,8 +69,11 @@ int run(Transport& transport, std::int64_t rounds) {
   transport.max_to_root(most);
   std::array<double, 1> sum{us};
   transport.sum_to_root(sum);
+  rlimit files{};
+  ::getrlimit(RLIMIT_NOFILE, &files);
   if (rank == 0)
-    fmt::print("{{\"ranks\": {}, \"sockets\": {}, \"us\": {:.1f}}}\n", ranks, most[0], sum[0] / ranks);
+    fmt::print("{{\"ranks\": {}, \"sockets\": {}, \"us\": {:.1f}, \"files\": {}}}\n", ranks, most[0],
+               sum[0] / ranks, files.rlim_cur);
   transport.leave();
   return 0;
 }
