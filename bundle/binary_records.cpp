@@ -72,16 +72,16 @@ void lights(Reader& io, Manifest& m) {
 
 }  // namespace records
 
-std::vector<std::byte> encode_materials(const Manifest& manifest) {
-  records::Writer io;
+void encode_materials(const Manifest& manifest, const ByteSink& sink) {
+  records::Writer io{ByteWriter(sink)};
   records::materials(io, manifest);
-  return io.stream.take();
+  io.stream.flush();
 }
 
-std::vector<std::byte> encode_lights(const Manifest& manifest) {
-  records::Writer io;
+void encode_lights(const Manifest& manifest, const ByteSink& sink) {
+  records::Writer io{ByteWriter(sink)};
   records::lights(io, manifest);
-  return io.stream.take();
+  io.stream.flush();
 }
 
 void decode_materials(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest) {

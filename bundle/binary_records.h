@@ -8,12 +8,14 @@
 #include <filesystem>
 #include <vector>
 
+#include "bundle/byte_stream.h"
 #include "bundle/manifest.h"
 
 namespace vitrail {
 
-std::vector<std::byte> encode_materials(const Manifest& manifest);
-std::vector<std::byte> encode_lights(const Manifest& manifest);
+// The payload of either file.
+void encode_materials(const Manifest& manifest, const ByteSink& sink);
+void encode_lights(const Manifest& manifest, const ByteSink& sink);
 
 // The inverse: fill the manifest's records from the payload of `file`. Whatever cannot be decoded throws
 // Error.

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,16 +22,27 @@ static_assert(std::endian::native == std::endian::little);
 template <class T>
 concept Number = std::integral<T> || std::floating_point<T>;
 
+// Where bytes go, one part after the other.
+using ByteSink = std::function<void(std::span<const std::byte>)>;
+
+// Holds a part of them at a time. What is left goes to the sink by `flush`.
 class ByteWriter {
  public:
+  explicit ByteWriter(const ByteSink& sink) : sink_(sink) { bytes_.reserve(part_bytes); }
   template <Number T>
   void put(T value) {
     const auto* first = reinterpret_cast<const std::byte*>(&value);
     bytes_.insert(bytes_.end(), first, first + sizeof value);
+    if (bytes_.size() > part_bytes - sizeof(std::uint64_t)) flush();
   }
-  std::vector<std::byte> take() { return std::move(bytes_); }
+  void flush() {
+    sink_(bytes_);
+    bytes_.clear();
+  }
 
  private:
+  static constexpr std::size_t part_bytes = 64 << 10;
+  const ByteSink& sink_;
   std::vector<std::byte> bytes_;
 };
 

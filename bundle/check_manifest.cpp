@@ -360,8 +360,9 @@ std::uint64_t hash_of_records(const Manifest& manifest) {
   std::string text = camera_to_json(manifest.camera).dump() + film_to_json(manifest.film).dump();
   if (manifest.requirements.motion) text += motions_to_json(manifest).dump();
   Hasher hasher;
-  hasher.add(encode_materials(manifest));
-  hasher.add(encode_lights(manifest));
+  const ByteSink add = [&](std::span<const std::byte> bytes) { hasher.add(bytes); };
+  encode_materials(manifest, add);
+  encode_lights(manifest, add);
   hasher.add(std::as_bytes(std::span(text)));
   for (const TextureFileEntry& t : manifest.texture_files) hasher.add(std::as_bytes(std::span(&t.hash, 1)));
   return hasher.digest();

@@ -40,10 +40,22 @@ static_assert(sizeof(RecordsHeader) == 32);
 constexpr std::array<char, 8> materials_magic{'V', 'I', 'T', 'R', 'M', 'A', 'T', '\n'};
 constexpr std::array<char, 8> lights_magic{'V', 'I', 'T', 'R', 'L', 'I', 'T', '\n'};
 
-void write_records(const std::filesystem::path& file, std::array<char, 8> magic,
-                   std::span<const std::byte> payload) {
-  const RecordsHeader header{magic, 1, 0, payload.size(), checksum(payload)};
-  write_file(file, std::array{std::as_bytes(std::span(&header, 1)), payload});
+// Goes through the records twice: the header, which comes first, has their size and checksum. Gives the
+// latter.
+template <class Encode>
+std::uint64_t write_records(const std::filesystem::path& file, std::array<char, 8> magic, Encode encode) {
+  RecordsHeader header{magic};
+  Hasher hasher;
+  encode([&](std::span<const std::byte> bytes) {
+    hasher.add(bytes);
+    header.payload_bytes += bytes.size();
+  });
+  header.payload_checksum = hasher.digest();
+  write_file(file, [&](const ByteSink& write) {
+    write(std::as_bytes(std::span(&header, 1)));
+    encode(write);
+  });
+  return header.payload_checksum;
 }
 
 // `expected` is the checksum that the manifest has for this file; empty: unknown.
@@ -211,16 +223,18 @@ std::uint64_t checksum_of_records(const std::filesystem::path& file) {
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest) {
   const std::filesystem::path file = bundle / "manifest.json";
   check_manifest(manifest, file);
-  const std::vector<std::byte> materials = encode_materials(manifest), lights = encode_lights(manifest);
-  write_records(bundle / "materials.bin", materials_magic, materials);
-  write_records(bundle / "lights.bin", lights_magic, lights);
+  const std::uint64_t materials =
+      write_records(bundle / "materials.bin", materials_magic,
+                    [&](const ByteSink& sink) { encode_materials(manifest, sink); });
+  const std::uint64_t lights = write_records(bundle / "lights.bin", lights_magic,
+                                             [&](const ByteSink& sink) { encode_lights(manifest, sink); });
 
   const Features features = features_of(manifest);
   Json json{{"format", "vitrail bundle"}, {"version", manifest_version}};
   json["features"] = {{"required", required_names(features.required)},
                       {"optional", optional_names(features.optional)}};
-  json["materials_checksum"] = fmt::format("{:016x}", checksum(materials));
-  json["lights_checksum"] = fmt::format("{:016x}", checksum(lights));
+  json["materials_checksum"] = fmt::format("{:016x}", materials);
+  json["lights_checksum"] = fmt::format("{:016x}", lights);
   json.update(manifest_to_json(manifest));
   if (Json names = names_to_json(manifest); !names.empty()) json["names"] = std::move(names);
   write_checked_json(file, json);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -27,12 +28,20 @@ bool write_all(int descriptor, std::span<const std::byte> bytes) {
 }  // namespace
 
 void write_file(const std::filesystem::path& file, std::span<const std::span<const std::byte>> parts) {
+  write_file(file, [&](const ByteSink& write) { std::ranges::for_each(parts, write); });
+}
+
+void write_file(const std::filesystem::path& file, const std::function<void(const ByteSink&)>& content) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor < 0)
     throw MachineError(fmt::format("cannot create {}: {}", file.string(), std::strerror(errno)));
   bool written = true;
-  for (std::size_t i = 0; i < parts.size() && written; ++i) written = write_all(descriptor, parts[i]);
-  int reason = errno;
+  int reason = 0;
+  content([&](std::span<const std::byte> bytes) {
+    if (!written || write_all(descriptor, bytes)) return;
+    written = false;
+    reason = errno;
+  });
   if (::close(descriptor) != 0 && written) {
     written = false;
     reason = errno;

@@ -20,6 +20,7 @@
 #include "partitioner/memory_plan.h"
 #include "partitioner/object_budget.h"
 #include "partitioner/placing/flatten.h"
+#include "partitioner/placing/place_scene.h"
 #include "partitioner/spilling/spill_instances.h"
 #include "partitioner/spilling/spill_scene.h"
 #include "partitioner/writing/bundle_directory.h"
@@ -156,13 +157,14 @@ class Partitioner {
   // Objects, and how the rest is to be divided.
   void begin() {
     const PartitionOptions& options = options_;
-    MemoryNeeds needs{.budget_bytes = options.memory_bytes,
-                      .triangles = world_.own_triangles,
-                      .scene_bytes = ledger_of(scene_).all(),
-                      .domains = options.domains,
-                      .domain_bytes = options.domain_bytes,
-                      .image_library = image_library_is_loaded(),
-                      .threads = tbb::this_task_arena::max_concurrency()};
+    MemoryNeeds needs{
+        .budget_bytes = options.memory_bytes,
+        .triangles = world_.own_triangles,
+        .scene_bytes = ledger_of(scene_).all() + emissive_triangles_of(world_) * sizeof(EmissiveTriangle),
+        .domains = options.domains,
+        .domain_bytes = options.domain_bytes,
+        .image_library = image_library_is_loaded(),
+        .threads = tbb::this_task_arena::max_concurrency()};
     for (const TriangleMesh& mesh : scene_.meshes)
       if (mesh.deferred) needs.largest_mesh = std::max(needs.largest_mesh, mesh.deferred->bytes);
     const std::uint64_t in_objects = triangles_of_objects(world_);

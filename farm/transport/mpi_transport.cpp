@@ -2,14 +2,15 @@
 // The C interface only.
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
+#include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <list>
 #include <thread>
 
+#include "farm/transport/round_tree.h"
 #include "farm/transport/transport.h"
 #include "scene/system/diagnostics.h"
 
@@ -23,11 +24,19 @@ template <class T>
 constexpr std::size_t collective_part = collective_bytes / sizeof(T);
 
 constexpr int tag_of_rays = 0, tag_of_words = 1;
-constexpr int report_values = sizeof(RankReport) / sizeof(std::int64_t);
 
 template <class T>
 void add_all(void* from, void* to, int* count, MPI_Datatype*) {
   for (int i = 0; i < *count; ++i) static_cast<T*>(to)[i] += static_cast<const T*>(from)[i];
+}
+
+// Each rank that one speaks with over TCP is a socket; the usual limit, 1024 files, is for programs of
+// select().
+void allow_many_sockets() {
+  rlimit files{};
+  if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+  files.rlim_cur = files.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &files);
 }
 
 class MpiTransport final : public Transport {
@@ -35,13 +44,14 @@ class MpiTransport final : public Transport {
   MpiTransport(int* argc, char*** argv) {
     // On machines with more ranks than cores a rank that spins takes the core from one that works.
     ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+    allow_many_sockets();
     int provided = 0;
     MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
     if (provided < MPI_THREAD_FUNNELED)
       throw MachineError("this MPI does not allow threads beside the one that calls it");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
-    reports_.resize(static_cast<std::size_t>(size_));
+    round_.emplace(rank_, size_);
     MPI_Type_contiguous(2, MPI_UINT64_T, &wide_sum_);
     MPI_Type_commit(&wide_sum_);
     MPI_Op_create(add_all<WideSum>, /*commute=*/1, &add_wide_sums_);
@@ -93,21 +103,9 @@ class MpiTransport final : public Transport {
     return std::nullopt;
   }
 
-  void start_round(const RoundSums& mine, const RankReport& report) override {
-    mine_ = mine;
-    report_ = report;
-    MPI_Iallreduce(&mine_, &sums_, static_cast<int>(round_values), MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD,
-                   &round_[0]);
-    MPI_Iallgather(&report_, report_values, MPI_INT64_T, reports_.data(), report_values, MPI_INT64_T,
-                   MPI_COMM_WORLD, &round_[1]);
-  }
+  void start_round(const RoundSums& mine, const RankReport& report) override { round_->start(mine, report); }
 
-  std::optional<Round> finish_round() override {
-    int done = 0;
-    MPI_Testall(static_cast<int>(round_.size()), round_.data(), &done, MPI_STATUSES_IGNORE);
-    if (!done) return std::nullopt;
-    return Round{sums_, reports_};
-  }
+  std::optional<Round> finish_round() override { return round_->finish(); }
 
   void say(int to, Word word) override {
     static constexpr Word words[] = {Word::are_you_there, Word::here, Word::failed};
@@ -233,10 +231,7 @@ class MpiTransport final : public Transport {
   std::list<Receiving> receiving_;  // as they came
   Word word_{};                     // the next that is heard
   MPI_Request hearing_ = MPI_REQUEST_NULL;
-  RoundSums mine_, sums_;
-  RankReport report_;
-  std::vector<RankReport> reports_;
-  std::array<MPI_Request, 2> round_{MPI_REQUEST_NULL, MPI_REQUEST_NULL};
+  std::optional<RoundTree> round_;
   MPI_Datatype wide_sum_ = MPI_DATATYPE_NULL, matte_pixel_ = MPI_DATATYPE_NULL;
   MPI_Op add_wide_sums_ = MPI_OP_NULL, add_matte_pixels_ = MPI_OP_NULL;
 };

@@ -97,7 +97,8 @@ void InputBytes::release_before(const char* position) {
 }
 
 void InputBytes::release(const char*& begin, const char* end) const {
-  constexpr std::size_t step = std::size_t{4} << 20;  // a multiple of every page size
+  // A multiple of every page size. Less than the guard of memory keeps in reserve, which sees no mapped page.
+  constexpr std::size_t step = std::size_t{1} << 19;
   const std::size_t from = (static_cast<std::size_t>(begin - begin_) + step - 1) / step * step;
   const std::size_t to = static_cast<std::size_t>(end - begin_) / step * step;
   if (to <= from) return;

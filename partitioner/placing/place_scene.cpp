@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <span>
+#include <utility>
 
 #include "bundle/binary_records.h"
 #include "bundle/checksum.h"
@@ -47,40 +47,55 @@ std::size_t blocks_of(const Placement& p) {
   return (triangles_of(*p.mesh) + block_triangles - 1) / block_triangles;
 }
 
-// Triangles without area emit nothing and are left out.
+// The id of a place that nothing emits from.
+constexpr std::uint32_t absent = 0xffffffffu;
+
+// To the places from `first` on. Triangles without area emit nothing: their places stay empty.
 void take_emissive(const PlacedTriangles& placed, std::uint64_t at, std::size_t count, std::uint64_t first_id,
-                   std::uint32_t area_light, bool attributes, const FloatParameter* opacity, Emissive& out) {
+                   std::uint32_t area_light, const FloatParameter& opacity, Emissive& out,
+                   std::size_t first) {
+  const std::size_t slots = out.attributes.empty() ? 0 : placed.attributes.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Triangle& t = placed.triangles[at + i];
     const Vector3d normal =
         cross(cast<double>(t[1]) - cast<double>(t[0]), cast<double>(t[2]) - cast<double>(t[0]));
     if (!(length(normal) > 0)) continue;
-    EmissiveTriangle& e = out.triangles.emplace_back();
+    EmissiveTriangle& e = out.triangles[first + i];
     std::copy(t.begin(), t.end(), e.p);
     if (!placed.uvs.empty()) std::copy(placed.uvs[at + i].begin(), placed.uvs[at + i].end(), e.uv);
     e.triangle = static_cast<std::uint32_t>(first_id + i);
     e.area_light = area_light;
-    for (std::size_t slot = 0; attributes && slot < placed.attributes.size(); ++slot)
-      out.attributes.push_back(placed.attributes[slot][at + i]);
-    if (opacity) out.opacities.push_back(*opacity);
+    for (std::size_t slot = 0; slot < slots; ++slot)
+      out.attributes[(first + i) * slots + slot] = placed.attributes[slot][at + i];
+    if (!out.opacities.empty()) out.opacities[first + i] = opacity;
   }
 }
 
-void append(auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); }
-
-// By their ids.
-void sort(Emissive& emissive, std::size_t slots) {
-  std::vector<std::size_t> order(emissive.triangles.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t i) { return emissive.triangles[i].triangle; });
-  Emissive sorted{.quadrics = std::move(emissive.quadrics)};  // in their order already
-  for (const std::size_t i : order) {
-    sorted.triangles.push_back(emissive.triangles[i]);
-    for (std::size_t slot = 0; slot < slots && !emissive.attributes.empty(); ++slot)
-      sorted.attributes.push_back(emissive.attributes[i * slots + slot]);
-    if (!emissive.opacities.empty()) sorted.opacities.push_back(emissive.opacities[i]);
+// Without the empty places.
+void close_up(Emissive& all) {
+  const std::size_t slots = all.triangles.empty() ? 0 : all.attributes.size() / all.triangles.size();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < all.triangles.size(); ++i) {
+    if (all.triangles[i].triangle == absent) continue;
+    all.triangles[kept] = all.triangles[i];
+    for (std::size_t slot = 0; slot < slots; ++slot)
+      all.attributes[kept * slots + slot] = all.attributes[i * slots + slot];
+    if (!all.opacities.empty()) all.opacities[kept] = all.opacities[i];
+    ++kept;
   }
-  emissive = std::move(sorted);
+  all.triangles.resize(kept);
+  all.attributes.resize(kept * slots);
+  all.opacities.resize(all.opacities.empty() ? 0 : kept);
+}
+
+std::uint32_t surface_of(std::span<const Surface> surfaces, const Placement& p) {
+  const auto after = std::ranges::upper_bound(surfaces, p.first_triangle, {}, &Surface::first_triangle);
+  return static_cast<std::uint32_t>(after - surfaces.begin() - 1);
+}
+
+bool shines(const World& world, const Placement& p) {
+  const std::span<const Surface> surfaces = scene_surfaces(world.manifest);
+  return is_lamp(world.manifest.area_lights, surfaces[surface_of(surfaces, p)]);
 }
 
 }  // namespace
@@ -111,6 +126,15 @@ void place_scene(const World& world, std::uint64_t load_bytes,
   }
 }
 
+std::uint64_t emissive_triangles_of(const World& world) {
+  std::uint64_t triangles = 0;
+  for (const Placement& p : world.placements)
+    if (shines(world, p)) triangles += triangles_of(*p.mesh);
+  for (const ShiningPlacement& shining : world.shining)
+    if (!shining.placement.mesh->quadric) triangles += triangles_of(*shining.placement.mesh);
+  return triangles;
+}
+
 SceneTally::SceneTally(const World& world) : world_(world) {
   std::size_t blocks = 0;
   const std::span<const Surface> surfaces = scene_surfaces(world.manifest);
@@ -121,8 +145,7 @@ SceneTally::SceneTally(const World& world) : world_(world) {
   for (const Placement& p : world.placements) {
     first_block_.push_back(blocks);
     blocks += blocks_of(p);
-    const auto after = std::ranges::upper_bound(surfaces, p.first_triangle, {}, &Surface::first_triangle);
-    surfaces_.push_back(static_cast<std::uint32_t>(after - surfaces.begin() - 1));
+    surfaces_.push_back(surface_of(surfaces, p));
     const Surface& surface = surfaces[surfaces_.back()];
     if (is_lamp(world.manifest.area_lights, surface)) note_opacity(surface.opacity);
   }
@@ -132,6 +155,31 @@ SceneTally::SceneTally(const World& world) : world_(world) {
   const Manifest& m = world.manifest;
   for (const AreaLight& light : m.area_lights)
     emissive_attributes_ = emissive_attributes_ || reads_attribute(m.textures, light.radiance);
+  make_room_for_emissive();
+}
+
+void SceneTally::make_room_for_emissive() {
+  struct Part {
+    std::uint64_t first_id, count;
+    std::size_t* place;
+  };
+  std::vector<Part> parts;
+  first_emissive_.resize(world_.placements.size());
+  first_shining_.resize(world_.shining.size());
+  for (std::size_t i = 0; i < world_.placements.size(); ++i)
+    if (const Placement& p = world_.placements[i]; shines(world_, p))
+      parts.push_back({p.first_triangle, triangles_of(*p.mesh), &first_emissive_[i]});
+  for (std::size_t i = 0; i < world_.shining.size(); ++i)
+    if (const Placement& p = world_.shining[i].placement; !p.mesh->quadric)
+      parts.push_back({p.first_triangle, triangles_of(*p.mesh), &first_shining_[i]});
+  std::ranges::sort(parts, {}, &Part::first_id);
+  std::size_t places = 0;
+  for (const Part& part : parts) *part.place = std::exchange(places, places + part.count);
+  EmissiveTriangle empty;
+  empty.triangle = absent;
+  emissive_.triangles.resize(places, empty);
+  if (emissive_attributes_) emissive_.attributes.resize(places * world_.manifest.attributes);
+  if (emissive_opacities_) emissive_.opacities.resize(places, 1.0f);
 }
 
 void SceneTally::add(const Block& block, const PlacedTriangles& placed, std::uint64_t at) {
@@ -149,20 +197,17 @@ void SceneTally::add(const Block& block, const PlacedTriangles& placed, std::uin
   if (!block.placement.standing)
     for (const Triangle& t : std::span(placed.triangles).subspan(at, count))
       for (const Point3f& v : t) extend(bounds, v);
-  Emissive emissive;
   if (const Surface& surface = world_.manifest.surfaces[surfaces_[placement]];
       is_lamp(world_.manifest.area_lights, surface))
     take_emissive(placed, at, count, block.placement.first_triangle + block.begin,
-                  static_cast<std::uint32_t>(surface.area_light), emissive_attributes_,
-                  emissive_opacities_ ? &surface.opacity : nullptr, emissive);
+                  static_cast<std::uint32_t>(surface.area_light), surface.opacity, emissive_,
+                  first_emissive_[placement] + block.begin);
+  if (bounds.empty()) return;
   const std::lock_guard lock(mutex_);
-  if (!bounds.empty()) extend(bounds_, bounds);
-  append(emissive_.triangles, emissive.triangles);
-  append(emissive_.attributes, emissive.attributes);
-  append(emissive_.opacities, emissive.opacities);
+  extend(bounds_, bounds);
 }
 
-void SceneTally::add_shining(const ShiningPlacement& shining) {
+void SceneTally::add_shining(const ShiningPlacement& shining, std::size_t first_emissive) {
   TriangleMesh storage;
   const Placement& p = shining.placement;
   if (p.mesh->quadric) {
@@ -179,13 +224,13 @@ void SceneTally::add_shining(const ShiningPlacement& shining) {
   const std::size_t count = mesh.triangles.size();
   PlacedTriangles placed = make_room(rule, count);
   MeshPlacer(p, mesh, rule, fitter).place(0, count, placed, 0);
-  take_emissive(placed, 0, count, p.first_triangle, shining.area_light, emissive_attributes_,
-                emissive_opacities_ ? &shining.opacity : nullptr, emissive_);
+  take_emissive(placed, 0, count, p.first_triangle, shining.area_light, shining.opacity, emissive_,
+                first_emissive);
 }
 
 // Instances, kept or copied, count as their boxes: the same bounds either way.
 void SceneTally::finish(Manifest& m) {
-  for (const ShiningPlacement& shining : world_.shining) add_shining(shining);
+  for (std::size_t i = 0; i < world_.shining.size(); ++i) add_shining(world_.shining[i], first_shining_[i]);
   m.bounds = bounds_;
   if (!world_.instance_bounds.empty()) extend(m.bounds, world_.instance_bounds);
   for (int axis = 0; axis < 3 && m.triangles > 0; ++axis)
@@ -193,7 +238,7 @@ void SceneTally::finish(Manifest& m) {
   if (m.scale > greatest_scale)
     throw Error(
         fmt::format("the scene reaches {:g} from its centre; the most is {:g}", m.scale, greatest_scale));
-  sort(emissive_, m.attributes);
+  close_up(emissive_);
   m.emissive_triangles = std::move(emissive_.triangles);
   m.emissive_attributes = std::move(emissive_.attributes);
   m.emissive_opacities = std::move(emissive_.opacities);

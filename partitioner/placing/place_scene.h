@@ -25,6 +25,9 @@ inline constexpr std::size_t block_triangles = 8192;  // that begin at multiples
 void place_scene(const World& world, std::uint64_t load_bytes,
                  const std::function<void(const Block&)>& visit);
 
+// Those that may emit, of no instance or of one.
+std::uint64_t emissive_triangles_of(const World& world);
+
 // Triangles that emit, and what else a manifest has of them.
 struct Emissive {
   std::vector<EmissiveQuadric> quadrics;
@@ -46,7 +49,8 @@ class SceneTally {
   const std::vector<std::uint64_t>& block_hashes() const { return hashes_; }
 
  private:
-  void add_shining(const ShiningPlacement& shining);
+  void make_room_for_emissive();
+  void add_shining(const ShiningPlacement& shining, std::size_t first_emissive);
 
   const World& world_;
   std::vector<std::size_t> first_block_;  // of each placement
@@ -54,7 +58,10 @@ class SceneTally {
   std::vector<std::uint32_t> surfaces_;   // of each placement
   std::mutex mutex_;
   Bounds3f bounds_;
+  // A place for each triangle that may emit, by their ids; of each placement, and of each of those that shine
+  // in objects, the first one.
   Emissive emissive_;
+  std::vector<std::size_t> first_emissive_, first_shining_;
   bool emissive_attributes_ = false, emissive_opacities_ = false;  // whether there are any
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <utility>
 
 #include "scene/system/resource_usage.h"
 
@@ -57,16 +58,20 @@ void require(std::uint64_t bytes) {
   throw MemoryRefused();
 }
 
+void promise(std::uint64_t bytes) {
+  require(bytes);
+  promised_at = resident_bytes();
+  promised += bytes;
+  own_promise += bytes;
+}
+
 void take(std::uint64_t bytes) {
   taken += bytes;
   if (taken < portion) return;
   taken = 0;
   if (bytes < large) return require(0);
-  promised -= own_promise;
-  own_promise = 0;
-  require(bytes);
-  promised_at = resident_bytes();
-  promised += own_promise = bytes;
+  promised -= std::exchange(own_promise, 0);
+  promise(bytes);
 }
 
 bool is_guarding() { return guarding.load(std::memory_order_relaxed); }
@@ -83,14 +88,14 @@ void* block_of(std::size_t bytes, std::size_t alignment) {
 }  // namespace
 
 void guard_memory(std::uint64_t budget_bytes) {
-  // For what threads take between two looks, and for an orderly end.
-  const std::uint64_t reserve = std::clamp<std::uint64_t>(budget_bytes / 64, 2 << 20, 16 << 20);
+  // For what threads take between two looks, a huge page of it, and for an orderly end.
+  const std::uint64_t reserve = std::clamp<std::uint64_t>(budget_bytes / 64, 3 << 20, 16 << 20);
   limit = budget_bytes - std::min(reserve, budget_bytes);
   guarding = true;
 }
 
 void ask_memory(std::uint64_t bytes) {
-  if (is_guarding()) require(bytes);
+  if (is_guarding()) promise(bytes);
 }
 
 bool memory_allows(std::uint64_t bytes) { return !is_guarding() || allows(bytes); }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Preloaded: on one rank one call stands still. VITRAIL_STANDSTILL is "RANK CALL NUMBER HOW FILE": the NUMBERth
-// call of CALL (open, pread, mmap, fsync or an MPI function below; of the former those of files with FILE in
-// their name) HOW: "stop" stops the process as SIGSTOP does, a number sleeps so many seconds before each call
-// from there on. MPI_Iallreduce_after_MPI_Ireduce is that alone: where a film that was put together is written.
-// When it begins it makes the file VITRAIL_STANDSTILL_MARK.
+// Preloaded: on one rank one call stands still. VITRAIL_STANDSTILL is "RANK CALL NUMBER HOW FILE": the
+// NUMBERth call of CALL (open, pread, mmap, fsync or an MPI function below; of the former those of files with
+// FILE in their name) HOW: "stop" stops the process as SIGSTOP does, a number sleeps so many seconds before
+// each call from there on. `round` is where a rank joins one; round_after_MPI_Ireduce is that alone: where a
+// film that was put together is written. When it begins it makes the file VITRAIL_STANDSTILL_MARK.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -28,9 +28,11 @@ static atomic_int calls, after_reduce;
 
 __attribute__((constructor)) static void read_environment(void) {
   const char* text = getenv("VITRAIL_STANDSTILL");
-  if (text) sscanf(text, "%d %63s %d %63s %255s", &wanted.rank, wanted.call, &wanted.number, wanted.how, wanted.file);
+  if (text)
+    sscanf(text, "%d %63s %d %63s %255s", &wanted.rank, wanted.call, &wanted.number, wanted.how, wanted.file);
   const char* rank = getenv("OMPI_COMM_WORLD_RANK");
-  if (atoi(rank ? rank : "0") != wanted.rank || !strstr(program_invocation_short_name, "render")) wanted.rank = -1;
+  if (atoi(rank ? rank : "0") != wanted.rank || !strstr(program_invocation_short_name, "render"))
+    wanted.rank = -1;
 }
 
 static void sleep_for(double seconds) {
@@ -43,7 +45,8 @@ static void stand_still(const char* call) {
   if (wanted.rank < 0 || strcmp(call, wanted.call) != 0) return;
   const int number = ++calls;
   const char* mark = getenv("VITRAIL_STANDSTILL_MARK");
-  if (number == wanted.number && mark) close((int)syscall(SYS_openat, AT_FDCWD, mark, O_CREAT | O_WRONLY, 0644));
+  if (number == wanted.number && mark)
+    close((int)syscall(SYS_openat, AT_FDCWD, mark, O_CREAT | O_WRONLY, 0644));
   if (strcmp(wanted.how, "stop") != 0) {
     if (number >= wanted.number) sleep_for(atof(wanted.how));
   } else if (number == wanted.number) {
@@ -119,16 +122,21 @@ int MPI_Ibcast(void* buffer, int count, MPI_Datatype type, int root, MPI_Comm of
   return PMPI_Ibcast(buffer, count, type, root, of, request);
 }
 
-// The rounds, and what all agree on.
-int MPI_Iallreduce(const void* from, void* to, int count, MPI_Datatype type, MPI_Op op, MPI_Comm of,
-                   MPI_Request* request) {
-  stand_still("MPI_Iallreduce");
-  if (after_reduce) stand_still("MPI_Iallreduce_after_MPI_Ireduce");
-  after_reduce = 0;
-  return PMPI_Iallreduce(from, to, count, type, op, of, request);
+// The rounds, and what all agree on: each begins with this, of the parent, or of rank 0's first child.
+enum { tag_of_rounds = 2 };
+int MPI_Irecv(void* to, int count, MPI_Datatype type, int from, int tag, MPI_Comm of, MPI_Request* request) {
+  int own = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &own);
+  if (tag == tag_of_rounds && (from < own || (own == 0 && from == 1))) {
+    stand_still("round");
+    if (after_reduce) stand_still("round_after_MPI_Ireduce");
+    after_reduce = 0;
+  }
+  return PMPI_Irecv(to, count, type, from, tag, of, request);
 }
 
-int MPI_Isend(const void* from, int count, MPI_Datatype type, int to, int tag, MPI_Comm of, MPI_Request* request) {
-  stand_still("MPI_Isend");
+int MPI_Isend(const void* from, int count, MPI_Datatype type, int to, int tag, MPI_Comm of,
+              MPI_Request* request) {
+  if (tag != tag_of_rounds) stand_still("MPI_Isend");
   return PMPI_Isend(from, count, type, to, tag, of, request);
 }

@@ -22,11 +22,11 @@ TRANSPORTS = {"TCP": ["--mca", "btl", "tcp,self", "--mca", "pml", "ob1"], "share
 # Step of the job: the calls that ranks make there, by their numbers.
 STEPS = {
     "start": [("MPI_Init_thread", 1), ("MPI_Ireduce", 1), ("MPI_Ibcast", 1)],
-    "set-up": [("MPI_Iallreduce", 1), ("MPI_Iallreduce", 4), ("MPI_Ibcast", 5)],
-    "flow": [("MPI_Iallreduce", 12), ("MPI_Isend", 2), ("MPI_Isend", 9)],
+    "set-up": [("round", 1), ("round", 4), ("MPI_Ibcast", 5)],
+    "flow": [("round", 12), ("MPI_Isend", 2), ("MPI_Isend", 9)],
     "checkpoint": [("MPI_Ireduce", 3), ("MPI_Ireduce", 4)],
     "gather": [("MPI_Ireduce", 5), ("MPI_Ireduce", 6)],
-    "write": [("MPI_Iallreduce_after_MPI_Ireduce", 1), ("MPI_Iallreduce_after_MPI_Ireduce", 2)],
+    "write": [("round_after_MPI_Ireduce", 1), ("round_after_MPI_Ireduce", 2)],
     "finalise": [("MPI_Ibarrier", 1), ("MPI_Finalize", 1)],
 }
 programs, source, preload = (pathlib.Path(p).resolve() for p in sys.argv[1:4])

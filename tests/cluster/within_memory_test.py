@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """within_memory_test.py PROGRAMS SOURCE: each integrator and each writer in a memory cgroup of exactly --memory, on one rank and on
 two, with the least --memory that is not refused. Nothing is killed, no rank takes more by its own VmHWM, and the film is that of
-all memory. Groups of version 1 or 2, as root; status 77 where there are none."""
+all memory. `partition` too, also where it refuses: many lamps, many triangles. Groups of version 1 or 2, as root; status 77 where
+there are none."""
 import json
+import math
 import os
 import pathlib
 import re
@@ -106,6 +108,45 @@ def measure(folder, ranks, name, options):
     return f"{little['peak_rss_bytes']} bytes of {budget}" if little["peak_rss_bytes"] > budget else None
 
 
+def write_sheet(file, triangles, lit):
+    """A wavy sheet of so many triangles, which shine or not, written into a scene: by a process of its own, for the greatest size of
+    this one would count for those that it starts."""
+    pid = os.fork()
+    if pid > 0:
+        assert os.waitpid(pid, 0)[1] == 0
+        return
+    side = int((triangles / 2) ** .5)
+    points = [(x / side, y / side, .05 * math.sin(.3 * x) * math.cos(.2 * y)) for y in range(side + 1) for x in range(side + 1)]
+    corners = [(y * (side + 1) + x, y * (side + 1) + x + 1, (y + 1) * (side + 1) + x) for y in range(side) for x in range(side)]
+    corners += [(b, c + 1, c) for _, b, c in corners]
+    text = " ".join(f"{v:.6g}" for p in points for v in p), " ".join(str(i) for t in corners for i in t)
+    light = 'AreaLightSource "diffuse"' if lit else 'LightSource "infinite"'
+    file.write_text(f'Camera "perspective"\nFilm "rgb"\nWorldBegin\n{light}\n'
+                    f'Shape "trianglemesh" "point3 P" [{text[0]}] "integer indices" [{text[1]}]\n')
+    os._exit(0)
+
+
+def partition(folder, scene, budget, options=()):
+    """Of one run in a group of exactly that: the status, and the bytes that were resident at most."""
+    words = [programs / "vitrail-partition", scene, "-o", "out.vit", "--force", "--quiet", "--no-cache", "--memory", budget, *options]
+    with Limited(1, budget) as within:
+        process = subprocess.Popen(within + [str(w) for w in words], cwd=folder, stderr=subprocess.PIPE, text=True)
+        said = process.stderr.read()
+        _, status, usage = os.wait4(process.pid, 0)
+    return os.waitstatus_to_exitcode(status), usage.ru_maxrss * 1024, said.strip()
+
+
+def measure_partition(folder, scene, budgets, fits, options=()):
+    """Never more than the budget, whether it is kept or refused; `fits` is kept."""
+    wrong = []
+    for budget in budgets:
+        status, peak, said = partition(folder, scene, budget * MIB, options)
+        print(f"partition {scene}: {peak / MIB:.1f} MiB of {budget}, status {status}", flush=True)
+        if status not in (0, 4) or peak > budget * MIB or (status != 0 and budget >= fits):
+            wrong.append(f"partition {scene} in {budget}M: status {status}, {peak / MIB:.1f} MiB: {said[:300]}")
+    return wrong
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder, wrong = pathlib.Path(name), []
@@ -114,6 +155,12 @@ def main():
         scene = next((folder / "city").glob("*.pbrt"))
         subprocess.run([programs / "vitrail", "partition", scene, "-o", folder / "city.vit", "--domains", "64", "--aov", "crypto_object",
                         "--quiet"], check=True)
+        budgets = [16, 20, 24, 32, 40, 48, 64, 80, 100, 128, 160, 200, 256, 320]
+        wrong += measure_partition(folder, scene, budgets[:8], 48, ["--domains", 64])
+        for lit, fits in ((False, 128), (True, 200)):
+            sheet = folder / ("lit.pbrt" if lit else "unlit.pbrt")
+            write_sheet(sheet, 1.2e6, lit)
+            wrong += measure_partition(folder, sheet.name, budgets, fits)
         for ranks in (1, 2):
             for what, options in [*INTEGRATORS.items(), *WRITERS.items()]:
                 fault = measure(folder, ranks, what, options)

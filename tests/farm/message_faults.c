@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Preloaded: a network that gives messages in two parts. The head comes as it does; the rest, and the end of a
-// round or of a send, some time later, so that later ones come first; one message's rest never comes.
+// Preloaded: a network that gives messages in two parts. The head comes as it does; the rest, and the end of
+// a round or of a send, some time later, so that later ones come first; one message's rest never comes.
 // VITRAIL_MESSAGE_FAULTS is "SEED MOST_MILLISECONDS RANK NUMBER": the NUMBERth message that RANK receives is
 // that one. Who waits inside MPI for the rest waits as long as it takes.
 #include <mpi.h>
@@ -14,7 +14,6 @@ static struct {
   double until_s;
 } held[most_held];
 static int held_count, messages;
-static double round_until_s;
 
 static struct {
   unsigned seed;
@@ -72,8 +71,16 @@ int MPI_Mrecv(void* to, int count, MPI_Datatype type, MPI_Message* message, MPI_
   return PMPI_Mrecv(to, count, type, message, status);
 }
 
-// Not of words, of a byte: who sends them lets the request go at once.
-int MPI_Isend(const void* from, int count, MPI_Datatype type, int to, int tag, MPI_Comm of, MPI_Request* request) {
+// Of rounds; not of words, of a byte, which are heard again and again.
+int MPI_Irecv(void* to, int count, MPI_Datatype type, int from, int tag, MPI_Comm of, MPI_Request* request) {
+  const int result = PMPI_Irecv(to, count, type, from, tag, of, request);
+  if (count > 1) hold(*request, later_s());
+  return result;
+}
+
+// Not of words either: who sends them lets the request go at once.
+int MPI_Isend(const void* from, int count, MPI_Datatype type, int to, int tag, MPI_Comm of,
+              MPI_Request* request) {
   const int result = PMPI_Isend(from, count, type, to, tag, of, request);
   if (count > 1) hold(*request, later_s());
   return result;
@@ -82,13 +89,4 @@ int MPI_Isend(const void* from, int count, MPI_Datatype type, int to, int tag, M
 int MPI_Test(MPI_Request* request, int* done, MPI_Status* status) {
   *done = 0;
   return is_held(*request) ? MPI_SUCCESS : PMPI_Test(request, done, status);
-}
-
-int MPI_Testall(int count, MPI_Request* requests, int* done, MPI_Status* statuses) {
-  *done = 0;
-  if (round_until_s == 0) round_until_s = later_s();
-  if (now_s() < round_until_s) return MPI_SUCCESS;
-  const int result = PMPI_Testall(count, requests, done, statuses);
-  if (*done) round_until_s = 0;
-  return result;
 }

@@ -107,6 +107,9 @@ class LightTreeBuilder {
   LightTreeBuilder(LightTree& tree, std::span<const LightBounds> lights) : tree_(tree), lights_(lights) {}
 
   void build() {
+    order_.reserve(lights_.size());
+    cap_.reserve(lights_.size());
+    tree_.nodes_.reserve(lights_.size() / 4 + 1);  // room that is not used takes no memory
     for (std::uint32_t i = 0; i < lights_.size(); ++i) {
       if (lights_[i].power > 0 && std::isfinite(lights_[i].power)) order_.push_back(i);
       cap_.push_back((1 + (lights_[i].theta_o_rad > 0 ? portable_cos(lights_[i].theta_o_rad) : 1)) / 2);
@@ -235,6 +238,7 @@ class LightTreeBuilder {
 
   void list_slots() {
     double sum = 0;
+    tree_.sums_.reserve(order_.size() + 1);
     for (std::uint32_t slot = 0; slot < order_.size(); ++slot) {
       tree_.slot_[order_[slot]] = slot;
       tree_.sums_.push_back(sum / tree_.power_);

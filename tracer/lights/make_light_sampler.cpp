@@ -122,13 +122,14 @@ void find_variety(std::span<const LightBounds> lights, LightSampler& s) {
     return;
   }
   const bool local = s.share[LightNumbers::choice_of_tree] > 0;
-  s.one_is_enough = local ? s.slots.size() == 1 && s.emitters.size() == 1 : s.environments.empty();
+  const std::span<const std::uint32_t> chosen = s.tree.order();
+  s.one_is_enough = local ? chosen.size() == 1 && s.emitters.size() == 1 : s.environments.empty();
   const bool plain = std::ranges::all_of(s.scene.area_lights, [](const AreaLight& light) {
     return !light.sampled || std::holds_alternative<Spectrum>(light.radiance);
   });
-  if (!local || !s.emitters.empty() || s.slots.size() > 2 || !plain) return;
+  if (!local || !s.emitters.empty() || chosen.size() > 2 || !plain) return;
   Bounds3d box;
-  for (const LightSampler::Slot& slot : s.slots) extend(box, lights[s.numbers.number(slot.light)].box);
+  for (const std::uint32_t number : chosen) extend(box, lights[number].box);
   s.lamp_center = box.lower + (box.upper - box.lower) * 0.5;
   s.lamp_radius2 = dot(box.upper - s.lamp_center, box.upper - s.lamp_center);
 }
@@ -216,6 +217,7 @@ std::vector<double> shares_of(double flux, const Sorter& sorter) {
 }  // namespace
 
 LightSampler make_light_sampler(const LightScene& scene, const ImageSource& images, LightChoice choice) {
+  constexpr std::size_t few = 1 << 12;
   LightSampler s;
   s.scene = scene;
   const double diagonal = scene.bounds.empty() ? 1 : length(cast<double>(extent(scene.bounds)));
@@ -230,15 +232,17 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   if (choice == LightChoice::tree) weigh_for_tree(s.numbers, local);
   if (scene.triangles.size() == 2 && is_one_flat_lamp(local)) choice = LightChoice::power;
   s.tree = LightTree(local, choice);
+  s.share = shares_of(flux, sorter);
+  if (!s.share.empty()) {
+    s.three_numbers = s.share[LightNumbers::choice_of_tree] == 1 && local.size() <= few;
+    find_variety(local, s);
+  }
+  local = std::vector<LightBounds>();  // the slots take its room
+  s.slots.reserve(s.tree.order().size());
   for (const std::uint32_t number : s.tree.order()) s.slots.push_back(slot_of(s, s.numbers.light(number)));
   if (scene.triangles.size() <= LightSampler::most_faces)
     for (const EmissiveTriangle& t : scene.triangles) s.faces.emplace_back(t.p);
   s.runs = runs_of(scene);
-  s.share = shares_of(flux, sorter);
-  if (s.share.empty()) return s;
-  constexpr std::size_t few = 1 << 12;
-  s.three_numbers = s.share[LightNumbers::choice_of_tree] == 1 && local.size() <= few;
-  find_variety(local, s);
   return s;
 }
 

@@ -71,6 +71,7 @@ class Tally {
     for (std::size_t i = 0; i < sums_.size(); ++i)
       if (const auto* spectrum = std::get_if<Spectrum>(&scene.area_lights[i].radiance))
         sums_[i].luminance = luminance(*spectrum);
+    all_.bounds.reserve(scene.triangles.size() + scene.quadrics.size());
   }
 
   // `parts` calls a function for the regions of the surface.
@@ -91,12 +92,13 @@ class Tally {
     sum.radiance += sane(area * glow.mean * scale);
     sum.power += b.power;
     sum.most = std::max(sum.most, most);
-    surfaces_.push_back({area, most, area_light, varies});
+    last_varies_ = varies;
+    if (varies && most > 0) varying_.push_back({all_.bounds.size(), area, most, area_light});
     all_.bounds.push_back(b);
   }
   // Of the triangle that was added last.
   void part() {
-    const bool parted = surfaces_.back().varies && shines_.size() > 1;
+    const bool parted = last_varies_ && shines_.size() > 1;
     std::optional<TriangleParts> parts = parted ? TriangleParts::of(shines_) : std::nullopt;
     if (!parts && all_.parts.empty()) return;
     all_.parts_of.resize(all_.bounds.size(), LightSampler::whole);
@@ -108,9 +110,10 @@ class Tally {
   SurfaceLights finish() {
     for (const Sum& sum : sums_)
       all_.glows.push_back({sum.radiance > 0 ? sum.radiance / sum.area : sum.most, sum.most});
-    for (std::size_t i = 0; i < surfaces_.size(); ++i)
-      if (surfaces_[i].varies && surfaces_[i].most > 0)
-        all_.bounds[i].power = std::max(all_.bounds[i].power, least_power(surfaces_[i]));
+    for (const Varying& surface : varying_) {
+      double& power = all_.bounds[surface.light].power;
+      power = std::max(power, least_power(surface));
+    }
     return std::move(all_);
   }
 
@@ -119,10 +122,11 @@ class Tally {
     double area = 0, radiance = 0, power = 0, most = 0;  // radiance: times area
     std::optional<double> luminance;                     // where it is the same everywhere
   };
-  struct Surface {
+  // A light that shines, by a texture.
+  struct Varying {
+    std::size_t light = 0;  // of all_.bounds
     double area = 0, most = 0;
     std::uint32_t area_light = 0;
-    bool varies = false;  // by a texture
   };
 
   // A light that nothing meets shines as if it was whole.
@@ -145,7 +149,7 @@ class Tally {
     });
     return {glow.mean / static_cast<double>(shines_.size()), glow.most};
   }
-  double least_power(const Surface& surface) const {
+  double least_power(const Varying& surface) const {
     constexpr double of_mean = 0.1, of_most = 1e-3;
     const Sum& sum = sums_[surface.area_light];
     return surface.area * (sum.power > 0 ? of_mean * sum.power / sum.area : of_most * pi * surface.most);
@@ -154,7 +158,8 @@ class Tally {
   const LightScene& scene_;
   TextureRanges ranges_;
   std::vector<Sum> sums_;  // of the area lights
-  std::vector<Surface> surfaces_;
+  std::vector<Varying> varying_;
+  bool last_varies_ = false;                  // the light that was added last
   std::vector<TriangleParts::Shine> shines_;  // of the parts of the last surface
   SurfaceLights all_;
 };

@@ -100,7 +100,9 @@ LocalRay local_ray(const WideCamera& camera, const FilmSettings& film, Point2d r
       const double away = std::sqrt(x * x + y * y);
       if (!(away > 0)) return {{0, 0, 0}, {0, 0, 1}};
       const double sine = portable_sin(away) / away;
-      return {{0, 0, 0}, {x * sine, y * sine, portable_cos(away)}, away <= camera.edge_deg * (pi / 180)};
+      return {{0, 0, 0},
+              {x * sine, y * sine, portable_cos(away)},
+              away <= camera.edge_deg * (pi / 180) ? 1.0 : 0.0};
     }
     case ultra_wide:
       return {{0, 0, 0}, {portable_sin(x), portable_sin(y), portable_cos(x) * portable_cos(y)}};
