@@ -47,9 +47,17 @@ class BandCurves {
     return values;
   }
 
+  // coefficient[segment][power][band_lanes]
+  struct Table {
+    const float* coefficient;
+    int segments;
+  };
+  static constexpr std::size_t powers = 4;
+  Table table() const { return {segments_.empty() ? nullptr : segments_[0].power[0].data(), count_}; }
+
  private:
   struct alignas(64) Segment {
-    std::array<BandValues, 4> power{};  // coefficients of tⁿ, t in [0, 1] within the segment
+    std::array<BandValues, powers> power{};  // coefficients of tⁿ, t in [0, 1] within the segment
     // From the values at t = 0, ⅓, ⅔, 1, by Newton's differences.
     void set(std::size_t band, const std::array<double, 4>& v) {
       const double d1 = v[1] - v[0], d2 = v[2] - 2 * v[1] + v[0], d3 = v[3] - 3 * (v[2] - v[1]) - v[0];
@@ -59,6 +67,7 @@ class BandCurves {
       power[3][band] = static_cast<float>(27 * d3 / 6);
     }
   };
+  static_assert(sizeof(Segment) == powers * band_lanes * sizeof(float));
   std::vector<Segment> segments_;
   int count_ = 0;
 };

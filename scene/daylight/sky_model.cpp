@@ -100,10 +100,9 @@ SkyModel::SkyModel(const SkyLight& light)
       bands_[b].shape[i] = interpolated(albedo, [&](std::size_t t, std::size_t a, std::size_t point) {
         return sky_tables::shape[t][a][point][b][i];
       });
-    bands_[b].radiance =
-        sky_scale_ * interpolated(albedo, [&](std::size_t t, std::size_t a, std::size_t point) {
-          return sky_tables::radiance[t][a][point][b];
-        });
+    radiance_[b] = sky_scale_ * interpolated(albedo, [&](std::size_t t, std::size_t a, std::size_t point) {
+                     return sky_tables::radiance[t][a][point][b];
+                   });
     horizon_[b] = static_cast<float>(bands_[b].shape[7]);
   }
   if (has_sky()) {
@@ -152,7 +151,7 @@ std::array<double, sky_bands> SkyModel::sky_by_formula(Vector3d d) const {
   for (std::size_t b = 0; b < sky_bands; ++b) {
     const Band& band = bands_[b];
     const double scattering = band.scattering(cos_gamma) + band.shape[7] * std::sqrt(d.z);
-    result[b] = std::max(0.0, band.gradient(d.z) * scattering * band.radiance);
+    result[b] = std::max(0.0, band.gradient(d.z) * scattering * radiance_[b]);
   }
   return result;
 }
@@ -168,6 +167,10 @@ BandValues SkyModel::relative_sky(Vector3d d) const {
     values[b] = value > 0 ? value : 0;
   }
   return values;
+}
+
+SkyModel::Curves SkyModel::curves() const {
+  return {gradient_.table(), scattering_.table(), horizon_.data(), radiance_.data()};
 }
 
 SkyModel::SunDirection SkyModel::sun_direction(Vector3d d) const {
@@ -225,14 +228,13 @@ void add(std::array<double, sky_bands>& sum, const std::array<double, sky_bands>
 SampledSpectrum SkyModel::sky(Vector3d d, const SampledWavelengths& wavelengths) const {
   if (!has_sky() || d.z < 0) return filled(0);
   const BandValues values = relative_sky(d);
-  return sampled(wavelengths,
-                 [&](std::size_t b) { return static_cast<double>(values[b]) * bands_[b].radiance; });
+  return sampled(wavelengths, [&](std::size_t b) { return static_cast<double>(values[b]) * radiance_[b]; });
 }
 
 std::array<double, sky_bands> SkyModel::sky(Vector3d d) const {
   if (!has_sky() || d.z < 0) return {};
   const BandValues values = relative_sky(d);
-  return each_band([&](std::size_t b) { return static_cast<double>(values[b]) * bands_[b].radiance; });
+  return each_band([&](std::size_t b) { return static_cast<double>(values[b]) * radiance_[b]; });
 }
 
 SampledSpectrum SkyModel::sun(Vector3d d, const SampledWavelengths& wavelengths) const {

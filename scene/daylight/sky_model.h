@@ -46,10 +46,17 @@ class SkyModel {
   // ∫ L cos θ dω over the sky: of a plane that faces up, within 10⁻⁴.
   std::array<double, sky_bands> sky_irradiance() const;
 
+  // What the sky alone is computed from, as BandCurves and sky() have it: for several directions at a time.
+  struct Curves {
+    BandCurves::Table gradient, scattering;  // of √cos θ; of the place of the angle to the sun
+    const float* horizon;                    // [band_lanes]: H of the paper's equation 8
+    const double* radiance;                  // [sky_bands]: the sky's mean; the scale included
+  };
+  Curves curves() const;
+
  private:
   struct Band {
     std::array<double, 9> shape{};  // A … I of the paper's equation 8
-    double radiance = 0;            // the sky's mean; the scale included
     double gradient(double cosine) const;
     double scattering(double cos_gamma) const;  // without what depends on θ
   };
@@ -67,8 +74,9 @@ class SkyModel {
   double sky_scale_ = 1, sun_scale_ = 1;  // the latter times what another diameter makes of it
   double sun_cosine_ = 1, sun_sine2_ = 0;
   std::array<Band, sky_bands> bands_;
-  BandCurves gradient_, scattering_;             // of √cos θ; of place_of_angle
-  BandValues horizon_{};                         // H of the paper's equation 8
+  BandCurves gradient_, scattering_;
+  BandValues horizon_{};
+  std::array<double, sky_bands> radiance_{};
   std::array<double, sky_bands> uniform_sun_{};  // radiance of a disc without limb darkening
   std::vector<double> sun_;                      // [segment][band][power of the elevation]
 };

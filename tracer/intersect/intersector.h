@@ -18,6 +18,9 @@ enum class Kernel { portable, avx2, avx512 };
 std::vector<Kernel> available_kernels();
 std::string_view name(Kernel kernel);
 
+// What a ray comes to on its way; `unknown`: to a domain that is not at hand.
+enum class Passage { free, blocked, unknown };
+
 // The functions of one kernel. All kernels give the same bits.
 struct KernelFunctions {
   // Lowers `hit` to the least (t, triangle) among it and the domain's triangles; t in (0, hit.t]. Of equals
@@ -72,6 +75,13 @@ struct KernelFunctions {
                        Hit* const* hits, std::size_t count);
   void (*node_occluded)(const BvhNode& node, const Cluster* clusters, const RayConstants* rays,
                         const float* tmax, bool* blocked, std::size_t count);
+  // Of all domains that are at hand, by a tree of them (rays/domain_tree.h). `domains`: by number, null where
+  // not at hand. `holder`: where the hit is, if it is lowered. False where the ray may enter others no
+  // farther.
+  bool (*domains_closest)(const BvhNode* tree, const DomainView* const* domains, const RayConstants& ray,
+                          Hit& hit, std::uint32_t& holder);
+  Passage (*domains_occluded)(const BvhNode* tree, const DomainView* const* domains, const RayConstants& ray,
+                              float tmax);
 };
 
 // Throws Error when this CPU cannot run the kernel.

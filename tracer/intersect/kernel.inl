@@ -310,7 +310,7 @@ bool tree_occluded(const BvhNode* nodes, const Cluster* clusters, const RayConst
   return occluded_in_tree(nodes, clusters, Slabs(ray), ray, tmax);
 }
 
-#include "tracer/intersect/kernel_instances.inl"
+#include "tracer/intersect/kernel_domains.inl"
 #include "tracer/intersect/kernel_many.inl"
 
 // ---- Clusters by themselves ----------------------------------------------------------------
@@ -325,4 +325,4 @@ bool cluster_occluded(const Cluster& cluster, const RayConstants& ray, float tma
 
 constexpr KernelFunctions functions{tree_closest,      tree_occluded,      domain_closest,  domain_occluded,
                                     instances_closest, instances_occluded, cluster_closest, cluster_occluded,
-                                    node_closest,      node_occluded};
+                                    node_closest,      node_occluded,      domains_closest, domains_occluded};

@@ -68,12 +68,16 @@ float closest_in_instances(InstanceRay& outer, const Slabs& slabs, const RayCons
   return limit;
 }
 
-void domain_closest(const DomainView& domain, const RayConstants& ray, Hit& hit) {
-  const Slabs slabs(ray);
+inline void closest_in_domain(const DomainView& domain, const Slabs& slabs, const RayConstants& ray,
+                              Hit& hit) {
   InstanceRay outer;
   enter_domain(domain, outer);
   if (outer.nodes) closest_in_tree(outer.nodes, outer.clusters, slabs, ray, hit);
-  closest_in_instances(outer, slabs, ray, zeta_limit(ray, hit.t), hit);
+  if (outer.instance_nodes) closest_in_instances(outer, slabs, ray, zeta_limit(ray, hit.t), hit);
+}
+
+void domain_closest(const DomainView& domain, const RayConstants& ray, Hit& hit) {
+  closest_in_domain(domain, Slabs(ray), ray, hit);
 }
 
 bool occluded_in_instances(InstanceRay& outer, const Slabs& slabs, const RayConstants& ray, float limit,
@@ -96,12 +100,16 @@ bool occluded_in_instances(InstanceRay& outer, const Slabs& slabs, const RayCons
   return any_entered(outer.instance_nodes, outer.instances, slabs, local_limit(outer, limit), enter);
 }
 
-bool domain_occluded(const DomainView& domain, const RayConstants& ray, float tmax) {
-  const Slabs slabs(ray);
+inline bool occluded_in_domain(const DomainView& domain, const Slabs& slabs, const RayConstants& ray,
+                               float tmax) {
   InstanceRay outer;
   enter_domain(domain, outer);
   if (outer.nodes && occluded_in_tree(outer.nodes, outer.clusters, slabs, ray, tmax)) return true;
-  return occluded_in_instances(outer, slabs, ray, zeta_limit(ray, tmax), tmax);
+  return outer.instance_nodes && occluded_in_instances(outer, slabs, ray, zeta_limit(ray, tmax), tmax);
+}
+
+bool domain_occluded(const DomainView& domain, const RayConstants& ray, float tmax) {
+  return occluded_in_domain(domain, Slabs(ray), ray, tmax);
 }
 
 void instances_closest(const DomainView& domain, const RayConstants& ray, Hit& hit) {

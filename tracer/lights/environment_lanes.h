@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions to environments and what is seen there, for any number of lanes. The sky's curves are read lane
-// by lane.
+// Directions to environments and what is seen there, for any number of lanes. The sun's disc is seen lane by
+// lane.
 #pragma once
 
 #include "tracer/lights/direction_table_lanes.h"
 #include "tracer/lights/environment.h"
 #include "tracer/lights/light_sampler.h"
+#include "tracer/lights/sky_lanes.h"
 #include "tracer/textures/image_lanes.h"
 
 namespace vitrail::lanes {
@@ -132,16 +133,12 @@ VITRAIL_LANES Seen<D> value_towards(const Environment& e, Vector<D> direction, M
   const PicturePoint<D> at = sphere_point(e.projection, d);
   Seen<D> seen{};
   seen.pdf = pdf(e.table, at);
-  const auto set = [&](int j, const SampledSpectrum& radiance) __attribute__((always_inline)) {
-    for (int i = 0; i < hero_count; ++i) set_lane(seen.radiance[i], j, radiance.v[i]);
-  };
   if (!e.sky) {
     seen.radiance = detail::radiance_of_image(e, at, on, wavelengths);
     return seen;
   }
   const SkyModel& sky = *e.sky;
-  for (int j = 0; j < width<D>; ++j)
-    if (is_set(on, j)) set(j, sky.sky(lane(d, j), wavelengths(j)));
+  seen.radiance = sky_towards(sky, d, on, wavelengths);
   seen.pdf = (1.0 - e.sun_share) * seen.pdf;
   if (!(e.sun_share > 0) || !sky.has_sun()) return seen;
   const Mask<D> sun = on & (d.z >= 0) & (dot(d, fill<D>(sky.to_sun())) >= sky.sun_cosine());

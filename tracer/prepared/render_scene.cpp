@@ -6,6 +6,7 @@
 #include "bundle/texture_file.h"
 #include "scene/geometry/portable_math.h"
 #include "scene/models/paraxial_lens.h"
+#include "tracer/rays/domain_tree.h"
 #include "tracer/rays/ray_records.h"
 
 namespace vitrail {
@@ -56,6 +57,7 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
                          std::uint64_t texture_bytes, std::uint64_t the_seed,
                          const SamplingChoices& the_sampling)
     : manifest(std::move(the_manifest)),
+      domain_tree(vitrail::domain_tree(manifest)),
       interiors(manifest),
       camera(manifest.camera, manifest.camera_motion, manifest.film),
       filter(manifest.film.filter, the_sampling.splat),

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "bundle/interiors.h"
 #include "tracer/lights/light_sampler.h"
@@ -27,6 +28,7 @@ struct RenderScene {
   RenderScene& operator=(const RenderScene&) = delete;
 
   Manifest manifest;
+  std::vector<BvhNode> domain_tree;
   Interiors interiors;
   CameraSampler camera;
   FilterSampler filter;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/rays/walk.h"
 
+#include <bit>
 #include <limits>
 
 namespace vitrail {
@@ -28,6 +29,18 @@ double enter_box(const Bounds3f& box, double margin, const Axes& origin, const A
 }
 
 }  // namespace
+
+bool DomainWalk::is_sampled(const Ray& ray) {
+  const auto bits = [](float a, float b) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 | std::bit_cast<std::uint32_t>(b);
+  };
+  // Multiplicative hashing (Knuth, TAOCP 6.4): the upper bits of the product.
+  constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
+  std::uint64_t hash = bits(ray.origin.x, ray.origin.y) * golden;
+  hash = (hash >> 32 ^ hash ^ bits(ray.origin.z, ray.direction.x)) * golden;
+  hash = (hash >> 32 ^ hash ^ bits(ray.direction.y, ray.direction.z)) * golden;
+  return (hash >> 32) % sampled_one_in == 0;
+}
 
 void DomainWalk::begin(const Ray& ray) {
   const Point3d o = cast<double>(ray.origin);

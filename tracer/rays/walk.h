@@ -43,6 +43,11 @@ class DomainWalk {
     return std::abs(o.x) <= farthest && std::abs(o.y) <= farthest && std::abs(o.z) <= farthest;
   }
 
+  // A ray of a sample of them, by which crossings are counted: one in `sampled_one_in`. A function of the
+  // ray.
+  static constexpr std::uint64_t sampled_one_in = 64;
+  static bool is_sampled(const Ray& ray);
+
   // The next domain whose tight bounds and marked cells the ray enters before tmax; false at the end.
   bool next(double tmax, Visit& visit) {
     if (!only_one_) return next_of_many(tmax, visit);

@@ -17,12 +17,26 @@ void intersect(Tracing& tracing, Traveller& t, const RayConstants& constants, st
 
 }  // namespace
 
+bool goes_by_tree(const Tracing& tracing, const Ray& ray) {
+  return !tracing.scene.domain_tree.empty() && !tracing.traffic && !DomainWalk::is_sampled(ray);
+}
+
 std::optional<Elsewhere> find_hit(Tracing& tracing, Traveller& t, const std::optional<Arrival>& at) {
   bool located = true;  // hit.cluster, lane and chain are known
   const RayConstants constants = prepare(t.ray, t.time_s);
+  if (!at && goes_by_tree(tracing, t.ray)) {
+    if (!DomainWalk::starts_near(t.ray.origin)) return std::nullopt;
+    Hit hit = t.hit;
+    if (tracing.kernel.domains_closest(tracing.scene.domain_tree.data(), tracing.resident.data(), constants,
+                                       hit, t.hit_domain)) {
+      t.hit = hit;
+      return std::nullopt;
+    }
+  }
   if (at && at->resolved) {
     located = false;
   } else {
+    const bool counts = DomainWalk::is_sampled(t.ray);
     DomainWalk walk(tracing.manifest(), t.ray, tracing.resident);
     if (at) {
       const std::uint32_t carried = t.hit.triangle;
@@ -32,7 +46,7 @@ std::optional<Elsewhere> find_hit(Tracing& tracing, Traveller& t, const std::opt
     }
     bool first = !at;
     for (DomainWalk::Visit visit; walk.next(t.hit.t, visit);) {
-      if (!first) ++tracing.counters.crossings;
+      if (!first && counts) tracing.counters.crossings += DomainWalk::sampled_one_in;
       first = false;
       if (!tracing.resident[visit.domain]) return Elsewhere{visit.domain, false};
       const std::uint32_t holder = t.hit_domain;

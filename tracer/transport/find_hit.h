@@ -19,6 +19,10 @@ struct Arrival {
   bool resolved;
 };
 
+// Whether a ray that begins takes all domains at hand at once, by the scene's tree of domains. Else it goes
+// from one into the next: where its way is recorded, or its crossings are counted.
+bool goes_by_tree(const Tracing& tracing, const Ray& ray);
+
 // Empty when the hit, or that there is none, is certain and its domain at hand.
 std::optional<Elsewhere> find_hit(Tracing& tracing, Traveller& t, const std::optional<Arrival>& at);
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "tracer/rays/walk.h"
+#include "tracer/transport/find_hit.h"
 
 namespace vitrail {
 
@@ -36,6 +37,13 @@ Way follow(Tracing& tracing, const ShadowRay& s, std::optional<std::uint32_t> at
     tracing.count_visit(domain);
     return tracing.kernel.occluded(*tracing.resident[domain], constants, s.tmax);
   };
+  if (!at && goes_by_tree(tracing, s.ray)) {
+    if (!DomainWalk::starts_near(s.ray.origin)) return Way::free;
+    const Passage passage = tracing.kernel.domains_occluded(tracing.scene.domain_tree.data(),
+                                                            tracing.resident.data(), constants, s.tmax);
+    if (passage != Passage::unknown) return passage == Passage::free ? Way::free : Way::blocked;
+  }
+  const bool counts = DomainWalk::is_sampled(s.ray);
   DomainWalk walk(tracing.manifest(), s.ray, tracing.resident);
   if (at) {
     if (is_blocked_in(*at)) return Way::blocked;
@@ -43,7 +51,7 @@ Way follow(Tracing& tracing, const ShadowRay& s, std::optional<std::uint32_t> at
   }
   bool first = !at;
   for (DomainWalk::Visit visit; walk.next(static_cast<double>(s.tmax), visit);) {
-    if (!first) ++tracing.counters.crossings;
+    if (!first && counts) tracing.counters.crossings += DomainWalk::sampled_one_in;
     first = false;
     if (!tracing.resident[visit.domain]) {
       send(tracing, s, visit.domain);

@@ -46,7 +46,8 @@ struct Outbox {
 struct TraceCounters {
   // From the camera; further ones of paths and photons; to lights, each segment behind a surface one more.
   std::uint64_t rays_camera = 0, rays_indirect = 0, rays_shadow = 0;
-  std::uint64_t crossings = 0;  // domains entered after the first one of a ray
+  // Domains entered after the first one of a ray; from one ray in DomainWalk::sampled_one_in.
+  std::uint64_t crossings = 0;
   // Rays alive: paths begun, and connections and shadow rays put into an outbox; the same when they end.
   std::uint64_t born = 0, died = 0;
   // Of photon mapping: sent from lights, questions answered, and photons found for them.

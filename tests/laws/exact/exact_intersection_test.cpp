@@ -12,6 +12,7 @@
 #include "tests/laws/exact/exact_oracle.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"
+#include "tracer/rays/domain_tree.h"
 #include "tracer/rays/walk.h"
 
 namespace vitrail::test {
@@ -20,13 +21,17 @@ namespace {
 // A bundle with all its domains mapped.
 struct Cut {
   Manifest manifest;
+  std::vector<BvhNode> tree;  // of them
   std::vector<std::unique_ptr<MappedDomain>> domains;
+  std::vector<const DomainView*> views;
 
   Cut(const Scene& scene, const std::filesystem::path& directory, const PartitionOptions& options) {
     partition(scene, directory, options);
     manifest = read_manifest(directory);
+    tree = domain_tree(manifest);
     for (std::uint32_t i = 0; i < manifest.domains.size(); ++i) {
       domains.push_back(std::make_unique<MappedDomain>(domain_path(directory, i)));
+      views.push_back(&domains.back()->view());
     }
   }
 
@@ -38,6 +43,17 @@ struct Cut {
       kernel.closest(domains[visit.domain]->view(), constants, hit);
     }
     return hit;
+  }
+
+  // The same by the tree of domains.
+  Hit closest_by_tree(const KernelFunctions& kernel, const Ray& ray) const {
+    Hit hit;
+    std::uint32_t holder = 0;
+    EXPECT_TRUE(kernel.domains_closest(tree.data(), views.data(), prepare(ray), hit, holder));
+    return hit;
+  }
+  bool occluded_by_tree(const KernelFunctions& kernel, const Ray& ray, float tmax) const {
+    return kernel.domains_occluded(tree.data(), views.data(), prepare(ray), tmax) == Passage::blocked;
   }
 
   bool occluded(const KernelFunctions& kernel, const Ray& ray, float tmax) const {
@@ -113,7 +129,7 @@ void expect_one_answer(const AwkwardScene& scene) {
   const KernelFunctions& best = best_kernel();
   const EmbreeDomain embree(scene.whole());
   std::vector<Differences> by_kernel(kernels.size());
-  Differences by_embree, by_eight, by_many;
+  Differences by_embree, by_eight, by_many, by_tree;
   std::atomic<std::uint64_t> hits{0};
   tbb::parallel_for(std::size_t{0}, scene.rays.size(), [&](std::size_t i) {
     Ray ray = scene.rays[i];
@@ -142,12 +158,16 @@ void expect_one_answer(const AwkwardScene& scene) {
     by_eight.count(scene.eight.occluded(best, ray, tmax), shadowed);
     by_many.count(scene.many.closest(best, ray), nearest);
     by_many.count(scene.many.occluded(best, ray, tmax), shadowed);
+    const KernelFunctions& any = kernel_functions(kernels[i % kernels.size()]);
+    by_tree.count(scene.many.closest_by_tree(any, ray), nearest);
+    by_tree.count(scene.many.occluded_by_tree(any, ray, tmax), shadowed);
   });
   EXPECT_GT(hits, scene.rays.size() / 3);
   for (std::size_t k = 0; k < kernels.size(); ++k) expect_none(by_kernel[k], name(kernels[k]));
   expect_none(by_embree, "through embree");
   expect_none(by_eight, "cut into 8");
   expect_none(by_many, "cut into 64");
+  expect_none(by_tree, "cut into 64, by the tree of domains");
 }
 
 const AwkwardScene& plain_scene() {

@@ -5,6 +5,7 @@
 
 #include "scene/geometry/portable_math.h"
 #include "tests/tracer/lights/light_fixtures.h"
+#include "tracer/sampling/wavelengths.h"
 
 namespace vitrail {
 
@@ -186,6 +187,25 @@ TEST(Environment, EveryDirectionHasADensity) {
 
 // An "envmap" of Mitsuba 3.9.1 (scalar_rgb) with these rows from the top and scale 2, evaluated at directions
 // of its own frame; the transform is what its importer gives to it.
+// The text in lanes and the model's own.
+TEST(Environment, ShowsASkyAsItsModelHasItToTheBit) {
+  SkyLight light;
+  light.to_sun = normalize(Vector3d{0.5, -0.3, 0.4});
+  const Environment e = make_environment(light);
+  const SkyModel sky(light);
+  Random random(8);
+  for (int i = 0; i < 100'000; ++i) {
+    Vector3d d = random.direction();
+    if (i % 4 == 0) d = normalize(light.to_sun + d * 0.01);
+    if (i % 16 == 1) d = normalize(Vector3d{d.x, d.y, 0});
+    if (i % 16 == 2) d = {0, 0, 1};
+    const SampledWavelengths w = sample_wavelengths(static_cast<float>(random()));
+    const SampledSpectrum found = seen(e, d, w), of_sky = sky.sky(d, w), of_sun = sky.sun(d, w);
+    for (int k = 0; k < hero_count; ++k)
+      ASSERT_EQ(found.v.data()[k], of_sky.v.data()[k] + of_sun.v.data()[k]) << i;
+  }
+}
+
 TEST(Environment, AgreesWithMitsuba) {
   const std::vector<double> rows{1.5, 4.5, 7.5, 10.5, 6.5, 9.5, 1.5, 4.5, 10.5, 2.5, 5.5, 8.5};
   std::vector<double> upwards;
