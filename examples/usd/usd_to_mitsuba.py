@@ -163,7 +163,8 @@ class Converter:
         flat = element("boolean", name="face_normals", value="true" if triangles.normals is None else "false")
         radiance = surface.emission
         if prim.HasAPI(UsdLux.MeshLightAPI):
-            self.note("MeshLightAPI: its area under instances is that of the prototype", prim)
+            if group is not self.root and UsdLux.LightAPI(prim).GetNormalizeAttr().Get(self.time):
+                self.note("MeshLightAPI with normalize: the area of the prototype, not of its instances", prim)
             a, b, c = (triangles.points[triangles.faces[:, k]] @ matrix[:3, :3].T for k in range(3))
             area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
             radiance = color("radiance", self.lights.emitted(prim, area))
@@ -235,7 +236,7 @@ def main():
     try:
         stage = Usd.Stage.Open(args.usd)
     except Tf.ErrorException as error:
-        sys.exit(f"{args.usd}: {error}")
+        sys.exit(f"{args.usd}: {str(error).strip().splitlines()[0].split(' : ')[-1]}")
     first = stage.GetStartTimeCode() if stage.HasAuthoredTimeCodeRange() else None
     time = args.time if args.time is not None else first
     converter = Converter(stage, args.out, Usd.TimeCode.Default() if time is None else Usd.TimeCode(time))

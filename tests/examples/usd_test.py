@@ -122,11 +122,11 @@ class Usd(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def convert(self, stage, name="scene.usda", options=()):
+    def convert(self, stage, name="scene.usda", options=(), up="Y"):
         """The XML's root and what was printed."""
         if stage is not None:
             with open(self.path(name), "w") as file:
-                file.write('#usda 1.0\n( upAxis = "Y" )\n' + stage.replace(" }", "\n}"))
+                file.write(f'#usda 1.0\n( upAxis = "{up}" )\n' + stage.replace(" }", "\n}"))
         script = os.path.join(SOURCE, "examples/usd/usd_to_mitsuba.py")
         command = [PYTHON, "-B", script, self.path(name), self.path("out/scene.xml"), *map(str, options)]
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -214,6 +214,28 @@ class Usd(unittest.TestCase):
         self.assertAlmostEqual(lens["aperture_radius"], 5 / 4)
         self.assertAlmostEqual(lens["fov"], math.degrees(2 * math.atan(0.2)), places=4)
 
+    def test_domes(self):
+        """Four colours by quarters of longitude, from pi to -pi, dark below; poles by OpenEXR and by poleAxis."""
+        colors = [(255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 0)]
+        row = lambda bright: [part * bright // 4 for x in range(64) for part in colors[x // 16]]
+        with open(self.path("sky.png"), "wb") as file:
+            file.write(png(64, 32, [row(4)] * 16 + [row(1)] * 16))
+        for kind, up, turn, quarter in [  # the camera's rotateXYZ
+            ("DomeLight", "Y", (0, -45, 0), 0),  # it looks between +x and -z: longitude 3/4 pi
+            ("DomeLight", "Z", (0, 135, 0), 2),  # between -x and +z; the axis upwards does not matter
+            ("DomeLight_1", "Z", (90, 0, -135), 1),  # between +x and -y: 1/4 pi
+        ]:
+            stage = f'def {kind} "l" {{ asset inputs:texture:file = @sky.png@ }}\n' + CAMERA
+            stage = stage.replace("double3 xformOp:translate = (0, 5, 0)", f"float3 xformOp:rotateXYZ = {turn}")
+            stage = stage.replace('["xformOp:translate", "xformOp:rotateX"]', '["xformOp:rotateXYZ"]')
+            self.convert(stage.replace("Offset = 5", "Offset = 0"), options=["--width", 6], up=up)
+            picture = self.pixels(64)
+            for y, bright in ((0, 1), (5, 0.051)):  # 63 of 255 by the sRGB curve
+                for channel, part in enumerate(colors[quarter]):
+                    mean = sum(pixel[channel] for pixel in picture[y]) / 6
+                    noise = 0.1 * bright + 0.005
+                    self.assertAlmostEqual(mean, bright * part / 255, delta=noise, msg=f"{kind} {up} {turn} {y}")
+
     def test_textures(self):
         """A packed image, its channels and its transform; out of a .usdz."""
         rows = [[200, 10, 40] + [100, 20, 50], [50, 30, 60] + [25, 250, 70]]
@@ -298,6 +320,7 @@ def BasisCurves "curve" { }
 
 if __name__ == "__main__":
     if subprocess.run([PYTHON, "-c", "import numpy, pxr, PIL"], stderr=subprocess.DEVNULL).returncode:
-        print(f"skipped: {PYTHON} has no pxr, numpy or PIL: pip install usd-core numpy pillow, or set VITRAIL_USD_PYTHON")
+        print(f"skipped: {PYTHON} has no pxr, numpy or PIL: pip install usd-core numpy pillow")
+        print("VITRAIL_USD_PYTHON names another Python")
         sys.exit(77)
     unittest.main(argv=sys.argv[:1])
