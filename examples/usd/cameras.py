@@ -6,7 +6,7 @@ import sys
 import numpy as np
 from pxr import Gf, UsdGeom, UsdRender
 
-from mitsuba_xml import DRAWN, TURNED, column_matrix, element, number, placed, rigid, with_children
+from mitsuba_xml import TURNED, bounds, column_matrix, element, number, placed, rigid, with_children
 
 
 def sensor(stage, time, cameras, note, name, width, samples):
@@ -47,9 +47,8 @@ def sensor(stage, time, cameras, note, name, width, samples):
 
 
 def made_up_camera(stage, time):
-    bounds = UsdGeom.BBoxCache(time, DRAWN).ComputeWorldBound(stage.GetPseudoRoot()).ComputeAlignedRange()
-    centre, size = (Gf.Vec3d(0), 1) if bounds.IsEmpty() else (bounds.GetMidpoint(), bounds.GetSize().GetLength())
-    up = UsdGeom.GetStageUpAxis(stage)
+    centre, size = bounds(stage, time)
+    centre, up = Gf.Vec3d(*centre), UsdGeom.GetStageUpAxis(stage)
     eye = centre + Gf.Vec3d(*((0.6, 0.5, 1) if up == "Y" else (0.6, -1, 0.5))) * 1.2 * size
     view = Gf.Matrix4d().SetLookAt(eye, centre, Gf.Vec3d(0, 1, 0) if up == "Y" else Gf.Vec3d(0, 0, 1))
     return Gf.Camera(view.GetInverse(), horizontalAperture=36, verticalAperture=27, focalLength=50)

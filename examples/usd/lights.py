@@ -6,7 +6,7 @@ import os
 import numpy as np
 from pxr import Gf, UsdGeom, UsdLux
 
-from mitsuba_xml import DRAWN, TURNED, Shape, color, column_matrix, element, even_scale, number, placed, rigid
+from mitsuba_xml import TURNED, Shape, bounds, color, column_matrix, element, even_scale, number, placed, rigid
 from mitsuba_xml import with_children
 
 
@@ -30,6 +30,10 @@ class Lights:
                 self.note(f"inputs:{name} of a light: left out", prim)
         if light.GetFiltersRel().GetTargets():
             self.note("light filters: left out", prim)
+        for links in (light.GetLightLinkCollectionAPI(), light.GetShadowLinkCollectionAPI()):
+            chosen = links.GetIncludesRel().GetTargets() or links.GetExcludesRel().GetTargets()
+            if chosen or not links.GetIncludeRootAttr().Get():
+                self.note("links of a light: it reaches all", prim)
         if prim.HasAPI(UsdLux.ShadowAPI) and not get(UsdLux.ShadowAPI(prim).GetShadowEnableAttr()):
             self.note("a light without shadows: it has them", prim)
         return value / size if get(light.GetNormalizeAttr()) and size > 0 else value
@@ -106,11 +110,10 @@ class Lights:
         if half <= 0:
             direction = element("vector", name="direction", **dict(zip("xyz", -rigid(matrix)[:3, 2])))
             return with_children(element("emitter", "directional"), direction, color("irradiance", radiance))
-        bounds = UsdGeom.BBoxCache(self.time, DRAWN).ComputeWorldBound(self.stage.GetPseudoRoot()).ComputeAlignedRange()
-        centre, size = ((0, 0, 0), 1) if bounds.IsEmpty() else (bounds.GetMidpoint(), bounds.GetSize().GetLength())
+        centre, size = bounds(self.stage, self.time)
         self.note("DistantLight with an angle: a disk at 500 times the scene's size", prim)
         away, world = 500 * size, rigid(matrix)
-        world[:3, 3] = np.array(centre) + away * world[:3, 2]
+        world[:3, 3] = centre + away * world[:3, 2]
         wide = away * np.tan(half)
         disk = world @ TURNED @ np.diag([wide, wide, 1, 1])
         return Shape("disk", disk, radiance=color("radiance", radiance)).xml(np.eye(4))

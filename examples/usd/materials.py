@@ -53,7 +53,7 @@ class Materials:
                     self.note(f"material of {identifier}, not of UsdPreviewSurface: displayColor is taken", material)
                     self.known[key] = None
                 else:
-                    self.known[key] = self.preview_surface(UsdShade.Shader(shader), re.sub(r"\W", "_", key[1:]))
+                    self.known[key] = self.preview_surface(UsdShade.Shader(shader), key)
             if self.known[key]:
                 return self.known[key]
         many = display_color == "many"
@@ -66,8 +66,8 @@ class Materials:
             self.known[value] = surface
         return self.known[value]
 
-    def preview_surface(self, shader, name):
-        surface = Surface(name)
+    def preview_surface(self, shader, path):
+        surface = Surface(re.sub(r"\W", "_", path[1:]) + f"-{len(self.elements)}")
         get = lambda inputs, kind, default: self.parameter(shader, inputs, kind, default, surface)
         principled = element("bsdf", "principled")
         base, specular = get("diffuseColor", "color", (0.18, 0.18, 0.18)), []

@@ -80,10 +80,10 @@ def smooth_normals(points, faces):
 
 
 class Corners:
-    """The values of primvars at the corners of triangles."""
+    """The values of primvars at the corners of triangles: indices of points and of face-varying values (m,3)."""
 
-    def __init__(self, points, corners, faces, count):
-        self.points, self.corners, self.faces, self.count = points, corners, faces, count
+    def __init__(self, points, corners, faces, note):
+        self.points, self.corners, self.faces, self.note = points, corners, faces, note
 
     def values(self, values, interpolation, width):
         """(3m,width), or nothing where the number of values does not fit."""
@@ -95,7 +95,9 @@ class Corners:
                 UsdGeom.Tokens.uniform: np.repeat(self.faces, 3),
                 UsdGeom.Tokens.faceVarying: self.corners.ravel(),
             }.get(interpolation, self.points.ravel())
-        return values[index] if index.size and index.max() < len(values) else None
+        if index.size and index.max() < len(values):
+            return values[index]
+        return self.note("normals or a primvar of fewer values than the mesh needs: left out")
 
     def primvar(self, primvar, time, width):
         values = primvar.ComputeFlattened(time) if primvar else None
@@ -118,7 +120,7 @@ def read_mesh(prim, time, uv_name, note):
     corners, faces = corners[kept], faces[kept]
     if mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded:
         corners = corners[:, ::-1]
-    at = Corners(indices[corners], corners, faces, len(counts))
+    at = Corners(indices[corners], corners, faces, lambda kind: note(kind, prim))
 
     scheme = mesh.GetSubdivisionSchemeAttr().Get(time)
     normals = at.primvar(primvars.GetPrimvar("normals"), time, 3)

@@ -5,7 +5,7 @@ import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
 
 import numpy as np
-from pxr import UsdGeom
+from pxr import Tf, UsdGeom
 
 # USD's lights and cameras look along -z, Mitsuba's along +z; x turns too, so that nothing is mirrored.
 TURNED = np.diag([-1.0, 1, -1, 1])
@@ -44,6 +44,15 @@ def column_matrix(matrix):
 
 def placed(matrix, name="to_world"):
     return with_children(element("transform", name=name), element("matrix", value=matrix))
+
+
+def bounds(stage, time):
+    """The centre of what is drawn, (3,), and the diagonal of its box; (0, 0, 0) and 1 where that is unknown."""
+    try:
+        box = UsdGeom.BBoxCache(time, DRAWN).ComputeWorldBound(stage.GetPseudoRoot()).ComputeAlignedRange()
+    except Tf.ErrorException:  # an instancer without its prototypes, for example
+        return np.zeros(3), 1.0
+    return (np.zeros(3), 1.0) if box.IsEmpty() else (np.array(box.GetMidpoint()), box.GetSize().GetLength())
 
 
 def rigid(matrix):

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 
 try:
     import numpy as np
-    from pxr import Tf, Usd, UsdGeom, UsdLux, UsdShade
+    from pxr import Tf, Usd, UsdGeom, UsdLux, UsdShade, UsdSkel
 except ImportError as missing:
     sys.exit(f"{missing}: pip install usd-core numpy pillow")
 
@@ -64,7 +64,7 @@ class Converter:
         matrix = parent
         if local:
             if local.TransformMightBeTimeVarying():
-                self.note(f"animation: as at the time {self.time}", prim)
+                self.note("animation: as at one time, see --time", prim)
             matrix = column_matrix(local.GetLocalTransformation(self.time))
             matrix = matrix if local.GetResetXformStack() else parent @ matrix
         if imageable and imageable.ComputePurpose() in DRAWN:
@@ -108,6 +108,8 @@ class Converter:
         )
         prototypes = []
         for path in instancer.GetPrototypesRel().GetForwardedTargets():
+            if not self.stage.GetPrimAtPath(path):
+                return self.note("PointInstancer of a prototype that is not there: left out", instancer)
             if str(path) not in self.groups:
                 self.groups[str(path)] = Group(f"prototype-{len(self.groups)}")
                 self.visit(self.stage.GetPrimAtPath(path), np.eye(4), self.groups[str(path)])
@@ -122,6 +124,8 @@ class Converter:
         """One RGB, "many", or nothing."""
         primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance("displayColor")
         values = primvar.ComputeFlattened(self.time) if primvar else None
+        if UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance("displayOpacity").HasAuthoredValue():
+            self.note("displayOpacity: left out", prim)
         if not values:
             return None
         return tuple(values[0]) if primvar.GetInterpolation() == UsdGeom.Tokens.constant else "many"
@@ -136,6 +140,8 @@ class Converter:
         parts.append((self.surface(prim, shown), None))
         if not UsdGeom.Gprim(prim).GetDoubleSidedAttr().Get():
             self.note("doubleSided off: both sides are shown", prim)
+        if prim.HasAPI(UsdSkel.BindingAPI):
+            self.note("skin: left at rest", prim)
         read, rest = {}, None
         for surface, indices in parts:
             if surface.uv_name not in read:
@@ -237,9 +243,8 @@ def main():
         stage = Usd.Stage.Open(args.usd)
     except Tf.ErrorException as error:
         sys.exit(f"{args.usd}: {str(error).strip().splitlines()[0].split(' : ')[-1]}")
-    first = stage.GetStartTimeCode() if stage.HasAuthoredTimeCodeRange() else None
-    time = args.time if args.time is not None else first
-    converter = Converter(stage, args.out, Usd.TimeCode.Default() if time is None else Usd.TimeCode(time))
+    time = stage.GetStartTimeCode() if stage.HasAuthoredTimeCodeRange() else Usd.TimeCode.EarliestTime()
+    converter = Converter(stage, args.out, Usd.TimeCode(time if args.time is None else args.time))
     os.makedirs(converter.folder, exist_ok=True)
     tree = ET.ElementTree(converter.convert(args.camera, args.width, args.spp))
     ET.indent(tree)

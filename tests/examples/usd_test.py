@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """examples/usd: what it writes of small stages, held to UsdLux, to closed forms and, where it is there, to Mitsuba.
 
-usd_test.py VITRAIL SOURCE. Ends with 77 (skipped) where no Python has pxr. VITRAIL_USD_PYTHON names one that has;
-VITRAIL_MITSUBA_PYTHON one that has mitsuba.
+usd_test.py VITRAIL SOURCE [Usd.test_notes]. VITRAIL_USD_PYTHON names a Python that has pxr, without which it ends with
+77 (skipped); VITRAIL_MITSUBA_PYTHON one that has mitsuba.
 """
 
 import math
@@ -214,6 +214,26 @@ class Usd(unittest.TestCase):
         self.assertAlmostEqual(lens["aperture_radius"], 5 / 4)
         self.assertAlmostEqual(lens["fov"], math.degrees(2 * math.atan(0.2)), places=4)
 
+    def test_notes(self):
+        """What is broken or left out is said, and the rest is written."""
+        mesh = FLOOR % "point3f[] points.timeSamples = { 3: [(-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1)] }\n"
+        mesh += 'def Mesh "empty" { }\ndef PointInstancer "many" { rel prototypes = </nothing>\n'
+        mesh += "int[] protoIndices = [0]\npoint3f[] positions = [(0, 0, 0)]\n}\n"
+        mesh += 'def DomeLight "l" { asset inputs:texture:file = @none.exr@ }\n'
+        mesh += 'def RectLight "r" { rel collection:lightLink:excludes = </floor> }\n'
+        mesh = mesh.replace("  %s", "").replace('(interpolation = "faceVarying")', '(interpolation = "vertex")')
+        root, said = self.convert(mesh.replace("(1, 1), (0, 1)]", "(1, 1)]"))
+        for note in (
+            "mesh without faces, or with indices that do not fit: /empty",
+            "PointInstancer of a prototype that is not there: left out: /many",
+            "normals or a primvar of fewer values than the mesh needs: left out: /floor",
+            "image none.exr: not found, its fallback is taken: /l",
+            "links of a light: it reaches all: /r",
+            "no camera: one that sees all: /",
+        ):
+            self.assertIn("note: " + note, said)
+        self.assertEqual([s.get("type") for s in root.findall("shape")], ["ply", "rectangle"])
+
     def test_domes(self):
         """Four colours by quarters of longitude, from pi to -pi, dark below; poles by OpenEXR and by poleAxis."""
         colors = [(255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 0)]
@@ -323,4 +343,4 @@ if __name__ == "__main__":
         print(f"skipped: {PYTHON} has no pxr, numpy or PIL: pip install usd-core numpy pillow")
         print("VITRAIL_USD_PYTHON names another Python")
         sys.exit(77)
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
