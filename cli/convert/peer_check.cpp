@@ -86,15 +86,12 @@ std::string picture_of_input(const PeerCheck& check, SmallPicture size, int samp
   return picture;
 }
 
-Json in_mitsuba(const PeerCheck& check, const std::string& python, const FilmSettings& film,
-                const TemporaryFolder& folder) {
+// Mitsuba's words on what was written and a reference: a scene of its own, or a picture.
+Json asked(const PeerCheck& check, const std::string& python, SmallPicture size, const std::string& reference,
+           const TemporaryFolder& folder) {
   const std::string script = folder.file("peer.py"), said = folder.file("said.json"),
                     errors = folder.file("errors");
   std::ofstream(script) << mitsuba_script;
-  const bool reads_input = check.in.extension() == ".xml" && check.options.empty();
-  const SmallPicture size = small(film);
-  const std::string reference =
-      reads_input ? fs::absolute(check.in).string() : picture_of_input(check, size, 1024, folder);
   const ForeignEnd end = run_foreign({python, script, fs::absolute(check.out).string(), reference,
                                       std::to_string(size.width), std::to_string(size.height)},
                                      said, errors);
@@ -104,6 +101,29 @@ Json in_mitsuba(const PeerCheck& check, const std::string& python, const FilmSet
   return {
       {"variants",
        {{{"variant", "any"}, {"loads", false}, {"passed", false}, {"said", last_words(text_of(errors))}}}}};
+}
+
+bool is_not_compared(const Json& variant) { return variant.contains("not_compared"); }
+
+Json in_mitsuba(const PeerCheck& check, const std::string& python, const FilmSettings& film,
+                const TemporaryFolder& folder) {
+  constexpr int samples = 1024;
+  const SmallPicture size = small(film);
+  const auto by_vitrail = [&] {
+    return asked(check, python, size, picture_of_input(check, size, samples, folder), folder);
+  };
+  if (check.in.extension() != ".xml" || !check.options.empty()) return by_vitrail();
+  Json found = asked(check, python, size, fs::absolute(check.in).string(), folder);
+  if (found.contains("missing") || std::ranges::none_of(found["variants"], is_not_compared)) return found;
+  const Json others = by_vitrail();  // where Mitsuba shows nothing of the input
+  for (const Json& variant : others.at("variants"))
+    for (Json& refused : found["variants"])
+      if (is_not_compared(refused) && refused["variant"] == variant["variant"]) {
+        const Json why = refused["not_compared"];
+        refused = variant;
+        refused["not_compared"] = why;
+      }
+  return found;
 }
 
 // Programs whose exit status says whether they take a scene.
@@ -136,12 +156,12 @@ Json in_povray(const PeerCheck& check, const std::string& program, const FilmSet
   Json found = picture_by_povray(program, fs::absolute(check.out), all, after, folder);
   if (found.contains("missing") || !found["variants"][0]["passed"].get<bool>()) return found;
   Json& variant = found["variants"][0];
-  const bool reads_input = check.in.extension() == ".pov" && check.options.empty();
+  bool reads_input = check.in.extension() == ".pov" && check.options.empty();
   if (reads_input) {
     const Json input = picture_by_povray(program, fs::absolute(check.in), all, before, folder)["variants"][0];
     if (!input["passed"].get<bool>()) {
       variant["not_compared"] = input["said"];
-      return found;
+      reads_input = false;
     }
   }
   const std::string reference = reads_input ? before : picture_of_input(check, all, 64, folder);
@@ -160,14 +180,16 @@ std::string first_line(const Json& v, const char* key) {
 std::string variant_in_words(const std::string& name, const Json& v) {
   if (!v.at("loads").get<bool>()) return fmt::format("{} refuses it: {}", name, first_line(v, "said"));
   if (v.contains("said")) return fmt::format("{} ruins it: {}", name, first_line(v, "said"));
-  if (v.contains("not_compared"))
-    return fmt::format("{} renders it; it refuses the input: {}", name, first_line(v, "not_compared"));
-  if (!v.contains("luminance_ratio")) return fmt::format("{} renders it", name);
+  const std::string refused =
+      v.contains("not_compared") ? "; of the input it says: " + first_line(v, "not_compared") : "";
+  if (!v.contains("luminance_ratio"))
+    return name + (v.at("passed").get<bool>() ? " renders it" : " shows light where the input has none") +
+           refused;
   return fmt::format(
-      "{} shows it {} {} shows the input: luminance {:+.2f} %, a pixel of 64 by up to {:.1f} %", name,
+      "{} shows it {} {} shows the input: luminance {:+.2f} %, a pixel of 64 by up to {:.1f} %{}", name,
       v.at("passed").get<bool>() ? "as" : "otherwise than",
       v.at("compared_with") == "itself" ? "it" : "vitrail", 100 * (v.at("luminance_ratio").get<double>() - 1),
-      100 * v.at("worst_pixel").get<double>());
+      100 * v.at("worst_pixel").get<double>(), refused);
 }
 
 }  // namespace

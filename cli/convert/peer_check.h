@@ -18,15 +18,16 @@ struct PeerCheck {
 };
 
 // Loads `out` there: Mitsuba in each common variant, which renders 64 pixels and compares them with those of
-// `in`, by itself where it reads that too, else by vitrail; POV-Ray likewise; pbrt renders without a
+// `in`, by itself where it shows that too, else by vitrail; POV-Ray likewise; pbrt renders without a
 // comparison.
 //
 //   {"name": "Mitsuba", "version": "3.9.1", "passed": true, "variants": [{"variant": "scalar_rgb", "loads":
 //    true, "compared_with": "itself", "luminance_ratio": 1.0003, "worst_pixel": 0.004, "passed": true}]}
 //   {"name": "Mitsuba", "missing": "python3 has no module mitsuba …"}
 //
-// "said": the peer's own words, where it refuses. Throws UsageError for formats without a peer, and where
-// `program` was named and is not there.
+// "said": the peer's own words, where it refuses; "not_compared": those on `in`, where vitrail's picture
+// stands for its own. Throws UsageError for formats without a peer, and where `program` was named and is not
+// there.
 nlohmann::ordered_json check_in_peer(const PeerCheck& check, const FilmSettings& film);
 
 // A line for each variant, or what is between them.

@@ -229,7 +229,7 @@ TEST_F(BadInput, TooLittleMemory) {
       run(fmt::format("{} '{}' -o '{}' --memory 1M", vitrail("render"), good_bundle().string(),
                       (directory_ / "picture.film").string()));
   EXPECT_EQ(result.status, 4) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("is needed"));
+  EXPECT_THAT(result.output, HasSubstr("Give at least"));
 }
 
 TEST_F(BadInput, WrongUsage) {

@@ -93,7 +93,7 @@ def measure(folder, ranks, name, options):
     budget, done = MIB, None
     for _ in range(5):  # what MPI takes differs by a little from run to run
         done = run(folder, ranks, words + ["--memory", budget], None if budget == MIB else budget)
-        least = re.search(r"at least (\d+)M is needed", done.stderr)
+        least = re.search(r"Give at least (\d+)M", done.stderr)
         if done.returncode != 4 or not least:
             break
         budget = int(least[1]) * MIB

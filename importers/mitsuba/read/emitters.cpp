@@ -10,6 +10,7 @@
 #include "importers/mitsuba/read/properties.h"
 #include "importers/mitsuba/read/sun_and_sky.h"
 #include "importers/reading/suggestion.h"
+#include "scene/records/light_traits.h"
 #include "scene/spectra/flat_emission.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "scene/system/diagnostics.h"
@@ -171,10 +172,24 @@ Transform light_to_mitsuba() {
   return t;
 }
 
+bool keeps_lengths(const Transform& t) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double product = t.m[0][i] * t.m[0][j] + t.m[1][i] * t.m[1][j] + t.m[2][i] * t.m[2][j];
+      if (std::abs(product - (i == j ? 1 : 0)) > 1e-3) return false;
+    }
+  return true;
+}
+
 LightModel environment(Builder& builder, const Object& emitter) {
   EnvironmentLight light;
   light.filename = existing_file(builder, emitter, "filename");
-  light.light_to_world = emitter.transform("to_world", builder.report) * light_to_mitsuba();
+  const Transform to_world = emitter.transform("to_world", builder.report);
+  if (!keeps_lengths(to_world))
+    builder.report.approximated(
+        "to_world of an envmap: its turn alone; Mitsuba distorts the image where there is a scale",
+        place_of(emitter, "to_world"));
+  light.light_to_world = to_world * light_to_mitsuba();
   light.projection = EnvironmentLight::Projection::latitude_longitude;
   light.scale = ConstantSpectrum{static_cast<float>(emitter.number("scale", 1, builder.report))};
   emitter.ignore({"mis_compensation", "cache"});
@@ -216,14 +231,16 @@ std::string advice(const std::string& kind) {
 void add_emitter(Builder& builder, const Object& emitter) {
   Report& report = builder.report;
   report.begin_item({emitter.origin, RecordKind::light});
-  emitter.ignore({"sampling_weight"});
+  const bool is_asked_for = emitter.number("sampling_weight", 1, report) > 0;
   if (!emitter.keyframes("to_world").empty())
     report.approximated("motion of an emitter: its first keyframe holds for the whole picture",
                         emitter.origin);
   if (is_daylight(emitter.type)) return add_daylight(builder, emitter);
   for (const Kind& kind : kinds) {
     if (emitter.type != kind.name) continue;
-    builder.scene.lights.push_back({kind.make(builder, emitter), emitter.origin, name_of(emitter)});
+    Light light{kind.make(builder, emitter), emitter.origin, name_of(emitter)};
+    // Of weight 0, Mitsuba shows only the light that rays meet by themselves.
+    if (is_asked_for || traits_of(light.model).surrounds) builder.scene.lights.push_back(std::move(light));
     if (!emitter.children("medium").empty()) {  // a light without a surface is in the medium around it
       report.begin_item({emitter.origin, RecordKind::light});
       report.dropped("the medium of an emitter: the surfaces around it say what it is in", emitter.origin);

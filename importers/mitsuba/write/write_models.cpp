@@ -118,6 +118,22 @@ void add_metal(Context& context, Element element, const NormalReflectance& metal
                Meaning::unbounded);
 }
 
+// Mitsuba 3.9's spectral variants have no number, at normal incidence, for an index of which both parts are
+// 0, as they are outside of its samples. An index of nearly 0 reflects all as well.
+SpectrumParameter nowhere_nothing(const ComplexIndex& metal) {
+  constexpr double least = 1e-4;
+  const auto *eta = std::get_if<Spectrum>(&metal.eta), *k = std::get_if<Spectrum>(&metal.k);
+  if (!eta || !k || (is_constant(*eta) && is_constant(*k))) return metal.eta;
+  const Spectrum real = resolved(*eta), imaginary = resolved(*k);
+  const auto is_nothing = [&](double lambda) {
+    return evaluate(real, lambda) == 0 && evaluate(imaginary, lambda) == 0;
+  };
+  bool any = false;
+  for (int i = 0; i < table_size; ++i) any |= is_nothing(lambda_min_nm + i);
+  if (!any) return metal.eta;
+  return tabulated([&](double lambda) { return is_nothing(lambda) ? least : evaluate(real, lambda); });
+}
+
 void add_metal(Context& context, Element element, const Metal& metal) {
   std::visit(Overloaded{
                  [&](const PerfectReflector&) { add_string(element, "material", "none"); },
@@ -125,7 +141,7 @@ void add_metal(Context& context, Element element, const Metal& metal) {
                  [&](const ComplexIndex& m) {
                    if (const std::string name = named_metal(m); !name.empty())
                      return add_string(element, "material", name);
-                   add_parameter(context, element, "eta", m.eta, Meaning::unbounded);
+                   add_parameter(context, element, "eta", nowhere_nothing(m), Meaning::unbounded);
                    add_parameter(context, element, "k", m.k, Meaning::unbounded);
                  },
              },

@@ -210,8 +210,9 @@ TextureModel checkerboard_texture(const Maker& m) {
   return t;
 }
 
+// pbrt-v3 and v4 show what is named "inside" around the dots, and what is named "outside" in them.
 TextureModel dots_texture(const Maker& m) {
-  return DotsTexture{m.input("inside", 1), m.input("outside", 0), m.mapping()};
+  return DotsTexture{m.input("outside", 0), m.input("inside", 1), m.mapping()};
 }
 
 TextureModel mix_texture(const Maker& m) {

@@ -41,7 +41,8 @@ class LightWriter {
           spot.difference));
     if (l.texture) p_.dropped("the texture of a spot light");
     p_.number("coneangle", static_cast<float>(spot.cutoff_deg));
-    p_.number("conedeltaangle", spot.cutoff_deg - spot.beam_deg);
+    // With 0 pbrt-v4 finds no light at all.
+    p_.number("conedeltaangle", std::max(spot.cutoff_deg - spot.beam_deg, 0.01));
     p_.emission("I", l.intensity);
     return "spot";
   }

@@ -73,7 +73,7 @@ class TextureWriter {
     return "bilerp";
   }
   const char* operator()(const DotsTexture& t) {
-    input("inside", t.inside), input("outside", t.outside);
+    input("inside", t.outside), input("outside", t.inside);  // pbrt exchanges them
     mapping(t.mapping);
     return "dots";
   }

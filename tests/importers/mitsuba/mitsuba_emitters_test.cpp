@@ -57,6 +57,17 @@ class MitsubaEmitters : public testing::Test {
 
 Transform some_transform() { return translate({3, -2.5, 0.1}) * rotate(0.7, {1, 2, 3}) * scale({2, 2, 2}); }
 
+// Mitsuba 3.9 asks for none of weight 0, and meets those all around by chance alone.
+TEST_F(MitsubaEmitters, OfWeightZeroThoseThatAreMetShine) {
+  read_text(R"(<emitter type="point"><float name="sampling_weight" value="0"/></emitter>
+      <emitter type="constant"><float name="sampling_weight" value="0"/></emitter>
+      <emitter type="directional"><float name="sampling_weight" value="2"/></emitter>)");
+  ASSERT_THAT(scene_.lights, SizeIs(2));
+  EXPECT_TRUE(std::holds_alternative<InfiniteLight>(scene_.lights[0].model));
+  EXPECT_TRUE(std::holds_alternative<DistantLight>(scene_.lights[1].model));
+  EXPECT_THAT(diagnostics_, IsEmpty());
+}
+
 TEST_F(MitsubaEmitters, WrittenLightsComeBack) {
   folder_.write("sky.exr", "x");
   folder_.write("slide.png", "x");
@@ -207,6 +218,17 @@ TEST_F(MitsubaEmitters, EnvironmentInTheScenesFrame) {
   EXPECT_THROW(read_text("<emitter type='envmap'><string name='filename' value='none.exr'/></emitter>"),
                Error);
   EXPECT_THROW(read_text("<emitter type='envmap'/>"), Error);
+}
+
+TEST_F(MitsubaEmitters, TheScaleOfAnEnvironmentIsSaid) {
+  folder_.write("sky.exr", "x");
+  const auto turned = [&](const std::string& by) {
+    read_text("<emitter type='envmap'><string name='filename' value='sky.exr'/><transform name='to_world'>" +
+              by + "</transform></emitter>");
+    return diagnostics_;
+  };
+  EXPECT_THAT(turned("<rotate y='1' angle='50'/><scale x='-1'/>"), IsEmpty());
+  EXPECT_THAT(turned("<rotate y='1' angle='50'/><scale value='2'/>"), says("Mitsuba distorts the image"));
 }
 
 TEST_F(MitsubaEmitters, WhatIsDroppedIsSaid) {

@@ -111,6 +111,19 @@ TEST_F(RefusedByMitsuba, ExtinctionsOfLinesAreNowhereZero) {
   }
 }
 
+// Nor has it a number for a metal of index 0 + 0i, which is what lies outside of samples.
+TEST_F(RefusedByMitsuba, IndicesOfMetalsAreNowhereNothing) {
+  ConductorMaterial metal;
+  metal.metal =
+      ComplexIndex{tabulate({{400, 1.2}, {700, .2}}, false), tabulate({{400, 2}, {700, 3.5}}, false)};
+  Material material{metal};
+  material.two_sided = false;
+  const std::string values = value(write(square_scene(material)).child("bsdf"), "eta");
+  EXPECT_TRUE(values.starts_with("360:")) << values;
+  for (std::size_t at = values.find(':'); at != values.npos; at = values.find(':', at + 1))
+    EXPECT_GT(std::stod(values.substr(at + 1)), 0) << values;
+}
+
 // Mitsuba's rgb variants know no scale of a d65: said of lamps, which have none of their own.
 TEST_F(RefusedByMitsuba, ScalesOfLampsImages) {
   Scene scene = square_scene({});

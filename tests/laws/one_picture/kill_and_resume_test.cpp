@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <time.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <random>
@@ -32,6 +34,20 @@ class KillAndResume : public ::testing::Test {
     return fmt::format("{} '{}' -o '{}' --crop 0,128,0,128 --spp 192 --threads 1 --stats '{}' {}",
                        mpi_vitrail("render", 2), bundle_.string(), (directory_ / film).string(),
                        (directory_ / (film + ".json")).string(), more);
+  }
+  // Until each rank has worked for longer than it takes to begin, however busy the machine is.
+  static void wait_for_work(Background& job) {
+    const auto has_worked = [](pid_t pid) {
+      clockid_t clock;
+      timespec time{};
+      return ::clock_getcpuclockid(pid, &clock) == 0 && ::clock_gettime(clock, &time) == 0 &&
+             static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec) > 0.7;
+    };
+    while (job.running()) {
+      const std::vector<pid_t> ranks = job.ranks().empty() ? std::vector{job.pid()} : job.ranks();
+      if (std::ranges::all_of(ranks, has_worked)) return;
+      std::this_thread::sleep_for(10ms);
+    }
   }
   nlohmann::json stats(const std::string& film) const { return read_json(directory_ / (film + ".json")); }
 
@@ -105,7 +121,7 @@ TEST_F(KillAndResume, TermWritesACheckpointAndEndsByItself) {
     std::string line = command("stopped.film", "");
     if (alone) line = line.substr(line.find(" '" VITRAIL_BIN_DIR) + 1);
     Background job(line);
-    std::this_thread::sleep_for(1500ms);
+    wait_for_work(job);
     ASSERT_TRUE(job.running());
     for (pid_t pid : alone ? std::vector{job.pid()} : job.ranks()) ::kill(pid, SIGTERM);
     EXPECT_EQ(job.wait(), 128 + SIGTERM);
@@ -124,7 +140,7 @@ TEST_F(KillAndResume, AResumedRunHasNoProfile) {
   const std::string options = fmt::format("--resume --profile '{}'", profile.string());
   const std::string line = command("stopped.film", options);
   Background job(line);
-  std::this_thread::sleep_for(1500ms);
+  wait_for_work(job);
   ASSERT_TRUE(job.running());
   for (const pid_t pid : job.ranks()) ::kill(pid, SIGTERM);
   EXPECT_EQ(job.wait(), 128 + SIGTERM);

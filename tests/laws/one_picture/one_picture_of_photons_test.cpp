@@ -142,7 +142,7 @@ TEST_F(OnePictureOfPhotons, RefusesWhatItCannotDo) {
   };
   refused("--spp 2 --adaptive", 2, "no --adaptive");
   refused("--target-error 0.1", 2, "no --target-error");
-  refused("--spp 2 --photons 2000000 --memory 64M", 4, "is needed");
+  refused("--spp 2 --photons 2000000 --memory 64M", 4, "Give at least");
 }
 
 }  // namespace

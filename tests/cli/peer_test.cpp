@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// convert --check=peer: what it is that catches a difference.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Peer : public ::testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+
+  // The check of `in` by a program, whose words are those of a shell. In Mitsuba's place, $2 is the written
+  // scene and $3 what it is compared with.
+  test::CommandResult ask(const std::string& in, const std::string& program, const char* out = "out.xml") {
+    const std::string peer = write("python", "#!/bin/sh\n" + program);
+    std::filesystem::permissions(peer, std::filesystem::perms::owner_all);
+    return test::run(test::vitrail("convert") + " " + in + " " + (folder_ / out).string() +
+                     " --check=peer --peer " + peer);
+  }
+
+  test::TemporaryDirectory folder_;
+};
+
+constexpr const char* sensor = R"(<scene version="3.0.0"><integrator type="INTEGRATOR"/>
+    <sensor type="perspective"><transform name="to_world"><lookat origin="0,0,4" target="0,0,0" up="0,1,0"/></transform>
+    <film type="hdrfilm"><integer name="width" value="16"/><integer name="height" value="8"/></film></sensor>
+    <emitter type="constant"/>)";
+
+std::string scene(const std::string& integrator, const std::string& shapes) {
+  std::string text = sensor;
+  return text.replace(text.find("INTEGRATOR"), 10, integrator) + shapes + "</scene>";
+}
+
+TEST_F(Peer, AsksVitrailWhereItShowsNothingOfTheInput) {
+  const std::string in = write("in.xml", scene("path", "<shape type=\"sphere\"/>"));
+  const auto result = ask(in, R"(case $3 in
+*.xml) echo '{"variants": [{"variant": "scalar_rgb", "loads": true, "passed": true, "not_compared": "no such plugin"}]}' ;;
+*) echo '{"variants": [{"variant": "scalar_rgb", "loads": true, "passed": false, "compared_with": "vitrail",
+  "luminance_ratio": 1.5, "worst_pixel": 0.9}]}' ;;
+esac
+)");
+  EXPECT_EQ(result.status, 1) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("Mitsuba scalar_rgb shows it otherwise than vitrail shows the input"));
+  EXPECT_THAT(result.output, HasSubstr("of the input it says: no such plugin"));
+}
+
+TEST_F(Peer, AsksVitrailWhereItRefusesTheInput) {
+  if (std::system("povray --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no povray on the path";
+  const std::string in =
+      write("in.pov",
+            "#version 3.7; global_settings { assumed_gamma 1 } camera { location -4*z look_at 0 }\n"
+            "light_source { <2, 3, -4> rgb 1 } plane { z, 0 pigment { rgb .5 } finish { ambient 0 } }\n");
+  const auto result = ask(
+      in, "case \"$*\" in *+I*/in.pov*) echo 'Parse Error: too old' >&2; exit 1;; esac\nexec povray \"$@\"\n",
+      "out.pov");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("POV-Ray shows it as vitrail shows the input"));
+  EXPECT_THAT(result.output, HasSubstr("of the input it says: Parse Error: too old"));
+}
+
+class PeerMitsuba : public Peer {
+ protected:
+  void SetUp() override {
+    if (std::system("python3 -c 'import mitsuba' >/dev/null 2>&1") != 0)
+      GTEST_SKIP() << "no Mitsuba in the python3 on the path";
+  }
+};
+
+// Its spectral variants have no number for an extinction that is 0 at some wavelengths alone.
+TEST_F(PeerMitsuba, TakesAnInputWithoutNumbersForNoPicture) {
+  const std::string in = write("in.xml", scene("volpath", R"(<shape type="sphere"><bsdf type="null"/>
+      <medium type="homogeneous" name="interior"><spectrum name="sigma_t" value="500:1,600:1"/>
+      <spectrum name="albedo" value="0"/></medium></shape>)"));
+  const auto result = ask(in, "exec python3 \"$@\"\n");
+  EXPECT_THAT(result.output, HasSubstr("Mitsuba scalar_spectral shows it"));
+  EXPECT_THAT(result.output, HasSubstr("% of its pixels are no numbers"));
+}
+
+// 4 % more light, of an input that it does not read.
+TEST_F(PeerMitsuba, SeesFourPercentInRgbToo) {
+  const std::string in = write("in.pbrt", R"(LookAt 0 0 4 0 0 0 0 1 0 Camera "perspective" PixelFilter "box"
+      Film "rgb" "integer xresolution" 16 "integer yresolution" 8 WorldBegin LightSource "infinite" "rgb L" [2 2 2]
+      Material "diffuse" Shape "sphere")");
+  const std::string more = "sed -i 's/value=\"2 2 2\"/value=\"2.08 2.08 2.08\"/' \"$2\"\n",
+                    run = "exec python3 \"$@\"\n";
+  const auto same = ask(in, run), other = ask(in, more + run);
+  EXPECT_EQ(same.status, 0) << same.output;
+  EXPECT_EQ(other.status, 1) << other.output;
+  EXPECT_THAT(other.output, HasSubstr("Mitsuba scalar_rgb shows it otherwise than vitrail shows the input"));
+}
+
+}  // namespace
+}  // namespace vitrail
