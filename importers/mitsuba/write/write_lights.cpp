@@ -89,6 +89,13 @@ Transform mitsuba_to_light() {
   return t;
 }
 
+// Takes the size out of a transform: directions have none, and Mitsuba distorts an image by it.
+Transform scale_of_one(const Transform& t) {
+  const double size = std::cbrt(std::abs(determinant3(t)));
+  if (!(size > 0) || std::abs(size - 1) < 1e-6) return {};
+  return scale({1 / size, 1 / size, 1 / size});
+}
+
 bool is_grey(RGB c) { return c.r == c.g && c.g == c.b; }
 
 struct WrittenEnvironment {
@@ -138,7 +145,8 @@ void write(Context& context, Element root, const EnvironmentLight& light) {
   try {
     const WrittenEnvironment written = environment(context, light);
     Element element = add(root, "emitter", "envmap");
-    add_transform(element, light.light_to_world * mitsuba_to_light());
+    const Transform to_world = light.light_to_world * mitsuba_to_light();
+    add_transform(element, to_world * scale_of_one(to_world));
     add_string(element, "filename", written.filename);
     add_float(element, "scale", static_cast<float>(written.scale));
   } catch (const Error& error) {

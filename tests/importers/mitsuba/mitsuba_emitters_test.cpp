@@ -86,7 +86,7 @@ TEST_F(MitsubaEmitters, WrittenLightsComeBack) {
   projector.irradiance = true;
   EnvironmentLight sky;
   sky.filename = (folder_ / "sky.exr").string();
-  sky.light_to_world = some_transform();
+  sky.light_to_world = translate({3, -2.5, 0.1}) * rotate(0.7, {1, 2, 3});
   sky.projection = EnvironmentLight::Projection::latitude_longitude;
   sky.scale = ConstantSpectrum{0.7f};
   std::mt19937 random(1);
@@ -105,6 +105,16 @@ TEST_F(MitsubaEmitters, WrittenLightsComeBack) {
   for (std::size_t i = 0; i < original.lights.size(); ++i)
     EXPECT_EQ(again.lights[i], original.lights[i]) << i;
   expect_only("");
+  // Mitsuba distorts an image by the size of its transform, which says nothing of directions.
+  Scene large = empty_scene();
+  sky.light_to_world = some_transform();
+  large.lights.push_back({sky, {}});
+  const auto turned = std::get<EnvironmentLight>(written_and_read(large).lights.at(0).model);
+  expect_only("");
+  const Vector3d direction{0.1, 0.2, 0.3};
+  EXPECT_NEAR(length(transform_vector(turned.light_to_world, direction) * 2.0 -
+                     transform_vector(sky.light_to_world, direction)),
+              0, 1e-6);
   // Mitsuba takes one light from all around.
   for (const Spectrum& radiance : {white, Spectrum{ConstantSpectrum{2}}}) {
     Scene around = empty_scene();
@@ -227,7 +237,7 @@ TEST_F(MitsubaEmitters, TheScaleOfAnEnvironmentIsSaid) {
               by + "</transform></emitter>");
     return diagnostics_;
   };
-  EXPECT_THAT(turned("<rotate y='1' angle='50'/><scale x='-1'/>"), IsEmpty());
+  EXPECT_THAT(turned("<rotate y='1' angle='50'/><scale x='-1' y='1' z='1'/>"), IsEmpty());
   EXPECT_THAT(turned("<rotate y='1' angle='50'/><scale value='2'/>"), says("Mitsuba distorts the image"));
 }
 
