@@ -69,8 +69,7 @@ std::vector<std::uint32_t> surfaces_of(const Solid& solid) {
   for (const std::uint32_t s : solid.surfaces)
     if (s != unseen && (found.empty() || found.back() != s)) found.push_back(s);
   std::ranges::sort(found);
-  const auto again = std::ranges::unique(found);
-  found.erase(again.begin(), again.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
