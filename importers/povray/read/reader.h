@@ -178,6 +178,7 @@ class Reader {
     std::vector<Block> blocks;
     std::shared_ptr<Value> variable;  // of #for
     double last = 0, step = 0;
+    bool is_asking = false;  // of #while: its condition is read again
   };
 
   // Sources (sources.cpp).

@@ -100,9 +100,13 @@ bool Reader::end_frame() {
   }
   count_token();
   if (top.kind == FrameKind::while_loop) {
+    if (top.is_asking) fail("the condition of a loop has no ')'", last_);
+    top.is_asking = true;
     top.at = top.begin;
     const std::size_t level = frames_.size();
-    if (condition()) return true;
+    const bool again = condition();
+    frame().is_asking = false;
+    if (again) return true;
     if (frames_.size() != level) fail("a macro ends within the condition of a loop", last_);
   } else if (top.kind == FrameKind::for_loop) {
     auto& counter = std::get<Numbers>(*top.variable);

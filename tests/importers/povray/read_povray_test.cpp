@@ -136,6 +136,10 @@ TEST_F(ReadPovray, ErrorsNameTheirPlaceAndWhatLeadsThere) {
   EXPECT_NE(std::string(error("#include \"nowhere.inc\"\n").what()).find("there is no file"),
             std::string::npos);
   EXPECT_NE(std::string(error("#macro R() R() R() #end R()").what()).find("too deep"), std::string::npos);
+  // Where a loop begins again within its own condition, it would do so without end.
+  for (const char* loop : {"#while (C<=1.#end", "#while (C<=1+#declare C=2; #end", "#while (C #end 1)"})
+    EXPECT_EQ(error(std::string("#declare C = 0;\nunion { sphere { 0, 1 } ") + loop + " }").location.line, 2)
+        << loop;
 }
 
 TEST_F(ReadPovray, ASceneOfAllKinds) {
