@@ -23,7 +23,7 @@ std::vector<double> block_luminances(const std::filesystem::path& picture, Small
 //
 //   {"luminance_ratio": 1.0003, "worst_pixel": 0.004, "tolerance": 0.02, "passed": true}
 //
-// Both black: passed, without a ratio.
+// Both black: passed, without a ratio. Values of `a` that are no numbers: not passed, with "said".
 nlohmann::ordered_json compare_luminances(const std::vector<double>& a, const std::vector<double>& b,
                                           double tolerance);
 
