@@ -25,8 +25,8 @@ bool is_clear_coat(const pov::Texture& texture) {
 // A surface below a layer that lets all light through: with the mirror and highlights of that. None where the
 // surface has its own.
 Shared<pov::Texture> coated(const pov::Texture& below, const pov::Texture& coat) {
-  if (!below.layers.empty() || below.pattern || !below.finish) return nullptr;
-  const Finish& under = *below.finish;
+  if (!below.layers.empty() || below.pattern) return nullptr;
+  const Finish under = below.finish ? *below.finish : Finish{};
   const bool mirrors = under.has_reflection && std::max({under.reflection_max.v[0], under.reflection_max.v[1],
                                                          under.reflection_max.v[2]}) > 0;
   if (mirrors || under.phong > 0 || under.specular > 0 || (below.normal && coat.normal)) return nullptr;

@@ -286,5 +286,16 @@ TEST_F(ReadPovrayPictures, WhatIsClearIsNoPartOfAMixture) {
   EXPECT_NEAR(luminance(std::get<Spectrum>(glows.scene.area_lights.at(0).radiance)), 5.14, 0.01);
 }
 
+// A clear layer with a mirror over an opaque one, in a body with an ior: a coat, and no glass.
+TEST_F(ReadPovrayPictures, AClearLayerOverASurfaceIsItsCoat) {
+  const std::string coat =
+      " texture { pigment { rgbt 1 } finish { diffuse 0 reflection { 0, 1 fresnel on } } } interior { ior "
+      "1.5 } }";
+  for (const char* below : {"texture { pigment { rgb .5 } }",
+                            "texture { pigment { rgb .5 } finish { ambient 0 diffuse 1 reflection 0 } }"})
+    EXPECT_FALSE(says(read(gamma_1 + "sphere { 0, 1 " + below + coat), "a dielectric, whose")) << below;
+  EXPECT_TRUE(says(read(gamma_1 + "sphere { 0, 1 " + coat), "a dielectric, whose"));
+}
+
 }  // namespace
 }  // namespace vitrail
