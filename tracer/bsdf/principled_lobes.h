@@ -29,11 +29,4 @@ struct DiffuseCosines {
 };
 double diffuse(double roughness, double flatness, DiffuseCosines cosines);
 
-// GTR₁ (Burley 2012, Eq. 4): D(m) in sr⁻¹, and its sampling with pdf D(m)·m.z. 0 < alpha < 1.
-double gtr1(double alpha, Vector3d m);
-Vector3d sample_gtr1(double alpha, Point2f u);
-
-// Direction mirrored about m.
-inline Vector3d mirrored(Vector3d out, Vector3d m) { return m * (2 * dot(out, m)) - out; }
-
 }  // namespace vitrail::principled

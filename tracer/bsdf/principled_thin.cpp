@@ -118,7 +118,7 @@ std::optional<BsdfSample> sample(const PrincipledThinBsdf& b, Vector3d out, floa
   Vector3d in;
   if (choice < w.reflected + w.transmitted) {
     const bool reflects = choice < w.reflected;
-    in = mirrored(up, sample_visible_normal(reflects ? reflecting_facets(b) : transmitting_facets(b), up, u));
+    in = mirror(up, sample_visible_normal(reflects ? reflecting_facets(b) : transmitting_facets(b), up, u));
     if (!(in.z > 0)) return std::nullopt;
     if (!reflects) in.z = -in.z;
   } else {

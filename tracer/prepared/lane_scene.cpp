@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "scene/records/material_traits.h"
+#include "tracer/bsdf/principled_lobes.h"
 
 namespace vitrail {
 
@@ -46,6 +47,18 @@ void set(const PlasticMaterial& m, LaneSurface& s) {
   s.is_textured = !is_constant(m.diffuse_reflectance) || !is_constant(m.specular_reflectance);
 }
 
+void set(const PrincipledMaterial& m, LaneSurface& s) {
+  if (m.thin || m.spec_trans != FloatParameter{0.0f}) return;
+  s.kind = LaneKind::principled;
+  const FloatParameter* const numbers[] = {&m.roughness, &m.anisotropic, &m.metallic,
+                                           &m.spec_tint, &m.sheen,       &m.sheen_tint,
+                                           &m.flatness,  &m.clearcoat,   &m.clearcoat_gloss};
+  s.is_textured =
+      !is_constant(m.base_color) || !std::ranges::all_of(numbers, [](const FloatParameter* number) {
+        return std::holds_alternative<float>(*number);
+      });
+}
+
 void set(const DielectricMaterial& m, LaneSurface& s) {
   const auto *behind = std::get_if<ConstantSpectrum>(&m.eta),
              *before = std::get_if<ConstantSpectrum>(&m.exterior_eta);
@@ -81,6 +94,7 @@ LaneSurface lane_surface(const Manifest& manifest, const Textures& images, const
   }
   if (const auto* metal = std::get_if<ConductorMaterial>(&material.model)) set(*metal, s);
   if (const auto* plastic = std::get_if<PlasticMaterial>(&material.model)) set(*plastic, s);
+  if (const auto* principled = std::get_if<PrincipledMaterial>(&material.model)) set(*principled, s);
   if (const auto* glass = std::get_if<DielectricMaterial>(&material.model)) set(*glass, s);
   return s;
 }
@@ -118,6 +132,10 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf) {
     l.microfacets = rough->microfacets;
     l.external_transmittance = rough->tables->external_transmittance.data();
     l.is_nonlinear = rough->nonlinear;
+  } else if (const auto* p = std::get_if<PrincipledBsdf>(&bsdf)) {
+    l.a = p->base_color;
+    l.microfacets = principled::microfacets(p->roughness, p->anisotropic);
+    l.principled = *p;
   }
   return l;
 }

@@ -20,9 +20,10 @@ enum class LaneKind : std::uint8_t {
   metal,    // and rough
   plastic,  // PlasticBsdf
   rough_plastic,
-  glass  // smooth, of one index
+  principled,  // PrincipledBsdf, opaque
+  glass        // smooth, of one index
 };
-inline constexpr std::size_t lane_kinds = 7;
+inline constexpr std::size_t lane_kinds = 8;
 
 // An image that lanes look up: by (u,v), bilinear, the finest level.
 struct LaneTexture {
@@ -48,12 +49,13 @@ struct LaneSurface {
 
 // The parameters of a BSDF at a point.
 struct LaneBsdf {
-  // Reflectance; index η and κ and a factor; diffuse and specular reflectance.
+  // Reflectance; index η and κ and a factor; diffuse and specular reflectance; base colour.
   SampledSpectrum a, b, c;
   Microfacets microfacets;
   double eta = 1, internal_reflectance = 0;       // of plastics
   const float* external_transmittance = nullptr;  // of rough ones: RoughPlasticTables'
   bool is_nonlinear = false, is_perfect = false;
+  PrincipledBsdf principled;
 };
 // Of a surface of that kind.
 LaneBsdf lane_bsdf(const Bsdf& bsdf);

@@ -91,6 +91,11 @@ VITRAIL_LANES SampledSpectrum lane(const Four<F>& s, int j) {
   return {{lane(s[0], j), lane(s[1], j), lane(s[2], j), lane(s[3], j)}};
 }
 
+template <class F>
+VITRAIL_LANES F greatest(const Four<F>& s) {
+  return lanes::max(lanes::max(lanes::max(s[0], s[1]), s[2]), s[3]);
+}
+
 // As ShadingFrame.
 template <class D>
 struct Frame {

@@ -217,6 +217,7 @@ BsdfMaker Materials::maker_at(const TexturePoint& at, const SampledWavelengths& 
 Bsdf Materials::bsdf_at(const Material& material, const TexturePoint& at,
                         const SampledWavelengths& wavelengths) const {
   BsdfMaker maker = maker_at(at, wavelengths);
+  maker.luminance = luminance_[index_of(material)];
   if (!plastic_tables_.empty()) maker.plastic_tables = &plastic_tables_[plastic_table_[index_of(material)]];
   return std::visit(maker, material.model);
 }

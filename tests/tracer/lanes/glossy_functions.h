@@ -6,6 +6,8 @@
 #include "tests/tracer/lanes/lane_table.h"
 #include "tracer/bsdf/conductor_lanes.h"
 #include "tracer/bsdf/plastic_lanes.h"
+#include "tracer/bsdf/principled_lanes.h"
+#include "tracer/bsdf/principled_lobes.h"
 
 namespace vitrail::lane_tests {
 namespace {
@@ -67,6 +69,30 @@ LANE_FUNCTION(plastic, 25, 30) {
     put_sample(lanes::sample(bsdf, in.vector(16), in.f(22), in.f(23), in.f(24)), out);
   };
   put(smooth), put(rough);
+}
+// The base colour, its luminance, eta, the other numbers, two directions, three numbers.
+LANE_FUNCTION(principled, 25, 15) {
+  using D = lanes::Doubles<W>;
+  const D roughness = in.d(6), anisotropic = in.d(15);
+  const lanes::Principled<D> bsdf{.base_color = four_of(in, 0),
+                                  .luminance = in.d(4),
+                                  .eta = in.d(5),
+                                  .roughness = roughness,
+                                  .metallic = in.d(7),
+                                  .spec_trans = in.d(8),
+                                  .spec_tint = in.d(9),
+                                  .sheen = in.d(10),
+                                  .sheen_tint = in.d(11),
+                                  .flatness = in.d(12),
+                                  .clearcoat = in.d(13),
+                                  .clearcoat_gloss = in.d(14),
+                                  .microfacets = lanes::gather_microfacets<D>([&](int j) {
+                                    return vitrail::principled::microfacets(lanes::lane(roughness, j),
+                                                                            lanes::lane(anisotropic, j));
+                                  })};
+  const auto f = lanes::eval(bsdf, in.vector(16), in.vector(19));
+  out.four(f.value), out.number(f.pdf);
+  put_sample(lanes::sample(bsdf, in.vector(16), in.f(22), in.f(23), in.f(24)), out);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "tests/tracer/lanes/scalar_functions.h"
 #include "tracer/bsdf/conductor.h"
 #include "tracer/bsdf/plastic.h"
+#include "tracer/bsdf/principled.h"
 #include "tracer/simd/quick_math.h"
 
 namespace vitrail::lane_tests {
@@ -54,7 +55,8 @@ void put(const BsdfValue& f, Results& results) { results << f.value.v << f.pdf; 
 }  // namespace
 
 std::vector<ScalarFunction> glossy_functions() {
-  std::vector<Argument> microfacets = facets(), conductor = facets(), plastic = facets();
+  std::vector<Argument> microfacets = facets(), conductor = facets(), plastic = facets(),
+                        principled = reflectances();
   add(microfacets, {direction_above(), direction(), unit_number(), unit_number()});
   add(conductor, std::vector<Argument>(4, float_number(0.05, 4, {0.2, 1})));
   add(conductor, std::vector<Argument>(4, float_number(0, 8, {0.5, 3})));
@@ -64,6 +66,10 @@ std::vector<ScalarFunction> glossy_functions() {
   add(plastic, reflectances());
   add(plastic, {number(1.1, 2.5, {1.5, 1.0}), number(0, 0.9, {0, 0.6}), word(2), word(2), upper_direction(),
                 upper_direction(), unit_number(), unit_number(), unit_number()});
+  const Argument amount = number(0, 1, {0, 1, 0.5});
+  add(principled, {amount, number(0.4, 2.5, {1, 1.5})});
+  add(principled, std::vector<Argument>(10, amount));
+  add(principled, {direction(), direction(), unit_number(), unit_number(), unit_number()});
   return {
       {"quick_math",
        {number(-720, 700, {-700, 0, -0.0, 1}), magnitude(-100, 100, {1, 0.5, 2, 0x1p-1022}), unit_number()},
@@ -111,6 +117,25 @@ std::vector<ScalarFunction> glossy_functions() {
            put(sample(bsdf, vector_of(in + 16), static_cast<float>(in[22]), numbers_of(in + 23)), results);
          };
          both(smooth), both(rough);
+       }},
+      {"principled", principled,
+       [](const Context&, const double* in, double* out) {
+         const PrincipledBsdf bsdf{.base_color = four_of(in),
+                                   .luminance = in[4],
+                                   .eta = in[5],
+                                   .roughness = in[6],
+                                   .anisotropic = in[15],
+                                   .metallic = in[7],
+                                   .spec_trans = in[8],
+                                   .spec_tint = in[9],
+                                   .sheen = in[10],
+                                   .sheen_tint = in[11],
+                                   .flatness = in[12],
+                                   .clearcoat = in[13],
+                                   .clearcoat_gloss = in[14]};
+         Results results{out};
+         put(eval(bsdf, vector_of(in + 16), vector_of(in + 19)), results);
+         put(sample(bsdf, vector_of(in + 16), static_cast<float>(in[22]), numbers_of(in + 23)), results);
        }},
   };
 }

@@ -59,6 +59,15 @@ Material plastic(float width) {
   return material(p);
 }
 
+Material principled(float metallic) {
+  PrincipledMaterial p;
+  p.base_color = Spectrum{reflectance_from_rgb({0.7f, 0.4f, 0.1f})};
+  p.roughness = 0.3f, p.anisotropic = 0.4f, p.metallic = metallic;
+  p.spec_tint = 0.5f, p.sheen = 0.5f, p.sheen_tint = 0.5f, p.flatness = 0.2f, p.clearcoat = 0.8f;
+  p.clearcoat_gloss = 0.5f;
+  return material(p);
+}
+
 SkyLight sun_and_sky(float sky_scale) {
   SkyLight light;
   light.light_to_world = rotate(-pi / 2, {1, 0, 0});
@@ -137,6 +146,7 @@ std::vector<Case> cases() {
       {"rough gold, Beckmann", block(rough_gold(Roughness::Distribution::beckmann))},
       {"plastic", block(plastic(0))},
       {"rough plastic", block(plastic(0.2f))},
+      {"principled", block(principled(0.3f))},
       {"glass", block(material(DielectricMaterial{ConstantSpectrum{1.5f}}))},
       {"glass that disperses", block(material(DielectricMaterial{bk7()}))},
       {"frosted glass", block(material([] {
@@ -164,6 +174,7 @@ std::vector<Case> cases() {
       {"a ball of glass", ball(material(DielectricMaterial{ConstantSpectrum{1.5f}}))},
       {"a ball of gold", ball(rough_gold(Roughness::Distribution::ggx))},
       {"a ball of plastic", ball(plastic(0.1f))},
+      {"a ball of principled metal", ball(principled(1))},
       {"a lamp that is a ball",
        [](Scene& s) { add_ball(s, material(DiffuseMaterial{}), AreaLight{ConstantSpectrum{4}}); }},
       {"a lamp around all, and one that is a ball",

@@ -76,10 +76,6 @@ VITRAIL_LANES Vector<F> origin_of(const LaneWork& work, const Interaction<D>& at
 
 VITRAIL_LANES Point3d point_of(Vector<D> p, int j) { return {lane(p.x, j), lane(p.y, j), lane(p.z, j)}; }
 
-VITRAIL_LANES F greatest(const Four<F>& s) {
-  return lanes::max(lanes::max(lanes::max(s[0], s[1]), s[2]), s[3]);
-}
-
 // Those of `on` go on from the surface.
 VITRAIL_LANES void go_on(LaneWork& work, const Group& g, const Carried& carried, const Interaction<D>& at,
                          Mask<F> on, Vector<D> direction, const Four<F>& throughput, F pdf,

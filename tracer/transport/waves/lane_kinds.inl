@@ -108,3 +108,26 @@ struct ReadRoughPlastic {
     return RoughPlastic<D, decltype(table)>{plastic_of(work, g), microfacets_of(work, g), table};
   }
 };
+
+struct ReadPrincipled {
+  static constexpr bool is_specular = false;
+  VITRAIL_LANES static Principled<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
+    const auto number = [&](double PrincipledBsdf::*of) __attribute__((always_inline)) {
+      return gather<D>(VITRAIL_EACH(work.bsdfs[g.place[j]].principled.*of));
+    };
+    using B = PrincipledBsdf;
+    return {.base_color = spectrum_of(work, g, &LaneBsdf::a),
+            .luminance = number(&B::luminance),
+            .eta = number(&B::eta),
+            .roughness = number(&B::roughness),
+            .metallic = number(&B::metallic),
+            .spec_trans = fill<D>(0),
+            .spec_tint = number(&B::spec_tint),
+            .sheen = number(&B::sheen),
+            .sheen_tint = number(&B::sheen_tint),
+            .flatness = number(&B::flatness),
+            .clearcoat = number(&B::clearcoat),
+            .clearcoat_gloss = number(&B::clearcoat_gloss),
+            .microfacets = microfacets_of(work, g)};
+  }
+};

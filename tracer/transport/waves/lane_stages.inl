@@ -122,7 +122,8 @@ void begin(const Tracing& tracing, CameraPath* paths, const std::uint32_t* place
   }
 }
 
-constexpr LaneStages stages{begin,
-                            leave_scene,
-                            {nullptr, scatter<ReadLambert>, scatter<ReadMirror>, scatter<ReadMetal>,
-                             scatter<ReadPlastic>, scatter<ReadRoughPlastic>, scatter_glass}};
+constexpr LaneStages stages{
+    begin,
+    leave_scene,
+    {nullptr, scatter<ReadLambert>, scatter<ReadMirror>, scatter<ReadMetal>, scatter<ReadPlastic>,
+     scatter<ReadRoughPlastic>, scatter<ReadPrincipled>, scatter_glass}};

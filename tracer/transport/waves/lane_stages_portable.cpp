@@ -2,6 +2,7 @@
 #include "tracer/bsdf/conductor_lanes.h"
 #include "tracer/bsdf/diffuse_lanes.h"
 #include "tracer/bsdf/plastic_lanes.h"
+#include "tracer/bsdf/principled_lanes.h"
 #include "tracer/lanes/interaction.h"
 #include "tracer/lanes/lamps.h"
 #include "tracer/lanes/light_tree.h"
