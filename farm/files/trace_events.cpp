@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "farm/scheduler/residency.h"
+
 namespace vitrail {
 
 namespace {
@@ -70,7 +72,8 @@ void append_names(std::string& text, int rank, const RankTimeline& t) {
                           left_out > 0 ? fmt::format(", {} earlier events left out", left_out) : ""));
   append_name(text, "thread_name", rank, 0, "messages");
   for (int w = 1; w <= t.workers; ++w) append_name(text, "thread_name", rank, w, fmt::format("worker {}", w));
-  append_name(text, "thread_name", rank, t.workers + 1, "loader");
+  for (int l = 1; l <= loaders_of_a_rank; ++l)
+    append_name(text, "thread_name", rank, t.workers + l, fmt::format("loader {}", l));
 }
 
 Json about(const RankTimeline& t) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "farm/scheduler/residency.h"
 #include "scene/system/diagnostics.h"
 #include "tracer/rays/ray_records.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t mib = 1 << 20;
 // Stacks, waves of paths (half a MiB), outboxes, buffers in flight, what the allocator keeps.
-constexpr std::uint64_t slack_bytes = 4 * mib, slack_a_thread = mib + mib / 2;
+constexpr std::uint64_t slack_bytes = 4 * mib, slack_a_thread = mib + mib / 2, slack_a_loader = mib / 16;
 constexpr std::uint64_t least_queue_bytes = 2 * mib, most_queue_bytes = 512 * mib;
 
 }  // namespace
@@ -22,7 +23,8 @@ constexpr std::uint64_t least_queue_bytes = 2 * mib, most_queue_bytes = 512 * mi
 MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t peak, int threads,
                        std::uint64_t largest_domain, std::uint64_t all_domains) {
   if (budget == 0) return {all_domains, most_queue_bytes};
-  const std::uint64_t fixed = base + slack_bytes + slack_a_thread * static_cast<std::uint64_t>(threads);
+  const std::uint64_t fixed = base + slack_bytes + slack_a_thread * static_cast<std::uint64_t>(threads) +
+                              slack_a_loader * loaders_of_a_rank;
   const std::uint64_t least = std::max(peak, fixed + least_queue_bytes + largest_domain);
   if (budget < least)
     throw MachineError(fmt::format(

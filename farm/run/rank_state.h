@@ -57,6 +57,7 @@ struct RankState {
   std::optional<PhotonWork> photons;  // while they fly, the share is of their chunks
   RankWork work;
   int loads_under_way = 0;
+  bool a_loader_looks = false;  // again and again, while the other loaders wait for a notice
   bool finished = false;
   std::exception_ptr failure;
 

@@ -151,16 +151,25 @@ std::int64_t bytes_of(const LoadStep::Load& load, const Manifest& manifest) {
   return static_cast<std::int64_t>(bytes);
 }
 
+// An evicted domain comes free without a notice, when its last worker lets go of it: one loader looks for
+// that.
+void wait_for_loads(Locked& locked, RankState& s) {
+  if (s.a_loader_looks) return locked.wait(s.load_wanted);
+  s.a_loader_looks = true;
+  locked.wait(s.load_wanted, std::chrono::milliseconds(2));
+  s.a_loader_looks = false;
+}
+
 void load(RankState& s, int thread) {
   Locked locked(s);
   while (!s.finished) {
     s.scheduler.released(s.domains.take_released());
     const auto reservation = s.domains.begin(s.scheduler.loader_is_free());
     if (!reservation) {
-      // An evicted domain comes free without a notice, when its last worker lets go of it.
-      locked.wait(s.load_wanted, std::chrono::milliseconds(2));
+      wait_for_loads(locked, s);
       continue;
     }
+    s.load_wanted.notify_one();  // the next one may have something to load as well
     Clock::time_point start, end;
     std::shared_ptr<const LoadedDomain> loaded;
     ++s.loads_under_way;

@@ -17,9 +17,9 @@ namespace vitrail {
 // `automatic`: all where they fit into memory, else its own and those that it has much asked others for.
 enum class Distribution : std::uint8_t { automatic, decompose, replicate };
 
-// So many loads may be under way at once: a disk that is far away, or many in one, gives more to several. Of
-// two, no gain has been measured yet.
-inline constexpr int loaders_of_a_rank = 1;
+// So many loads may be under way at once: a disk that is far away answers several as soon as one
+// (docs/why/scheduler.md, "Loads").
+inline constexpr int loaders_of_a_rank = 8;
 
 // What a loader does next: first some domains leave, then one is mapped, where there is room for it
 // already.
