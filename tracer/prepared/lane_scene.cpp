@@ -85,8 +85,8 @@ LaneSurface lane_surface(const Manifest& manifest, const Textures& images, const
   LaneSurface s;
   s.two_sided = material.two_sided;
   s.emits = surface.area_light >= 0;
-  if (material.displacement || material.normal_map || material.bump_shadowing) return s;
-  if (surface.opacity != FloatParameter{1.0f} || interiors.has_priority(surface)) return s;
+  if (material.bump_shadowing || surface.opacity != FloatParameter{1.0f} || interiors.has_priority(surface))
+    return s;
   if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model)) {
     set(*diffuse, s);
     if (s.kind == LaneKind::diffuse) s.texture = lane_texture(manifest, images, diffuse->reflectance);
@@ -96,6 +96,10 @@ LaneSurface lane_surface(const Manifest& manifest, const Textures& images, const
   if (const auto* plastic = std::get_if<PlasticMaterial>(&material.model)) set(*plastic, s);
   if (const auto* principled = std::get_if<PrincipledMaterial>(&material.model)) set(*principled, s);
   if (const auto* glass = std::get_if<DielectricMaterial>(&material.model)) set(*glass, s);
+  s.is_tilted = material.displacement || material.normal_map;
+  // `shade` lets patterns turn normals of diffuse surfaces away from the ray.
+  if (s.is_tilted && (s.kind == LaneKind::glass || (s.kind == LaneKind::diffuse && material.displacement)))
+    s.kind = LaneKind::none;
   return s;
 }
 

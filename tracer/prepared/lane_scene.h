@@ -38,6 +38,7 @@ struct LaneSurface {
   bool two_sided = false;
   bool emits = false;
   bool is_textured = false;    // its parameters depend on the point
+  bool is_tilted = false;      // a map turns its normal
   bool has_parameters = true;  // a LaneBsdf; else they are these:
   // Of `diffuse`: the reflectance, constant or, where that is < 0, a sigmoid.
   float constant = -1;

@@ -262,6 +262,12 @@ Vector3d Materials::shading_normal(const Material& material, const Interaction& 
   return usable() ? n : at.shading;
 }
 
+Vector3d Materials::tangent(const Material& material, const Interaction& at) {
+  const auto* hair = std::get_if<HairMaterial>(&material.model);
+  const Vector3d along = hair && hair->along_v ? at.dpdv : at.dpdu;
+  return material.normal_map ? along - at.shading * dot(at.shading, along) : along;
+}
+
 bool Materials::scatters(const Material& material, const Interaction& at) const {
   return at.front || material.two_sided || kind(index_of(material)).transmits;
 }
@@ -280,18 +286,14 @@ Scattering Materials::scattering_at(const Material& material, const Interaction&
       event,
       luminance_[index_of(material)],
       tables_};
-  const auto* hair = std::get_if<HairMaterial>(&material.model);
-  Vector3d along = hair && hair->along_v ? at.dpdv : at.dpdu;
-  // A map turns the frame of the smooth normal, whose tangent is perpendicular to that, as in pbrt and
-  // Mitsuba.
-  if (material.normal_map) along = along - at.shading * dot(at.shading, along);
   Bsdf bsdf = std::visit(maker, material.model);
   // A pattern may turn the normal away from the ray, as POV-Ray's: what is as bright from all directions
   // shows it as it is.
   const bool as_it_is = takes_any_normal(bsdf) && bumps_of(material, manifest_);
   const Vector3d normal =
       as_it_is ? tilted(material, at, manifest_, textures_) : shading_normal(material, at);
-  return Scattering{std::move(bsdf), frame_around(normal, along, both_sides ? 1.0 : at.side()), both_sides,
+  return Scattering{std::move(bsdf),
+                    frame_around(normal, tangent(material, at), both_sides ? 1.0 : at.side()), both_sides,
                     material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
 }
 

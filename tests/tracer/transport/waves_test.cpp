@@ -257,6 +257,18 @@ std::vector<Case> cases() {
          add_ball(s, material(glass));
        }},
       {"pictures", pictures(TextureFilter::bilinear)},
+      {"normals by a map",
+       [](Scene& s) {
+         pictures(TextureFilter::bilinear)(s);
+         s.materials.back() = principled(0.3f);  // of the ball
+         for (Material& m : s.materials) m.normal_map = Id<Texture>{0};
+       }},
+      {"bumps",
+       [](Scene& s) {
+         pictures(TextureFilter::bilinear)(s);
+         s.materials.back() = plastic(0.2f);
+         for (Material& m : s.materials) m.displacement = FloatParameter{Id<Texture>{0}};
+       }},
       {"pictures, one of squares", pictures(TextureFilter::nearest)},
       {"to the end",
        [](Scene& s) {

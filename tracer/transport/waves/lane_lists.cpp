@@ -68,13 +68,16 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
 
   find_wavelengths(tracing, path, path.film);
   if (of.kind != LaneKind::glass) path.pane = {};
-  const bool is_placed = path.hit.depth > 0;
+  const bool is_placed = path.hit.depth > 0 || of.is_tilted;
   const Material& material = tracing.manifest().materials[surface.material];
   const Materials& materials = tracing.scene.materials;
   if (is_placed || of.emits || of.is_textured) {
     const Interaction at = interaction_at(tracing, path, cone_of(tracing, path, sample_of(path)));
     if (of.emits) add_emission(tracing, path, at, static_cast<std::uint32_t>(surface.area_light));
     placed_[place] = {at.p, at.geometric, at.shading, at.dpdu, at.rounding, at.uv};
+    if (of.is_tilted)
+      placed_[place].shading = materials.shading_normal(material, at),
+      placed_[place].dpdu = Materials::tangent(material, at);
     if (of.is_textured)
       bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, at.texture_point(), path.wavelengths));
   }
