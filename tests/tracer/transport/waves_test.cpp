@@ -270,6 +270,13 @@ std::vector<Case> cases() {
          for (Material& m : s.materials) m.displacement = FloatParameter{Id<Texture>{0}};
        }},
       {"pictures, one of squares", pictures(TextureFilter::nearest)},
+      {"layers of first surfaces",
+       [](Scene& s) {
+         s.film.layers.bits = all_layers;
+         add_block(s, principled(0.3f));
+         add_ball(s, material(DielectricMaterial{ConstantSpectrum{1.5f}}));
+         under({sun_and_sky(1)})(s);
+       }},
       {"to the end",
        [](Scene& s) {
          add_block(s, plastic(0.2f));

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tracer/transport/connect.h"
+#include "tracer/transport/first_surface.h"
 #include "tracer/transport/shading.h"
 
 namespace vitrail {
@@ -34,7 +35,7 @@ LaneLists::LaneLists(std::size_t most) : surface_(most), next_(most), bsdfs_(mos
 }
 
 bool LaneLists::apply_to(const Tracing& tracing) {
-  return tracing.stages && tracing.scene.lanes.is_enabled && !tracing.photons && !tracing.film.layers().any();
+  return tracing.stages && tracing.scene.lanes.is_enabled && !tracing.photons;
 }
 
 std::uint32_t LaneLists::candidates_of(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
@@ -71,8 +72,10 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   const bool is_placed = path.hit.depth > 0 || of.is_tilted;
   const Material& material = tracing.manifest().materials[surface.material];
   const Materials& materials = tracing.scene.materials;
-  if (is_placed || of.emits || of.is_textured) {
+  if (is_placed || of.emits || of.is_textured || path.unrecorded) {
     const Interaction at = interaction_at(tracing, path, cone_of(tracing, path, sample_of(path)));
+    if (path.unrecorded) [[unlikely]]
+      record_first_surface(tracing, path, {surface, materials.kind(surface.material), at, true});
     if (of.emits) add_emission(tracing, path, at, static_cast<std::uint32_t>(surface.area_light));
     placed_[place] = {at.p, at.geometric, at.shading, at.dpdu, at.rounding, at.uv};
     if (of.is_tilted)
