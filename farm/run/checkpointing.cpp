@@ -67,7 +67,8 @@ bool Checkpointing::drain_is_to_be_tried() const {
   if (wanted_ || drain_.known() || !keeper_ || time_limit_s() == 0) return false;
   if (state_.elapsed_s() < tried_at * time_limit_s()) return false;
   const Locked locked(state_);
-  return state_.scheduler.residency().evictions() > 0;
+  const Residency& residency = state_.scheduler.residency();
+  return residency.evictions() > 0 || !residency.all_are_local();
 }
 
 void Checkpointing::watch_clock() {

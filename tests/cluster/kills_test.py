@@ -64,7 +64,7 @@ def main():
     if not os.environ.get("VITRAIL_LONG_TESTS"):
         print("skipped: takes minutes, with VITRAIL_LONG_TESTS=1")
         return 77
-    samples = int(os.environ.get("VITRAIL_KILLS_SAMPLES", 1024))
+    samples = int(os.environ.get("VITRAIL_KILLS_SAMPLES", 2048))
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         must("/usr/bin/python3", source / "examples/city/generate.py", "-o", folder / "city", "--triangles", 10**6)
