@@ -233,6 +233,7 @@ void Rank::add_to(RenderStats& stats) const {
   stats.domain_loads = state_.scheduler.residency().loads();
   stats.evictions = state_.scheduler.residency().evictions();
   checkpointing_.add_to(stats);
+  stats.tiles_read = state_.scene.textures.tile_loads();
   if (state_.photons) {
     stats.spilled_bytes += state_.photons->questions.written_bytes();
     stats.photons_landed = state_.photons->landed;
