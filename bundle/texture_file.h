@@ -68,7 +68,7 @@ class TextureFile {
   const Features& features() const { return features_; }
 
   // The words of a tile of `level`, row by row from the bottom; rows are `width` texels wide. Files that
-  // were read last stay open; there is no limit to how many a scene has. Throws Error. Safe from many threads.
+  // were read last stay open; a scene may have any number. Throws Error. Safe from many threads.
   struct Tile {
     std::uint32_t width = 0, height = 0;
     std::size_t words = 0;
