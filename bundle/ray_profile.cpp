@@ -21,8 +21,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 RayProfile from_json(const Json& json) {
-  if (json.at("format") != "vitrail ray profile" || json.at("version") != 3)
-    throw Error("not a ray profile of version 3");
+  if (json.at("format") != "vitrail ray profile" || json.at("version") != 4)
+    throw Error("not a ray profile of version 4");
   RayProfile p;
   for (int axis = 0; axis < 3; ++axis) p.offset[axis] = number<double>(json.at("offset"), axis);
   for (const Json& n : json.at("kd_nodes"))
@@ -118,7 +118,7 @@ class ProfileWriter {
 void write_ray_profile(const std::filesystem::path& file, const RayProfile& p) {
   ProfileWriter out(file);
   const Json offset{p.offset.x, p.offset.y, p.offset.z};
-  out.add("{\"format\":\"vitrail ray profile\",\"version\":3,\"offset\":" + offset.dump());
+  out.add("{\"format\":\"vitrail ray profile\",\"version\":4,\"offset\":" + offset.dump());
   out.add_list("kd_nodes", p.kd_nodes, [](const KdNode& n) {
     return Json{n.axis, n.split, n.below, n.above};
   });

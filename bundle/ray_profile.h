@@ -15,7 +15,7 @@ struct RayProfile {
   struct Domain {
     std::uint64_t rays = 0;   // that were traced in it
     std::uint64_t items = 0;  // triangles, pieces and instances
-    double seconds = 0;       // that they took
+    double seconds = 0;       // that they took, where rays go from domain to domain
     bool operator==(const Domain&) const = default;
   };
 
@@ -29,8 +29,8 @@ struct RayProfile {
   // Seconds are summed over threads and ranks.
   struct Cost {
     std::uint64_t camera_rays = 0;
-    double trace_s = 0;   // all of tracing: of the processor
-    double camera_s = 0;  // of this, until rays were in their first domain
+    double trace_s = 0;   // all of tracing with every domain at hand: of the processor
+    double camera_s = 0;  // until rays were in their first domain, beside the domains' seconds
     double load_s = 0;
     std::uint64_t loads = 0;  // of domains
     bool operator==(const Cost&) const = default;

@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <functional>
+#include <memory>
+#include <mutex>
 
 #include "bundle/checksum.h"
 #include "bundle/features.h"
@@ -37,6 +41,49 @@ class OpenFile {
  private:
   RegularFile file_;
 };
+
+// Of some files the descriptor stays open, so that a tile is one pread: those that were read last, one a
+// place.
+class OpenFiles {
+ public:
+  using Kept = std::shared_ptr<const OpenFile>;
+
+  // The file with this name and content, opened if it is not kept.
+  Kept get(const std::filesystem::path& file, std::uint64_t hash) {
+    Place& place = place_of(file);
+    {
+      const std::lock_guard lock(place.mutex);
+      if (place.open && place.hash == hash && place.file.native() == file.native()) return place.open;
+    }
+    Kept open = std::make_shared<const OpenFile>(file);
+    keep(file, hash, open);
+    return open;
+  }
+  void keep(const std::filesystem::path& file, std::uint64_t hash, Kept open) {
+    Place& place = place_of(file);
+    const std::lock_guard lock(place.mutex);
+    place.file = file;
+    place.hash = hash;
+    place.open.swap(open);
+  }
+
+ private:
+  struct Place {
+    std::mutex mutex;
+    std::filesystem::path file;
+    std::uint64_t hash = 0;  // TextureFile's
+    Kept open;
+  };
+  Place& place_of(const std::filesystem::path& file) {
+    return places_[std::hash<std::string>()(file.native()) % places_.size()];
+  }
+  std::array<Place, 128> places_;
+};
+
+OpenFiles& open_files() {
+  static OpenFiles files;
+  return files;
+}
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
   throw Error("damaged texture file: " + what, {file.string()});
@@ -89,7 +136,8 @@ TextureFileLayout texture_file_layout(const TextureFileInfo& info) {
 }
 
 TextureFile::TextureFile(std::filesystem::path file) : file_(std::move(file)) {
-  const OpenFile in(file_);
+  const auto open = std::make_shared<const OpenFile>(file_);
+  const OpenFile& in = *open;
   TextureHeader header;
   if (!in.read(&header, sizeof header, 0)) fail(file_, "it is shorter than its header");
   if (header.magic != texture_magic) fail(file_, "it does not begin as one");
@@ -112,15 +160,16 @@ TextureFile::TextureFile(std::filesystem::path file) : file_(std::move(file)) {
   if (hash_ != header.checksum) fail(file_, "wrong checksum of the header");
   features_ = header.features;
   refuse_unknown(features_.required, 0, file_);
+  open_files().keep(file_, hash_, open);
 }
 
 TextureFile::Tile TextureFile::read_tile(std::uint32_t level, std::uint32_t tile_x, std::uint32_t tile_y,
                                          std::span<std::uint32_t, max_tile_words> words) const {
   const TextureLevel& of = layout_.levels.at(level);
   const TilePlace place = place_of(info_.format, of, tile_x, tile_y);
-  const OpenFile in(file_);
+  const auto in = open_files().get(file_, hash_);
   const Underway underway("reading", file_);
-  if (!in.read(words.data(), place.words * 4, place.offset)) fail(file_, "it has become shorter");
+  if (!in->read(words.data(), place.words * 4, place.offset)) fail(file_, "it has become shorter");
   const std::uint64_t tile = of.first_tile + static_cast<std::uint64_t>(tile_y) * of.tiles_x + tile_x;
   if (checksum(std::as_bytes(words.first(place.words))) != checksums_.at(tile))
     fail(file_, fmt::format("wrong checksum of tile {}, {} of level {} (bytes {} to {})", tile_x, tile_y,

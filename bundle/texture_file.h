@@ -67,8 +67,8 @@ class TextureFile {
   std::uint64_t hash() const { return hash_; }
   const Features& features() const { return features_; }
 
-  // The words of a tile of `level`, row by row from the bottom; rows are `width` texels wide. Opens the file
-  // for each: there is no limit to how many textures a scene has. Throws Error. Safe from many threads.
+  // The words of a tile of `level`, row by row from the bottom; rows are `width` texels wide. Files that
+  // were read last stay open; a scene may have any number. Throws Error. Safe from many threads.
   struct Tile {
     std::uint32_t width = 0, height = 0;
     std::size_t words = 0;

@@ -89,7 +89,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   now_doing("writing the statistics");
   gather_stats(transport, stats, state.domains.touched());
   std::optional<RayProfile> profile;
-  if (state.work.traffic) profile = gather_profile(transport, manifest, *state.work.traffic, stats);
+  if (state.work.profiling) profile = gather_profile(transport, manifest, *state.work.profiling, stats);
   agree(transport, [&] {  // what fails on rank 0 ends the job everywhere
     if (transport.rank() == 0) conclude(job, options, samples_before, profile, stats);
   });

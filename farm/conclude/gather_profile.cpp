@@ -2,6 +2,7 @@
 #include "farm/conclude/gather_profile.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -32,21 +33,30 @@ Ways gather_ways(Transport& transport, const RayTraffic& mine) {
 
 }  // namespace
 
-RayProfile gather_profile(Transport& transport, const Manifest& manifest, const RayTraffic& mine,
+RayProfile gather_profile(Transport& transport, const Manifest& manifest, const Profiling& mine,
                           const RenderStats& stats) {
-  std::vector<std::int64_t> visits(mine.visits().begin(), mine.visits().end());
-  transport.sum_to_root(std::span(visits));
-  std::vector<double> seconds = mine.seconds();
+  auto sums = mine.sums;
+  transport.sum_to_root(std::span<double>(sums));
+  const double walking_s = Profiling::seconds_of_all(sums, Profiling::Manner::walking),
+               of_one = Profiling::samples_a_recorded_one(sums);
+  std::vector<double> seconds = mine.traffic.seconds();
   transport.sum_to_root(std::span(seconds));
-  // A few rays were timed; together all took trace_s.
+  // A few rays were timed; these are their shares.
   const double timed = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-  for (double& s : seconds) s *= stats.trace_s / std::max(timed, 1e-9);
+  for (double& s : seconds) s *= walking_s / std::max(timed, 1e-9);
+  // Every ray that is traced in a domain came there by a way.
+  std::vector<std::uint64_t> visits(manifest.domains.size());
   std::vector<RayProfile::Way> ways;
-  for (const auto& [way, rays] : gather_ways(transport, mine))
-    ways.push_back({static_cast<std::uint32_t>(way >> 32), static_cast<std::uint32_t>(way), rays});
-  const RayProfile::Cost cost{stats.traced.rays_camera, stats.trace_s, seconds.back(), stats.load_s,
-                              stats.domain_loads};
-  return {manifest, {visits.begin(), visits.end()}, seconds, std::move(ways), cost};
+  for (const auto& [way, recorded] : gather_ways(transport, mine.traffic)) {
+    const auto rays = static_cast<std::uint64_t>(std::llround(of_one * static_cast<double>(recorded)));
+    const auto to = static_cast<std::uint32_t>(way);
+    ways.push_back({static_cast<std::uint32_t>(way >> 32), to, rays});
+    visits[to] += rays;
+  }
+  const RayProfile::Cost cost{stats.traced.rays_camera,
+                              Profiling::seconds_of_all(sums, Profiling::Manner::plain), seconds.back(),
+                              stats.load_s, stats.domain_loads};
+  return {manifest, visits, seconds, std::move(ways), cost};
 }
 
 }  // namespace vitrail

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "bundle/ray_profile.h"
+#include "farm/run/profiling.h"
 #include "farm/run/stats.h"
 #include "farm/transport/transport.h"
-#include "tracer/rays/ray_traffic.h"
 
 namespace vitrail {
 
 // Where the rays of all ranks went; whole on rank 0. All ranks call it. `stats`: the job's, on rank 0.
-RayProfile gather_profile(Transport& transport, const Manifest& manifest, const RayTraffic& mine,
+RayProfile gather_profile(Transport& transport, const Manifest& manifest, const Profiling& mine,
                           const RenderStats& stats);
 
 }  // namespace vitrail

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "farm/files/signals.h"
+#include "farm/scheduler/nap.h"
 #include "farm/transport/agreement.h"
 #include "farm/transport/doing.h"
 #include "scene/system/say.h"
@@ -16,24 +17,6 @@ namespace {
 
 using Clock = RankState::Clock;
 using namespace std::chrono_literals;
-
-// The loop naps while nothing moves, longer and longer: a rank that spins takes the core from one that works.
-class Nap {
- public:
-  static constexpr std::chrono::microseconds shortest = 20us, longest = 1000us;
-
-  void after_step(bool moved) {
-    if (moved) {
-      next_ = shortest;
-      return;
-    }
-    std::this_thread::sleep_for(next_);
-    next_ = std::min(next_ * 2, longest);
-  }
-
- private:
-  std::chrono::microseconds next_ = shortest;
-};
 
 // Into the timeline, where one is recorded.
 void note_counters(const Locked&, RankState& state, std::int64_t rays_waiting, Clock::time_point& last) {
@@ -89,7 +72,10 @@ Ending Rank::run() {
       join_round();
       in_round = moved = true;
     }
-    nap.after_step(moved);
+    if (moved)
+      nap.moved();
+    else
+      std::this_thread::sleep_for(nap.take());
   }
 }
 
@@ -233,6 +219,7 @@ void Rank::add_to(RenderStats& stats) const {
   stats.domain_loads = state_.scheduler.residency().loads();
   stats.evictions = state_.scheduler.residency().evictions();
   checkpointing_.add_to(stats);
+  stats.tiles_read = state_.scene.textures.tile_loads();
   if (state_.photons) {
     stats.spilled_bytes += state_.photons->questions.written_bytes();
     stats.photons_landed = state_.photons->landed;

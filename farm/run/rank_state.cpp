@@ -17,7 +17,7 @@ RankState::RankState(const RenderScene& the_scene, Film& the_film, WorkPlan the_
   if (job.key.photons.photons > 0)
     photons.emplace(scene, job.key.photons, job.most_photons, job.queues.questions, job.homes,
                     job.scheduler.rank, ranks);
-  if (!options.outputs.profile.empty()) work.traffic.emplace(scene.manifest.domains.size());
+  if (!options.outputs.profile.empty()) work.profiling.emplace(scene.manifest.domains.size());
   if (!options.outputs.trace.empty()) work.timeline.emplace(Timeline::most_events(ranks));
 }
 

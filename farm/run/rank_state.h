@@ -12,6 +12,7 @@
 #include "farm/plan/work.h"
 #include "farm/rays/queues.h"
 #include "farm/run/photon_work.h"
+#include "farm/run/profiling.h"
 #include "farm/run/resident_domains.h"
 #include "farm/scheduler/scheduler.h"
 #include "tracer/transport/waves/tracer.h"
@@ -27,9 +28,9 @@ struct ItemShare {
 // What the rank has traced so far, and where its time went.
 struct RankWork {
   TraceCounters counters;
-  std::optional<RayTraffic> traffic;  // empty: not recorded
-  std::optional<Timeline> timeline;   // the same
-  double trace_s = 0;                 // of the processor; the others are of the clock
+  std::optional<Profiling> profiling;  // empty: nothing is recorded
+  std::optional<Timeline> timeline;    // the same
+  double trace_s = 0;                  // of the processor; the others are of the clock
   double idle_s = 0, load_s = 0;
 };
 

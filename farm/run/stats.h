@@ -35,6 +35,7 @@ struct RenderStats {
   std::uint64_t forwarded_rays = 0, forwarded_bytes = 0, messages = 0;
   std::uint64_t domains_total = 0, domains_touched = 0, domain_loads = 0, evictions = 0;
   std::uint64_t spilled_bytes = 0;  // of rays, to the disk
+  std::uint64_t tiles_read = 0;     // of textures, from their files
   std::uint64_t items_given = 0;    // from rank to rank
   std::uint64_t checkpoints = 0;
   // Of photon mapping: landings of all iterations, and most of an iteration that a rank kept.

@@ -33,6 +33,9 @@ void take_samples(const Locked&, RankState& s, std::uint64_t most, Task& task) {
   s.done[item / 64] |= std::uint64_t{1} << (item % 64);
 }
 
+// Where tasks take turns they are a wave each, so that neighbours in the picture are traced in all manners.
+constexpr std::uint64_t samples_of_a_turn = Wave::most;
+
 }  // namespace
 
 Task take_task(const Locked& locked, RankState& s) {
@@ -49,7 +52,8 @@ Task take_task(const Locked& locked, RankState& s) {
     task.batch = s.queues.pop(next.domain);
     s.scheduler.begin_batch(next.domain, task.batch.count());
   } else if (next.work == Scheduler::Work::generate) {
-    (s.photons_fly() ? take_photons : take_samples)(locked, s, next.rays, task);
+    const std::uint64_t most = s.work.profiling ? std::min(next.rays, samples_of_a_turn) : next.rays;
+    (s.photons_fly() ? take_photons : take_samples)(locked, s, most, task);
   }
   return task;
 }

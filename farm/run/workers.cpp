@@ -89,11 +89,24 @@ struct Hands {
   std::optional<RayTraffic> traffic;
 };
 
+// Rays go from domain to domain, as where the one or other is absent.
+const KernelFunctions& walking_kernel() {
+  static const KernelFunctions kernel = [] {
+    KernelFunctions walks = best_kernel();
+    walks.domains_closest = [](auto...) { return false; };
+    walks.domains_occluded = [](auto...) { return Passage::unknown; };
+    return walks;
+  }();
+  return kernel;
+}
+
 // Returns seconds of the processor.
-double trace(RankState& s, Task& task, Hands& hands) {
+double trace(RankState& s, Task& task, Profiling::Manner manner, Hands& hands) {
   const double start = thread_cpu_seconds();
+  const bool recorded = hands.traffic && manner == Profiling::Manner::recorded;
   Tracer tracer({s.scene, task.table->views, s.film, hands.outbox, hands.counters,
-                 hands.traffic ? &*hands.traffic : nullptr, s.photons ? &s.photons->pass() : nullptr},
+                 recorded ? &*hands.traffic : nullptr, s.photons ? &s.photons->pass() : nullptr,
+                 manner == Profiling::Manner::walking ? walking_kernel() : best_kernel()},
                 hands.wave);
   perform(task, s.plan, tracer, [&] {
     if (hands.outbox.size() < most_rays_in_hand) return;
@@ -102,7 +115,7 @@ double trace(RankState& s, Task& task, Hands& hands) {
   });
   tracer.finish();
   task.table.reset();
-  if (hands.traffic) hands.traffic->end();
+  if (recorded) hands.traffic->end();
   return thread_cpu_seconds() - start;
 }
 
@@ -118,7 +131,7 @@ void wait_for_work(Locked& locked, RankState& s) {
 void work(RankState& s, int thread) {
   Hands hands;
   Locked locked(s);
-  if (s.work.traffic) hands.traffic.emplace(s.scene.manifest.domains.size());
+  if (s.work.profiling) hands.traffic.emplace(s.scene.manifest.domains.size());
   std::optional<Clock::time_point> idle_since;
   while (!s.finished) {
     Task task = take_task(locked, s);
@@ -131,18 +144,21 @@ void work(RankState& s, int thread) {
     note_idleness(locked, s, thread, idle_since);
     Clock::time_point begin;
     double busy_s = 0;
+    const std::uint64_t rays = task.end - task.first + task.batch.count();
+    const auto manner = s.work.profiling ? s.work.profiling->next(task.work) : Profiling::Manner::plain;
     locked.without([&] {
       const Underway underway("tracing rays");
       begin = Clock::now();
-      busy_s = trace(s, task, hands);
+      busy_s = trace(s, task, manner, hands);
     });
     s.work.trace_s += busy_s;
+    if (s.work.profiling) s.work.profiling->took(task.work, manner, rays, busy_s);
     note_task(locked, s, thread, begin, task);
     publish(locked, s, hands.outbox, hands.counters);
     s.scheduler.finish_task(task.end - task.first);
   }
   note_idleness(locked, s, thread, idle_since);
-  if (hands.traffic) s.work.traffic->add(*hands.traffic);
+  if (hands.traffic) s.work.profiling->traffic.add(*hands.traffic);
 }
 
 std::int64_t bytes_of(const LoadStep::Load& load, const Manifest& manifest) {

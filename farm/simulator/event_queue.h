@@ -20,6 +20,7 @@ struct SimulationEvent {
     round_ends,
     watch,
     ask,
+    look,  // for messages that came, and for rays to send
     answer,
     checkpoint
   };

@@ -69,7 +69,7 @@ void RayFlow::enter(std::uint32_t domain, std::uint64_t rays) {
 
 // Domains that rays stand in, the first that was entered first.
 void RayFlow::follow(TaskRays& task, const Domains& resident, SimulatedMachine& machine) {
-  task.seconds += 1e-6 + workload_.camera.seconds * static_cast<double>(task.generated);
+  double tracing_s = workload_.camera.seconds * static_cast<double>(task.generated);
   for (std::size_t i = 0; i < entered_.size(); ++i) {
     const std::uint32_t domain = entered_[i];
     const std::uint64_t rays = std::exchange(standing_[domain], 0);
@@ -78,7 +78,7 @@ void RayFlow::follow(TaskRays& task, const Domains& resident, SimulatedMachine& 
       continue;
     }
     const Workload::Domain& d = workload_.domains[domain];
-    task.seconds += d.seconds * static_cast<double>(rays);
+    tracing_s += d.seconds * static_cast<double>(rays);
     task.traced += rays;
     task.died += rays;
     go_on(rays, d.ways, until_[domain], machine, [&](std::uint32_t to, std::uint64_t leave) {
@@ -87,6 +87,10 @@ void RayFlow::follow(TaskRays& task, const Domains& resident, SimulatedMachine& 
     });
   }
   entered_.clear();
+  std::uint64_t handled = 0;
+  for (const auto& [domain, rays] : task.made) handled += rays;
+  task.seconds += 1e-6 + tracing_s * (handled > 0 ? 1 : workload_.at_hand) +
+                  machine.costs().ray_handling_s * static_cast<double>(handled);
 }
 
 }  // namespace vitrail

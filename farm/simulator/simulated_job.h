@@ -117,16 +117,18 @@ class SimulatedJob {
       case Event::Kind::task_done:
         r.finish_task(e.number);
         note_thirds();
-        r.send();
-        return r.wake_workers();
+        r.wake_workers();
+        return r.wants_to_send();
       case Event::Kind::load_done:
         return r.finish_load(static_cast<std::uint32_t>(e.number));
       case Event::Kind::message:
-        return r.receive(world_.messages.extract(e.number).mapped());
+        return r.message_came(world_.messages.extract(e.number).mapped());
       case Event::Kind::head:
         return r.ask_for_rest(e.number);
       case Event::Kind::wants_rest:
         return r.send_rest(e.number);
+      case Event::Kind::look:
+        return r.look();
       case Event::Kind::items:
         return r.take_items(e.number);
       case Event::Kind::round_begins:
@@ -157,7 +159,7 @@ class SimulatedJob {
 
   // --- Rounds
   void begin_round(Rank& r) {
-    r.send();
+    r.joins_round();
     RoundSums mine = r.scheduler.contribution();
     mine.items_done += static_cast<std::int64_t>(r.items_before);
     mine.pause = r.wants_checkpoint;

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "farm/scheduler/nap.h"
+
 namespace vitrail {
 
 SimulatedMachine::SimulatedMachine(const Machine& machine, std::uint64_t seed)
@@ -34,9 +36,18 @@ double SimulatedMachine::read(int rank, double files, std::uint64_t bytes) {
   return until_s;
 }
 
+double SimulatedMachine::next_look_s(double moved_s) const {
+  Nap nap;
+  double at_s = moved_s;
+  do at_s += std::chrono::duration<double>(nap.take()).count() + costs_.wake_s;
+  while (at_s < now_s_);
+  return at_s;
+}
+
+// Up a tree of ranks and down; each looks a nap later.
 double SimulatedMachine::round_s() {
-  const double steps = std::bit_width(static_cast<unsigned>(costs_.ranks));
-  return latency_s() * steps;
+  const double steps = std::bit_width(static_cast<unsigned>(costs_.ranks) - 1);
+  return (latency_s() + std::chrono::duration<double>(Nap::shortest).count() + costs_.wake_s) * steps;
 }
 
 double SimulatedMachine::sending_s(std::uint64_t rays) const {

@@ -27,6 +27,9 @@ class SimulatedMachine {
   double latency_s() { return late() * costs_.latency_s; }
   // Until when a rank's disk reads so much for it: after all that was asked of that disk before.
   double read(int rank, double files, std::uint64_t bytes);
+  // When the thread of messages looks next, where something moved at `moved_s` last: it naps longer and
+  // longer, and the system wakes it later.
+  double next_look_s(double moved_s) const;
   // From the last rank that joins a round to its end on one of them.
   double round_s();
 

@@ -64,39 +64,21 @@ class SimulatedRank {
     wake_workers();
   }
 
-  // --- Messages
-  void send() {
-    const double now_s = world_.machine.now_s();
-    if (!scheduler.send_is_due(now_s)) return;
-    std::uint64_t sent = 0;
-    std::map<int, SimulatedMessage> messages;  // by destination
-    for (const auto& [domain, rays] : outgoing_) {
-      sent += rays;
-      for (std::uint64_t left = rays; left > 0;) {
-        const std::uint64_t batch = std::min(left, costs().rays_of_a_batch);
-        messages[scheduler.destination(domain, batch)].emplace_back(domain, batch);
-        left -= batch;
-      }
-    }
-    for (auto& [to, message] : messages) send(to, std::move(message));
-    rays_ -= sent;
-    outgoing_.clear();
-    scheduler.sent(sent, now_s);
+  // --- Messages. The thread that moves them naps; what comes, and what is to be sent, waits until it looks.
+  void message_came(SimulatedMessage message) {
+    came_.push_back(std::move(message));
+    will_look();
   }
-
-  void receive(const SimulatedMessage& message) {
-    // A rank that leaves because of another takes what comes until all have left.
-    if (ended && world_.result.failed) return;
-    for (const auto& [domain, rays] : message) {
-      if (ended) invariant::broken(fmt::format("rank {} had ended when {} rays arrived", number_, rays));
-      if (!scheduler.residency().homes().has(domain, number_))
-        invariant::broken(fmt::format("rank {} got {} rays for a domain of another", number_, rays));
-      world_.result.spilled_rays += queues_.put(domain, rays);
-      rays_ += rays;
-      scheduler.arrived(domain, rays);
-    }
-    note_most();
-    wake_workers();
+  void wants_to_send() {
+    if (scheduler.rays_to_send() > 0) will_look();
+  }
+  void look() {
+    will_look_ = false;
+    move_messages();
+  }
+  void joins_round() {
+    move_messages();
+    moved_s_ = world_.machine.now_s();
   }
 
   // Of a message in two parts.
@@ -162,6 +144,51 @@ class SimulatedRank {
         queues_(world.workload.domains.size(), costs),
         workers_(static_cast<std::size_t>(costs.workers)) {
     for (std::size_t i = 0; i < workers_.size(); ++i) scheduler.worker_waits();
+  }
+
+  void will_look() {
+    if (std::exchange(will_look_, true)) return;
+    world_.events.at(world_.machine.next_look_s(moved_s_), {SimulationEvent::Kind::look, number_});
+  }
+
+  void move_messages() {
+    const bool due = scheduler.send_is_due(world_.machine.now_s());
+    if (!came_.empty() || due) moved_s_ = world_.machine.now_s();
+    for (const SimulatedMessage& message : std::exchange(came_, {})) receive(message);
+    if (due) send();
+  }
+
+  void send() {
+    const double now_s = world_.machine.now_s();
+    std::uint64_t sent = 0;
+    std::map<int, SimulatedMessage> messages;  // by destination
+    for (const auto& [domain, rays] : outgoing_) {
+      sent += rays;
+      for (std::uint64_t left = rays; left > 0;) {
+        const std::uint64_t batch = std::min(left, costs().rays_of_a_batch);
+        messages[scheduler.destination(domain, batch)].emplace_back(domain, batch);
+        left -= batch;
+      }
+    }
+    for (auto& [to, message] : messages) send(to, std::move(message));
+    rays_ -= sent;
+    outgoing_.clear();
+    scheduler.sent(sent, now_s);
+  }
+
+  void receive(const SimulatedMessage& message) {
+    // A rank that leaves because of another takes what comes until all have left.
+    if (ended && world_.result.failed) return;
+    for (const auto& [domain, rays] : message) {
+      if (ended) invariant::broken(fmt::format("rank {} had ended when {} rays arrived", number_, rays));
+      if (!scheduler.residency().homes().has(domain, number_))
+        invariant::broken(fmt::format("rank {} got {} rays for a domain of another", number_, rays));
+      world_.result.spilled_rays += queues_.put(domain, rays);
+      rays_ += rays;
+      scheduler.arrived(domain, rays);
+    }
+    note_most();
+    wake_workers();
   }
 
   // False: there is none.
@@ -259,6 +286,9 @@ class SimulatedRank {
   SimulatedQueues<SpillType> queues_;
   std::map<std::uint32_t, std::uint64_t> outgoing_;  // rays, by domain
   std::vector<Worker> workers_;
+  std::vector<SimulatedMessage> came_;  // since the rank looked
+  bool will_look_ = false;
+  double moved_s_ = 0;         // when messages moved last, or a round began
   std::uint64_t rays_ = 0;     // that wait here, or for being sent
   std::uint64_t item_at_ = 0;  // rays of the open item that are generated
   Busy busy_;

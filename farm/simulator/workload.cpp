@@ -27,8 +27,13 @@ Workload workload_of(const Manifest& manifest, const RayProfile& profile, double
   w.manifest.domains.resize(manifest.domains.size());
   w.manifest.objects.resize(manifest.objects.size());
   std::uint64_t visits = 0;
-  for (const RayProfile::Domain& d : profile.domains) visits += d.rays;
-  const double mean = profile.cost.trace_s / static_cast<double>(std::max<std::uint64_t>(visits, 1));
+  double all_s = profile.cost.camera_s;
+  for (const RayProfile::Domain& d : profile.domains) {
+    visits += d.rays;
+    all_s += d.seconds;
+  }
+  if (all_s > 0) w.at_hand = profile.cost.trace_s / all_s;
+  const double mean = all_s / static_cast<double>(std::max<std::uint64_t>(visits, 1));
   w.camera.seconds = profile.cost.camera_s / static_cast<double>(profile.cost.camera_rays);
   for (std::size_t i = 0; i < manifest.domains.size(); ++i) {
     w.manifest.domains[i].bytes = manifest.domains[i].bytes;

@@ -22,6 +22,7 @@ struct Workload {
   Manifest manifest;            // bytes of domains and objects alone
   std::vector<Domain> domains;  // a ray bears fewer than one in the mean, or no picture ends
   Domain camera;                // of one of its rays, what is before the first domain
+  double at_hand = 1;           // times these seconds, where a task meets no domain that is absent
   std::uint64_t items = 0;      // of the job
   std::uint32_t rays_an_item = 0;
   double middle_again = 0;  // the middle third of the items so many times more, which is reckoned

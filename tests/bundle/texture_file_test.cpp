@@ -107,6 +107,40 @@ TEST(TextureFile, AnyOtherLengthIsFound) {
   EXPECT_THROW(read_everything(path), Error);
 }
 
+// Tiles are read through a descriptor that stays open, as long as it is of the same content.
+TEST(TextureFile, ATileOpensNoFile) {
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path path = directory / "a.tex";
+  const auto info = info_of(TexelFormat::number, 9, 5);
+  write_texture_file(path, info, sample_texel);
+  const TextureFile file(path);
+  std::array<std::uint32_t, max_tile_words> tile, other;
+  std::filesystem::remove(path);
+  EXPECT_EQ(file.read_tile(0, 0, 0, tile).words, 45u);
+  write_texture_file(path, info, [](auto... at) { return TexelWords{sample_texel(at...)[0] + 1}; });
+  const TextureFile successor(path);
+  successor.read_tile(0, 0, 0, other);
+  EXPECT_EQ(other[0], tile[0] + 1);
+  EXPECT_THROW(file.read_tile(0, 0, 0, tile), Error) << "it is no longer there";
+}
+
+// Of more files than stay open every tile can be read.
+TEST(TextureFile, ThereIsNoLimitToTheirNumber) {
+  const test::TemporaryDirectory directory;
+  std::vector<TextureFile> files;
+  std::array<std::uint32_t, max_tile_words> tile;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const std::filesystem::path path = directory / (std::to_string(i) + ".tex");
+    write_texture_file(path, info_of(TexelFormat::number, 1, 1), [i](auto...) { return TexelWords{i}; });
+    files.emplace_back(path);
+  }
+  for (int again = 0; again < 2; ++again)
+    for (std::uint32_t i = 0; i < files.size(); ++i) {
+      files[i].read_tile(0, 0, 0, tile);
+      EXPECT_EQ(tile[0], i);
+    }
+}
+
 TEST(TextureFile, WhatTheMachineRefuses) {
   EXPECT_THROW(TextureFile("/nowhere/a.tex"), MachineError);
   EXPECT_THROW(write_texture_file("/proc/a.tex", info_of(TexelFormat::number, 1, 1), sample_texel),

@@ -14,6 +14,7 @@
 #include "farm/plan/work.h"
 #include "farm/rays/parcel.h"
 #include "farm/rays/queues.h"
+#include "farm/run/profiling.h"
 #include "farm/scheduler/scheduler.h"
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
@@ -539,6 +540,28 @@ TEST(Residency, KeepsAnothersDomainOnlyIfMuchAskedFor) {
   EXPECT_TRUE(roomy.is_local(1));
   roomy.rays_forwarded(2, 1000000);
   EXPECT_FALSE(roomy.is_local(2)) << "the room is taken";
+}
+
+// Recording takes ten times as long: it counts in neither sum.
+TEST(Profiling, TellsWhatTracingCostsWithoutIt) {
+  using Manner = Profiling::Manner;
+  using Work = Scheduler::Work;
+  Profiling profiling(1);
+  const auto take = [&](Work work, std::uint64_t rays, double recorded_s, double walking_s, double plain_s) {
+    const Manner manner = profiling.next(work);
+    const double seconds[] = {recorded_s, walking_s, plain_s};
+    profiling.took(work, manner, rays, seconds[static_cast<std::size_t>(manner)]);
+  };
+  take(Work::generate, 100, 10, 2, 1);
+  EXPECT_EQ(Profiling::seconds_of_all(profiling.sums, Manner::plain), 10) << "nothing else is known yet";
+  for (int i = 0; i < 5; ++i) take(Work::generate, 100, 10, 2, 1);
+  EXPECT_EQ(Profiling::seconds_of_all(profiling.sums, Manner::plain), 6);
+  EXPECT_EQ(Profiling::seconds_of_all(profiling.sums, Manner::walking), 12);
+  EXPECT_EQ(Profiling::samples_a_recorded_one(profiling.sums), 3);
+  for (int i = 0; i < 6; ++i) take(Work::trace, 1000, 100, 30, 20);
+  EXPECT_EQ(Profiling::seconds_of_all(profiling.sums, Manner::plain), 6 + 120);
+  EXPECT_EQ(Profiling::seconds_of_all(profiling.sums, Manner::walking), 12 + 180);
+  EXPECT_EQ(Profiling::samples_a_recorded_one(profiling.sums), 3) << "rays are not samples";
 }
 
 }  // namespace

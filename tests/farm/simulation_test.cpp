@@ -169,6 +169,47 @@ TEST(Simulation, RanksWaitForTheirDisk) {
   EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds / own_s, 4, .2);
 }
 
+// Rays leave some thousand at a time, or when a worker has nothing to do: not after each task. What came
+// since a rank looked is taken together.
+TEST(Simulation, SendsManyRaysAtATime) {
+  std::mt19937_64 random(1);
+  Machine machine;
+  machine.ranks = 2;
+  machine.rays_allowed = 400'000;
+  machine.distribution = Distribution::decompose;
+  Workload workload = random_workload(random, 2, 2000, 400);
+  for (Workload::Domain& d : workload.domains) d = {1e-7, {{0, .45}, {1, .45}}};  // both ranks have work
+  workload.camera.ways = {{0, .5}, {1, .5}};
+  machine.domain_bytes = bytes_of_all(workload.manifest);
+  const SimulationResult quick = simulate(workload, machine, {}, 1);
+  EXPECT_GT(quick.forwarded_rays, 2000 * quick.messages);
+  machine.wake_s = 5e-3;
+  EXPECT_LT(simulate(workload, machine, {}, 1).messages, quick.messages);
+}
+
+// A ray that waits for a domain is packed and unpacked. Where all domains are at hand rays cost less, as they
+// take all at once.
+TEST(Simulation, TracingCostsLessWithAllDomainsAtHand) {
+  std::mt19937_64 random(1);
+  Machine machine;
+  machine.rays_allowed = 100'000;
+  machine.ray_handling_s = 0;
+  Workload workload = random_workload(random, 16, 200, 1000);
+  machine.domain_bytes = bytes_of_all(workload.manifest);
+  const double tasks_s = 1e-6 * 2000;
+  const auto busy_s = [&] { return simulate(workload, machine, {}, 1).busy_s; };
+  const double walking_s = busy_s();
+  workload.at_hand = .5;
+  EXPECT_NEAR(busy_s() / walking_s, .5, .05);
+  machine.ranks = 2;
+  machine.distribution = Distribution::decompose;
+  EXPECT_NEAR(busy_s() / walking_s, 1, .1);
+  machine.ray_handling_s = 1e-6;
+  const SimulationResult handled = simulate(workload, machine, {}, 1);
+  EXPECT_NEAR((handled.busy_s - tasks_s) / (walking_s + 1e-6 * static_cast<double>(handled.forwarded_rays)),
+              1, .1);
+}
+
 // Rays that memory has no room for cost what writing and reading them takes.
 TEST(Simulation, RaysWaitForTheirDisk) {
   std::mt19937_64 random(1);

@@ -62,11 +62,11 @@ TEST(RayProfile, WhatIsNoneIsAnError) {
   const auto file = directory.path() / "profile.json";
   for (
       const char* text :
-      {"", "[]", "{}", R"({"format": "vitrail ray profile", "version": 3})",
-       R"({"format": "vitrail ray profile", "version": 2, "offset": [0, 0, 0], "kd_nodes": [], "domains": [[1, 1, 1]]})",
-       R"({"format": "vitrail ray profile", "version": 3, "offset": [0, 0, 0], "kd_nodes": [], "domains": []})",
-       R"({"format": "vitrail ray profile", "version": 3, "offset": [0, 0, 0], "kd_nodes": [[0, 0, 0, 0]], "domains": [[1, 1, 1], [1, 1, 1]]})",
-       R"({"format": "vitrail ray profile", "version": 3, "offset": [0, 0, 0], "kd_nodes": [[3, 0, 2147483648, 2147483649]], "domains": [[1, 1, 1], [1, 1, 1]]})"}) {
+      {"", "[]", "{}", R"({"format": "vitrail ray profile", "version": 4})",
+       R"({"format": "vitrail ray profile", "version": 3, "offset": [0, 0, 0], "kd_nodes": [], "domains": [[1, 1, 1]]})",
+       R"({"format": "vitrail ray profile", "version": 4, "offset": [0, 0, 0], "kd_nodes": [], "domains": []})",
+       R"({"format": "vitrail ray profile", "version": 4, "offset": [0, 0, 0], "kd_nodes": [[0, 0, 0, 0]], "domains": [[1, 1, 1], [1, 1, 1]]})",
+       R"({"format": "vitrail ray profile", "version": 4, "offset": [0, 0, 0], "kd_nodes": [[3, 0, 2147483648, 2147483649]], "domains": [[1, 1, 1], [1, 1, 1]]})"}) {
     std::ofstream(file) << text;
     EXPECT_THROW(read_ray_profile(file), Error) << text;
   }

@@ -54,7 +54,12 @@ std::optional<Elsewhere> find_hit(Tracing& tracing, Traveller& t, const std::opt
       if (t.hit_domain != holder) located = true;
     }
   }
-  if (!t.meets_surface() || located) return std::nullopt;
+  if (!t.meets_surface()) return std::nullopt;
+  if (located) {
+    // Where not all domains are at hand, the ray goes back to that of its hit.
+    if (tracing.traffic && t.hit_domain != tracing.traffic->place().domain) tracing.count_visit(t.hit_domain);
+    return std::nullopt;
+  }
   if (!tracing.resident[t.hit_domain]) return Elsewhere{t.hit_domain, true};
   t.hit = {};
   intersect(tracing, t, constants, t.hit_domain);
