@@ -80,5 +80,34 @@ TEST_F(PovraySilhouettes, CamerasThatAreMoved) {
       around);
 }
 
+// The first letter begins at x = 0, whatever space its font has before it.
+TEST_F(PovraySilhouettes, Texts) {
+  for (const char* text :
+       {"\"cyrvetic.ttf\" \"iC.\" .2, 0", "\"timrom.ttf\" \"bi\" .2, 0", "\"cyrvetic.ttf\" \" C\" .2, .1*x"})
+    expect_alike(fmt::format(
+        "camera {{ orthographic location <.5, .3, -4> look_at <.5, .3, 0> right 1.6*x up 1.2*y }}\n"
+        "text {{ ttf {} }}\n",
+        text));
+}
+
+// What clips it says where a surface without end is looked at.
+TEST_F(PovraySilhouettes, PolynomialsThatAreClipped) {
+  const std::string view = "camera { location <2, 3, -9> look_at 0 angle 50 }\n";
+  expect_alike(view + "quadric { <-1, 0, 1>, <0, 0, 0>, <0, 1, 0>, 0 clipped_by { box { -2, 2 } } }\n");
+  expect_alike(view +
+               "quartic { <0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -.1666, 0, 1, 0, 0, 0, 0, 0, 0, "
+               "0, 0, .5, 0, "
+               "-1, 0, 0, 0, 0, 0> clipped_by { quadric { <1, 1, 0>, 0, 0, -1 scale 2 } plane { z, 1.4142 } "
+               "plane { -z, 0 } } bounded_by { clipped_by } }\n");
+}
+
+// They go on to the horizon.
+TEST_F(PovraySilhouettes, PolynomialsWithoutEnd) {
+  const std::string view = "camera { location <0, 8, -30> look_at <0, 2, 0> angle 60 }\n";
+  expect_alike(view + "quadric { <1, 0, 1>, 0, <0, -6, 0>, 0 }\n");      // a bowl
+  expect_alike(view + "quadric { <1, -1, 1>, 0, 0, 1 }\n");              // two sheets
+  expect_alike(view + "quadric { <0, 1, 1>, 0, 0, -4 rotate y*30 }\n");  // a cylinder
+}
+
 }  // namespace
 }  // namespace vitrail
