@@ -109,5 +109,14 @@ TEST_F(PovraySilhouettes, PolynomialsWithoutEnd) {
   expect_alike(view + "quadric { <0, 1, 1>, 0, 0, -4 rotate y*30 }\n");  // a cylinder
 }
 
+// Some of its islands intersect themselves, which CGAL refuses.
+TEST_F(PovraySilhouettes, CutFractals) {
+  expect_alike(
+      "camera { location -6*z look_at 0 angle 30 }\n"
+      "intersection { julia_fractal { <-0.54, 0.57, 0.0, -0.37> max_iteration 8 precision 20 cube }\n"
+      "  box { <-3, -3, -3>, <3, 3, .2> } }\n",
+      0.9);
+}
+
 }  // namespace
 }  // namespace vitrail
