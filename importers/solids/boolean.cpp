@@ -206,6 +206,22 @@ BooleanResult with_shifts(const Solid& b, Once&& once) {
   return result;
 }
 
+// Whether `inner` keeps to `outer`, but for a rounding.
+bool lies_in(const Bounds3d& inner, const Bounds3d& outer) {
+  const double margin = 1e-4 * length(extent(outer));
+  for (int axis = 0; axis < 3; ++axis)
+    if (inner.lower[axis] < outer.lower[axis] - margin || inner.upper[axis] > outer.upper[axis] + margin)
+      return false;
+  return true;
+}
+
+// An operand whose front is inside counts as all the rest: its intersection would be nearly all of the other.
+bool is_possible(Operation operation, const Solid& a, const Solid& b, const Solid& result) {
+  if (result.empty() || operation == Operation::unite) return true;
+  const Bounds3d made = bounds_of(result);
+  return lies_in(made, bounds_of(a)) && (operation == Operation::subtract || lies_in(made, bounds_of(b)));
+}
+
 }  // namespace
 
 BooleanResult boolean(Operation operation, const Solid& a, const Solid& b) {
@@ -225,9 +241,11 @@ BooleanResult boolean(Operation operation, const Solid& a, const Solid& b) {
       done = pmp::corefine_and_compute_difference(first, second, out, how);
     return done ? &out : nullptr;
   };
-  return with_shifts(b, [&](const Solid& second) {
+  BooleanResult made = with_shifts(b, [&](const Solid& second) {
     return attempt(a, second, operation == Operation::subtract, true, compute);
   });
+  if (made.solid && !is_possible(operation, a, b, *made.solid)) return {{}, intersects_itself};
+  return made;
 }
 
 BooleanResult cut_surface(const Solid& surface, const Solid& by, bool keep_inside) {

@@ -35,14 +35,33 @@ Bounds3d bounds_of(const Bodies& bodies) {
 
 class Evaluation {
  public:
-  Evaluation(const CsgOptions& options, CsgResult& result) : options_(options), result_(result) {}
+  Evaluation(const CsgOptions& options, CsgResult& result) : options_(options), result_(result) {
+    const double r = options.reach;
+    reach_ = {{-r, -r, -r}, {r, r, r}};
+  }
 
   Value value_of(const Csg& csg) {
+    const Bounds3d before = reach_;
+    if (csg.bounds) narrow_to(*csg.bounds);
+    Value value = value_within(csg);
+    reach_ = before;
+    return value;
+  }
+
+ private:
+  // A little more than the box, so that what closes a set without end lies beyond what it is cut by.
+  void narrow_to(const Bounds3d& box) {
+    const Vector3d margin = extent(box) * 0.0173 + Vector3d{1e-9, 1e-9, 1e-9};
+    const Bounds3d narrow = vitrail::common(reach_, Bounds3d{box.lower - margin, box.upper + margin});
+    if (!narrow.empty()) reach_ = narrow;
+  }
+
+  Value value_within(const Csg& csg) {
     switch (csg.kind) {
       case Csg::Kind::solid:
         return {bodies_of(csg.solid)};
       case Csg::Kind::unbounded:
-        return {{csg.within(reach())}};
+        return {{csg.within(reach_)}};
       case Csg::Kind::unite:
         return united(csg, false);
       case Csg::Kind::merge:
@@ -56,12 +75,6 @@ class Evaluation {
     std::vector<Literal> literals;
     gather(csg, false, literals);
     return intersected(literals);
-  }
-
- private:
-  Bounds3d reach() const {
-    const double r = options_.reach;
-    return {{-r, -r, -r}, {r, r, r}};
   }
 
   // ¬(A ∪ B) = ¬A ∩ ¬B: what is intersected, without trees.
@@ -113,7 +126,7 @@ class Evaluation {
     Bodies left;
     const bool from_infinity = positives.empty();
     if (from_infinity) {
-      left.push_back(box(reach().lower, reach().upper));
+      left.push_back(box(reach_.lower, reach_.upper));
       std::ranges::fill(left.front().surfaces, unseen);
     } else {
       const auto smallest = std::ranges::min_element(
@@ -258,6 +271,7 @@ class Evaluation {
   }
 
   const CsgOptions& options_;
+  Bounds3d reach_;  // of what has no end
   CsgResult& result_;
   Bodies kept_apart_;
 };

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct Csg {
   Solid solid;
   Unbounded within;
   std::vector<Csg> operands;
+  std::optional<Bounds3d>
+      bounds;  // a box that holds the set: sets without end in it are looked at there alone
 };
 
 // `surface` is the number that the triangles get, wherever they end up.

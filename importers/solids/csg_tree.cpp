@@ -107,6 +107,7 @@ Csg transformed(Csg csg, const Transform& to) {
       return transformed(within(transformed_box(box, back)), to);
     };
   }
+  if (csg.bounds) csg.bounds = transformed_box(*csg.bounds, to);
   for (Csg& operand : csg.operands) operand = transformed(std::move(operand), to);
   return csg;
 }

@@ -36,6 +36,10 @@ struct Implicit {
 // the tessellation asks. An empty solid where the field has no zero.
 Solid implicit(const Implicit& implicit, const Tessellation& tessellation = {});
 
+// The zero of a field that has no container, up to `far` along each axis and open there. Its lattice is even
+// up to `near`, and ever coarser beyond: what is thinner than .06 of its distance may be lost.
+Solid far_reaching(const Field& field, double near, double far, const Tessellation& tessellation = {});
+
 // Coefficients as POV-Ray lists them: xⁱyʲzᵏ with i + j + k ≤ order, highest i first, then j, then k; of
 // order 2 these are 10 numbers. POV-Ray's `quadric` lists them otherwise: see `quadric_coefficients`.
 Field polynomial(int order, std::vector<double> coefficients);

@@ -36,9 +36,9 @@ struct SurfaceOfRevolution {
 };
 Solid surface_of_revolution(const SurfaceOfRevolution& sor, const Tessellation& tessellation = {});
 
-// Letters from z = 0 to z = thickness, on the line y = 0 from x = 0 on, an em being 1 high. `offset` is added
-// after each letter. Letters that the font has not are left out. Throws Error where the file is no font that
-// FreeType reads.
+// Letters from z = 0 to z = thickness, on the line y = 0, an em being 1 high. The first begins at x = 0,
+// without the space that its font has before it. `offset` is added after each letter. Letters that the font
+// has not are left out. Throws Error where the file is no font that FreeType reads.
 struct Text {
   std::string font_file;
   std::string utf8;

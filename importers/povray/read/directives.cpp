@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "importers/povray/read/reader.h"
+#include "importers/povray/read/truth.h"
 #include "importers/reading/suggestion.h"
 #include "scene/records/nesting_limits.h"
 
@@ -91,7 +92,7 @@ bool Reader::condition() {
   const Numbers value = conditional();
   comparing_ = comparing;
   expect(')', "behind a condition");
-  return value.v[0] != 0;
+  return is_true(value.v[0]);
 }
 
 // ---- Blocks
@@ -111,8 +112,7 @@ void Reader::choose(const Block& block, Token part, bool taken) {
       expect('(', "behind #case");
       const double value = number("a number");
       expect(')', "behind the number of #case");
-      constexpr double tolerance = 1e-10;
-      taken = std::abs(value - block.value) < tolerance;
+      taken = are_equal(value, block.value);
     } else if (block.is_switch && word == Word::range_) {
       expect('(', "behind #range");
       const double low = number("a number");

@@ -8,6 +8,7 @@
 #include "importers/povray/read/function.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/spline.h"
+#include "importers/povray/read/truth.h"
 #include "scene/spectra/color.h"
 
 namespace vitrail::pov {
@@ -61,14 +62,15 @@ Numbers Reader::conditional() {
   const Numbers yes = conditional();
   expect(':', "between the values of a condition");
   const Numbers no = conditional();
-  return value.v[0] != 0 ? yes : no;
+  return is_true(value.v[0]) ? yes : no;
 }
 
 Numbers Reader::disjunction() {
   Numbers value = conjunction();
   while (is_operator(peek_operator(), "|")) {
     next();
-    value = combined(value, conjunction(), [](double a, double b) { return a != 0 || b != 0 ? 1.0 : 0.0; });
+    value = combined(value, conjunction(),
+                     [](double a, double b) { return is_true(a) || is_true(b) ? 1.0 : 0.0; });
   }
   return value;
 }
@@ -77,7 +79,8 @@ Numbers Reader::conjunction() {
   Numbers value = relation();
   while (is_operator(peek_operator(), "&")) {
     next();
-    value = combined(value, relation(), [](double a, double b) { return a != 0 && b != 0 ? 1.0 : 0.0; });
+    value =
+        combined(value, relation(), [](double a, double b) { return is_true(a) && is_true(b) ? 1.0 : 0.0; });
   }
   return value;
 }
@@ -109,14 +112,13 @@ Numbers Reader::relation() {
   for (Token token = peek_operator(); is_operator(token, "<>=lgn"); token = peek_operator()) {
     next();
     const Numbers other = sum();
-    constexpr double tolerance = 1e-10;  // equal numbers are as near as this
     value = combined(value, other, [&](double a, double b) {
-      const bool equal = std::abs(a - b) < tolerance;
+      const bool equal = are_equal(a, b);
       switch (token.sign) {
         case '<':
-          return double(a < b && !equal);
+          return double(a < b);
         case '>':
-          return double(a > b && !equal);
+          return double(a > b);
         case 'l':
           return double(a < b || equal);
         case 'g':
@@ -169,7 +171,7 @@ Numbers Reader::unary() {
   if (token.is('+')) return unary();
   if (token.is('!')) {
     Numbers value = unary();
-    for (double& v : value.v) v = v == 0 ? 1 : 0;
+    for (double& v : value.v) v = is_true(v) ? 0 : 1;
     return value;
   }
   put_back(token);

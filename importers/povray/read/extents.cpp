@@ -31,18 +31,27 @@ Bounds3d half_of(const Object& object, const PlaneShape& plane) {
   return half;
 }
 
-// What of the space the object may fill.
-Bounds3d region_of(const Object& object) {
-  if (const auto* plane = std::get_if<PlaneShape>(&object.shape)) return half_of(object, *plane);
-  return object.inverse ? everything : extents_of(object);
-}
-
 // Of a disc across `axis`.
 Bounds3d around_disc(Point3d center, Vector3d axis, double radius) {
   const Vector3d n = normalize(axis);
   const auto reach = [&](double c) { return radius * std::sqrt(std::max(0.0, 1 - c * c)); };
   const Vector3d r{reach(n.x), reach(n.y), reach(n.z)};
   return {center - r, center + r};
+}
+
+// Of a set that may go on for ever: what reaches the sides of a cube does.
+Bounds3d endless_box(const solids::Unbounded& set) {
+  constexpr double near = 20;
+  const solids::Solid solid = set({{-near, -near, -near}, {near, near, near}});
+  Bounds3d box;
+  for (std::size_t t = 0; t < solid.triangles.size(); ++t)
+    if (solid.surfaces[t] != solids::unseen)
+      for (const std::uint32_t corner : solid.triangles[t]) extend(box, solid.positions[corner]);
+  for (int axis = 0; axis < 3 && !box.empty(); ++axis) {
+    if (box.lower[axis] <= -near) box.lower[axis] = -far;
+    if (box.upper[axis] >= near) box.upper[axis] = far;
+  }
+  return box;
 }
 
 Bounds3d shape_box(const Object& object) {
@@ -68,6 +77,7 @@ Bounds3d shape_box(const Object& object) {
   }
   if (const auto* s = std::get_if<SolidShape>(&object.shape)) {
     if (s->box) return *s->box;
+    if (s->unbounded) return endless_box(*s->unbounded);
     try {
       return s->make ? solids::bounds_of(s->make()) : everything;
     } catch (const Error&) {
@@ -95,6 +105,11 @@ Bounds3d shape_box(const Object& object) {
 }
 
 }  // namespace
+
+Bounds3d region_of(const Object& object) {
+  if (const auto* plane = std::get_if<PlaneShape>(&object.shape)) return half_of(object, *plane);
+  return object.inverse ? everything : extents_of(object);
+}
 
 Bounds3d moved_box(const Bounds3d& box, const Transform& t) {
   if (box.empty()) return box;

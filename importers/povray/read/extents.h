@@ -15,6 +15,9 @@ const Bounds3d& own_box(const Object& object);
 // That box under the transformation: min_extent() and max_extent(). What is inverse keeps it.
 Bounds3d extents_of(const Object& object);
 
+// What of the space around its parent the object may fill: of a plane across an axis its half.
+Bounds3d region_of(const Object& object);
+
 // The box of a box that is transformed; nothing of nothing.
 Bounds3d moved_box(const Bounds3d& box, const Transform& t);
 

@@ -16,8 +16,9 @@ namespace vitrail::pov {
 
 namespace {
 
-// A set without end is looked at within a box; on its own, within this one.
+// A set without end is looked at within a box; on its own within this one, and farther where it leaves that.
 const Bounds3d alone{{-20, -20, -20}, {20, 20, 20}};
+constexpr double farthest = 1000;
 
 Bounds3d bounds_of_seen(const solids::Solid& solid) {
   Bounds3d bounds;
@@ -33,7 +34,7 @@ solids::Solid surface_within(const solids::Field& field, const Bounds3d& box) {
   solids::Implicit implicit;
   implicit.field = field;
   implicit.open = true;
-  implicit.cells = 24;
+  implicit.cells = 64;  // what is thinner than a cell is not found, and would be cut off
   implicit.most_halvings = 0;
   Bounds3d found, container = box;
   for (double half = alone.upper.x; half > 0.1 && found.empty(); half /= 2) {
@@ -56,7 +57,18 @@ solids::Solid surface_within(const solids::Field& field, const Bounds3d& box) {
   fine.field = field;
   fine.open = true;
   fine.container = container;
+  fine.cells = 64;
   return solids::implicit(fine);
+}
+
+// All of it: what reaches the sides of the box goes on.
+solids::Solid surface_alone(const solids::Field& field) {
+  solids::Solid solid = surface_within(field, alone);
+  const Bounds3d seen = bounds_of_seen(solid);
+  bool ends = true;
+  for (int axis = 0; axis < 3 && !seen.empty(); ++axis)
+    ends = ends && seen.lower[axis] > alone.lower[axis] && seen.upper[axis] < alone.upper[axis];
+  return ends ? solid : solids::far_reaching(field, alone.upper.x, farthest);
 }
 
 SolidShape endless(Reader& reader, const Place& place, int order, std::vector<double> coefficients) {
@@ -64,10 +76,10 @@ SolidShape endless(Reader& reader, const Place& place, int order, std::vector<do
     return surface_within(solids::polynomial(order, coefficients), box);
   };
   reader.notes.approximated(
-      "a surface of a polynomial: what is within 20 of the origin, or of what it is cut by",
+      "a surface of a polynomial: what is within 1000 of the origin, or of what it is cut by",
       reader.location(place));
   const solids::Field field = solids::polynomial(order, std::move(coefficients));
-  SolidShape shape{[within] { return within(alone); }, within, {}, {}};
+  SolidShape shape{[field] { return surface_alone(field); }, within, {}, {}};
   shape.inside = [field](Point3d p) { return field(p) < 0; };
   return shape;
 }

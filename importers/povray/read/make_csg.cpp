@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "importers/povray/read/extents.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/scene_maker.h"
 #include "importers/solids/primitives.h"
@@ -41,6 +42,12 @@ solids::Solid solid_of(const MeshShape& shape) {
   solid.closed = solids::is_watertight(solid);
   if (solid.closed && solids::volume(solid) < 0) solid = solids::inverted(std::move(solid));
   return solid;
+}
+
+// Whether its shape alone goes on for ever.
+bool is_endless(const Shared<Object>& object) {
+  const auto* const solid = std::get_if<SolidShape>(&object->shape);
+  return std::holds_alternative<PlaneShape>(object->shape) || (solid && solid->unbounded);
 }
 
 }  // namespace
@@ -90,6 +97,8 @@ std::optional<solids::Csg> SceneMaker::csg_of(const Object& object, const Transf
         break;
       case Word::intersection_:
         result = intersection(std::move(operands));
+        if (std::ranges::all_of(object.children, is_endless))
+          result->bounds = moved_box(own_box(object), to_set);
         break;
       case Word::difference_:
         result = difference(std::move(operands));
@@ -112,7 +121,12 @@ std::optional<solids::Csg> SceneMaker::csg_of(const Object& object, const Transf
     std::vector<Look> unseen_looks;
     for (const auto& clip : object.clipped_by)
       if (auto csg = csg_of(*clip, parent_to_set, {}, unseen_looks)) by.push_back(std::move(*csg));
-    if (!by.empty()) result = cut_surfaces(std::move(*result), std::move(by));
+    if (!by.empty()) {
+      result = cut_surfaces(std::move(*result), std::move(by));
+      Bounds3d box = region_of(*object.clipped_by.front());
+      for (const auto& clip : object.clipped_by) box = common(box, region_of(*clip));
+      if (!box.empty()) result->bounds = moved_box(box, parent_to_set);
+    }
   }
   if (object.inverse) result = complement(std::move(*result));
   return result;

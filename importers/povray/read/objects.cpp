@@ -122,10 +122,10 @@ void read_bounds(Reader& reader, Object& object) {
     while (!reader.at('}'))
       if (const Bounds3d one = extents_of(*read_object(reader)); !one.empty()) extend(bound, one);
   reader.expect('}', "at the end of bounded_by");
-  if (auto* solid = std::get_if<SolidShape>(&object.shape); solid && solid->unbounded && !bound.empty())
-    solid->make = [within = *solid->unbounded, box = moved_box(bound, inverse(object.to_parent))] {
-      return within(box);
-    };
+  if (auto* solid = std::get_if<SolidShape>(&object.shape); solid && solid->unbounded && !bound.empty()) {
+    solid->box = moved_box(bound, inverse(object.to_parent));
+    solid->make = [within = *solid->unbounded, box = *solid->box] { return within(box); };
+  }
 }
 
 }  // namespace

@@ -66,17 +66,18 @@ Shared<CameraView> read_camera_block(Reader& reader) {
   std::optional<Vector3d> target;
   bool sized = false;
   const auto settle = [&] {
-    if (c.angle > 0 && c.kind == Word::perspective_ && c.angle < 180)
+    if (c.angle > 0 && c.kind == Word::perspective_ && c.angle < 180) {
       c.direction =
           normalize(c.direction) * (0.5 * length(c.right) / std::tan(c.angle * std::numbers::pi / 360));
+      c.angle = 0;  // of a camera that is named and moved, the vectors say it
+    }
     if (c.kind == Word::orthographic_ && c.angle > 0 && c.angle < 180)
       size_by_angle(c, target.value_or(Vector3d{0, 0, 1}));
     else if (c.kind == Word::orthographic_ && !sized)
       size_by_distance(c, target.value_or(Vector3d{0, 0, 1}));
-    sized = true;
     if (target) look_at(reader, c, *target);
-    target.reset();
   };
+  Transform step;  // of all transforms: they come after the rest, wherever they stand (measured)
   for (;;) {
     reader.comma();
     if (const auto named = reader.identifier<Shared<CameraView>>()) {
@@ -84,16 +85,9 @@ Shared<CameraView> read_camera_block(Reader& reader) {
       sized = true;
       continue;
     }
-    Transform step;
     const Token token = reader.peek();
     if (token.is('}')) break;
-    if (token.is(Word::translate_) || token.is(Word::rotate_) || token.is(Word::scale_) ||
-        token.is(Word::matrix_) || token.is(Word::transform_)) {
-      settle();
-      read_transform(reader, step);
-      move(c, step);
-      continue;
-    }
+    if (read_transform(reader, step)) continue;
     reader.next();
     if (token.kind != TokenKind::word) reader.unexpected(token, "a part of camera");
     switch (token.symbol->word) {
@@ -163,6 +157,7 @@ Shared<CameraView> read_camera_block(Reader& reader) {
   }
   reader.next();
   settle();
+  move(c, step);
   return std::make_shared<CameraView>(c);
 }
 

@@ -92,6 +92,31 @@ TEST_F(ReadPovray, LoopsAndBranches) {
       3);
 }
 
+// As povray 3.7 decides: = is within 1e-10, < and > are exact, and what is smaller than 1e-10 is false.
+TEST_F(ReadPovray, NearlyEqualNumbers) {
+  const std::string count =
+      "#declare I = 0; #declare N = 0; #while (I < 1) #declare I = I + .1; #declare N = N + 1; #end";
+  EXPECT_DOUBLE_EQ(number("N", count), 11);
+  for (const auto& [condition, wanted] : std::map<std::string, double>{{"1 - 1e-11 < 1", 1},
+                                                                       {"1 > 1 - 1e-11", 1},
+                                                                       {"1 <= 1 - 1e-11", 1},
+                                                                       {"1 - 1e-11 >= 1", 1},
+                                                                       {"1 - 1e-11 = 1", 1},
+                                                                       {"1 - 1e-11 != 1", 0},
+                                                                       {"1 - 1e-9 = 1", 0},
+                                                                       {"9e-11", 0},
+                                                                       {"-9e-11", 0},
+                                                                       {"1.1e-10", 1},
+                                                                       {"!1e-11", 1},
+                                                                       {"1e-11 & 1", 0},
+                                                                       {"1e-11 | 0", 0},
+                                                                       {"1e-11 > 0", 1}}) {
+    EXPECT_DOUBLE_EQ(number("N", "#declare N = 0; #if (" + condition + ") #declare N = 1; #end"), wanted)
+        << condition;
+    EXPECT_DOUBLE_EQ(number("((" + condition + ") ? 1 : 0)"), wanted) << condition;
+  }
+}
+
 TEST_F(ReadPovray, MacrosChangeWhatTheyAreGiven) {
   const std::string before =
       "#macro P(X) #declare X = 3; #end #macro F(N) (N > 0 ? 1 : 0) #end #declare A = 1; P(A) P(New)";
