@@ -18,6 +18,7 @@ struct Look {
   Shared<Interior> interior;
   bool by_uv = false;  // images lie by (u,v)
   bool no_shadow = false;
+  bool no_image = false;
   bool hollow = false;
   bool of_lamp = false;              // it stands around a light, as what that looks like
   std::optional<Id<Medium>> medium;  // in its interior
