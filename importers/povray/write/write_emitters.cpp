@@ -16,16 +16,20 @@ bool is_black(const Scene& scene, Id<Material> material) {
 
 }  // namespace
 
-std::string use_of(Context& context, const Shape& shape, const Surface& surface, bool inside_out) {
+std::string use_of(Context& context, const Shape& shape, const Surface& surface, bool inside_out,
+                   const std::string& media) {
   const auto there = [&](const char* name) {
     return weighted(context, shape.opacity, "Clear", fmt::format("{}_{}", name, shape.material.value),
                     shape.origin);
   };
   std::string text = there("Material");
   if (!surface.back.empty()) text += "interior_" + there("Back");
-  if (!surface.interior.empty())
-    text += fmt::format("interior {{ {}_{} }}\n", inside_out ? "Turned" : "Interior", shape.material.value);
-  return text;
+  const std::string interior =
+      surface.interior.empty()
+          ? ""
+          : fmt::format("{}_{} ", inside_out ? "Turned" : "Interior", shape.material.value);
+  if (!interior.empty() || !media.empty()) text += fmt::format("interior {{ {}{} }}\n", interior, media);
+  return media.empty() ? text : text + "hollow ";  // POV-Ray's media fill nothing else
 }
 
 std::string emitter_of(Context& context, const Shape& shape, const Surface& surface, const AreaLight& light) {
