@@ -11,7 +11,7 @@ namespace {
 bool is_black(const Scene& scene, Id<Material> material) {
   const auto* diffuse = std::get_if<DiffuseMaterial>(&scene.materials.at(material.value).model);
   const auto* reflectance = diffuse ? std::get_if<Spectrum>(&diffuse->reflectance) : nullptr;
-  return is_invisible(scene, material) || (reflectance && largest(factor_rgb(*reflectance)) == 0);
+  return reflectance && largest(factor_rgb(*reflectance)) == 0;
 }
 
 }  // namespace
@@ -56,8 +56,8 @@ std::string emitter_of(Context& context, const Shape& shape, const Surface& surf
     if (!surface.interior.empty()) text += fmt::format("interior {{ Interior_{} }}\n", material);
   }
   if (light.two_sided) return text;
-  return text + "interior_" +
-         there(fmt::format("{}_{}", surface.back.empty() ? "Material" : "Back", material));
+  const bool has_back = !surface.back.empty() && !is_invisible(context.scene, shape.material);
+  return text + "interior_" + there(fmt::format("{}_{}", has_back ? "Back" : "Material", material));
 }
 
 }  // namespace vitrail::povray

@@ -254,6 +254,24 @@ TEST_F(ReadPovrayPictures, SpotlightsAcrossAnAreaAreALamp) {
   }
 }
 
+// As lamps of nothing are written: their front shines, and light passes.
+TEST_F(ReadPovrayPictures, ClearLamps) {
+  const Scene scene =
+      read(gamma_1 +
+           "#default { finish { ambient 0 } }\n#declare Clear = texture { pigment { rgbt 1 } finish { "
+           "diffuse 0 } }\n"
+           "#declare Black = texture { pigment { rgb 0 } finish { diffuse 0 } }\n"
+           "sphere { 0, 1 texture { average texture_map { [1 Clear] [1 pigment { rgb 1 } finish { "
+           "diffuse 0 emission 2 }] [-1 Black] } } interior_texture { Clear } }\n")
+          .scene;
+  ASSERT_EQ(scene.shapes.size(), 1u);
+  const Shape& lamp = scene.shapes[0];
+  EXPECT_EQ(lamp.opacity, FloatParameter{1.0f});
+  EXPECT_TRUE(std::holds_alternative<InterfaceMaterial>(scene.materials[lamp.material.value].model));
+  ASSERT_TRUE(lamp.area_light);
+  EXPECT_FALSE(scene.area_lights[lamp.area_light->value].two_sided);
+}
+
 // As scenes whose emitters are hidden are written. Beside what glows and is seen, no_image drops the object.
 TEST_F(ReadPovrayPictures, LampsThatTheCameraDoesNotSee) {
   const std::string
