@@ -88,6 +88,26 @@ TEST_F(PeerMitsuba, TakesAnInputWithoutNumbersForNoPicture) {
   EXPECT_THAT(result.output, HasSubstr("% of its pixels are no numbers"));
 }
 
+// Where the extinction ends at 400 and 600 nm, volpath lost 4 % of what the albedo scatters.
+TEST_F(PeerMitsuba, SeesWhatExtinctionsThatEndWithinTheVisibleScatter) {
+  const std::string in = write("in.xml", scene("volpath", R"(<shape type="sphere"><bsdf type="null"/>
+      <medium type="homogeneous" name="interior"><spectrum name="sigma_t" value="400:.5,600:.9"/>
+      <spectrum name="albedo" value=".8"/></medium></shape>)"));
+  const auto result = ask(in, "exec python3 \"$@\"\n");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("Mitsuba scalar_spectral shows it as vitrail shows the input"));
+}
+
+// What rgb variants cut of the input is said.
+TEST_F(PeerMitsuba, SaysWhatRgbVariantsCutOfAnExtinction) {
+  const std::string in = write("in.xml", scene("volpath", R"(<shape type="sphere"><bsdf type="null"/>
+      <medium type="homogeneous" name="interior"><spectrum name="sigma_t" value="360:.5,500:4,600:1,830:3"/>
+      <spectrum name="albedo" value=".8"/></medium></shape>)"));
+  const auto result = ask(in, "exec python3 \"$@\"\n");
+  EXPECT_THAT(result.output, HasSubstr("cut that of the input at 1"));
+  EXPECT_THAT(result.output, HasSubstr("Mitsuba scalar_spectral shows it as it shows the input"));
+}
+
 // 4 % more light, of an input that it does not read.
 TEST_F(PeerMitsuba, SeesFourPercentInRgbToo) {
   const std::string in = write("in.pbrt", R"(LookAt 0 0 4 0 0 0 0 1 0 Camera "perspective" PixelFilter "box"

@@ -301,7 +301,10 @@ void write_integrator(Context& context, Element root) {
     return std::holds_alternative<InterfaceMaterial>(m.model);
   });
   const bool volpath = media || nothing || !scene.settings.straight_counts;
-  Element element = add(root, "integrator", volpath ? "volpath" : "path");
+  // Of a colored extinction `volpath` samples one wavelength's free flights, whose weights grow without
+  // bound.
+  const char* const volumetric = context.colored_extinction ? "volpathmis" : "volpath";
+  Element element = add(root, "integrator", volpath ? volumetric : "path");
   // A depth is meant for what scatters at surfaces, not in their interiors.
   const int depth = context.interiors.empty() ? scene.settings.max_depth : unlimited_depth;
   if (volpath && scene.settings.straight_counts && depth < unlimited_depth &&

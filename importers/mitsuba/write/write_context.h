@@ -85,7 +85,8 @@ struct Context : ConversionNotes {
   std::vector<WrittenTexture> textures;
   mutable std::unordered_map<std::uint32_t, RGB> means;  // of the textures whose mean was asked for
   std::unordered_map<std::size_t, std::string>
-      interiors;  // media inside of subsurface materials, by material
+      interiors;                    // media inside of subsurface materials, by material
+  bool colored_extinction = false;  // of a medium that was written
   std::size_t curve_files = 0, derived_meshes = 0, derived_images = 0, derived_volumes = 0;
   ConvertedImages images{[this] { return file.parent_path() / new_file("images", "exr", derived_images); }};
 

@@ -184,21 +184,50 @@ bool write_density(Context& context, Element root, const Medium& medium, const E
     context.dropped("a density whose file is not there: the medium is homogeneous");
     return false;
   }
+  context.colored_extinction |= sigma_t.grid.channels > 1;
   add_volume(context, element, "albedo", coefficients.albedo, medium.medium_to_world);
   add_float(element, "scale", static_cast<float>(sigma_t.factor * static_cast<double>(medium.scale)));
   add_phase(element, medium.g);
   return true;
 }
 
-// Mitsuba's rgb variants cut coefficients that are no plain numbers at 1, and its scales are free: what is
-// above 1 goes there.
+// Mitsuba's rgb variants cut coefficients that are no plain numbers, and the components of their colours, at
+// 1 (3.9.1: a σt of 3 is 1); its scales are free: what is above 1 goes there.
 double greatest_above_one(const VolumeParameter& sigma_t) {
   const auto* spectrum = std::get_if<Spectrum>(&sigma_t);
   if (!spectrum || is_constant(*spectrum)) return 1;
   const Spectrum values = resolved(*spectrum);
-  double greatest = 1;
+  const RGB color = color_of(values);
+  double greatest = std::max({1.0, color.r, color.g, color.b});
   for (int i = 0; i < table_size; ++i) greatest = std::max(greatest, evaluate(values, lambda_min_nm + i));
   return greatest;
+}
+
+bool is_colored(const VolumeParameter& value) {
+  if (const auto* grid = std::get_if<Grid>(&value)) return grid->channels > 1;
+  return !is_constant(std::get<Spectrum>(value));
+}
+
+bool is_mitsuba_file(const Context& context, const Origin& origin) {
+  const auto& files = context.scene.files;
+  return origin.file < files.size() && std::filesystem::path(files[origin.file]).extension() == ".xml";
+}
+
+// What rgb variants make of the extinction's spectrum.
+void report_colour(Context& context, const Medium& medium, const VolumeParameter& sigma_t, double greatest) {
+  const auto* spectrum = std::get_if<Spectrum>(&sigma_t);
+  if (!spectrum || is_constant(*spectrum)) return;
+  const RGB color = color_of(*spectrum);
+  const double least = std::min({color.r, color.g, color.b});
+  if (!(least > 0) && color.r + color.g + color.b > 0)
+    context.approximated(
+        "the colour of an extinction is outside of sRGB: in Mitsuba's rgb variants its medium does not "
+        "scatter");
+  if (greatest > 1 && is_mitsuba_file(context, medium.origin))
+    context.approximated(fmt::format(
+        "an extinction up to {:.3g}: Mitsuba's rgb variants cut that of the input at 1; the scale of what is "
+        "written keeps it",
+        greatest));
 }
 
 // Mitsuba 3.9's spectral variants make no numbers of an extinction that is 0 at some wavelengths alone: there
@@ -223,8 +252,10 @@ void write_medium(Context& context, Element root, const Medium& medium, const st
   const bool varies =
       std::holds_alternative<Grid>(coefficients.sigma_t) || std::holds_alternative<Grid>(coefficients.albedo);
   Element element = add(root, "medium", varies ? "heterogeneous" : "homogeneous", "", id);
+  context.colored_extinction |= is_colored(coefficients.sigma_t);
   const double greatest = greatest_above_one(coefficients.sigma_t);
   VolumeParameter sigma_t = coefficients.sigma_t;
+  report_colour(context, medium, sigma_t, greatest);
   if (greatest > 1) sigma_t = scaled(std::get<Spectrum>(sigma_t), 1 / greatest);
   add_volume(context, element, "sigma_t", nowhere_zero(sigma_t), medium.medium_to_world);
   add_volume(context, element, "albedo", coefficients.albedo, medium.medium_to_world);

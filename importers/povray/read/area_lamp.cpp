@@ -28,9 +28,7 @@ bool coincides(const AreaLamp& lamp, const std::vector<Point3f>& positions, cons
 }  // namespace
 
 std::optional<AreaLamp> area_lamp(const LightShape& light, const Transform& to_world) {
-  if (!light.area || !light.each_lights || light.shadowless || light.circular || light.count1 < 2 ||
-      light.count2 < 2)
-    return {};
+  if (!light.area || light.shadowless || light.circular || light.count1 < 2 || light.count2 < 2) return {};
   const bool by_cosine = light.kind == LightShape::Kind::spot && light.radius_deg >= 90 &&
                          light.falloff_deg >= 90 && light.tightness == 1;
   if (!by_cosine || light.fade_power != 2 || !(light.fade_distance > 0)) return {};

@@ -61,16 +61,12 @@ bool read_light_part(Reader& reader, LightShape& light, Object& object, const To
                                   reader.location(token.place));
       return true;
     case Word::media_attenuation_:
-      if (reader.flag())
-        reader.notes.approximated("media_attenuation: media around everything do not weaken the light",
-                                  reader.location(token.place));
+      light.attenuated = reader.flag();
       return true;
     case Word::adaptive_:
       if (reader.number_follows()) reader.numbers();
       return true;
     case Word::area_illumination_:
-      light.each_lights = reader.flag();
-      return true;
     case Word::jitter_:
     case Word::orient_:
       reader.flag();

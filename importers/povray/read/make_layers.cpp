@@ -74,8 +74,8 @@ Surfaces::Layer Surfaces::mixed(const Layer& first, const Layer& second, const F
 }
 
 // An average of a texture, of one that only glows, and of black less once: the first texture, which also
-// glows.
-void Surfaces::add_glow_alone(std::vector<std::pair<double, Layer>>& layers) const {
+// glows. Of what is clear a lamp of nothing is left.
+void Surfaces::add_glow_alone(std::vector<std::pair<double, Layer>>& layers, const Place& place) {
   const auto is_black = [&](const Layer& layer) {
     const auto* const diffuse = std::get_if<DiffuseMaterial>(&scene_.materials[layer.material.value].model);
     const auto* const reflects = diffuse ? std::get_if<Spectrum>(&diffuse->reflectance) : nullptr;
@@ -89,6 +89,9 @@ void Surfaces::add_glow_alone(std::vector<std::pair<double, Layer>>& layers) con
     return;
   layers[0].second.glow = glowing.glow, layers[0].second.glow_scale = glowing.glow_scale;
   layers.resize(1);
+  if (layers[0].second.opacity != FloatParameter{0.0f}) return;
+  layers[0].second.opacity = 1.0f;
+  layers[0].second.material = add(InterfaceMaterial{}, place);
 }
 
 Surfaces::Layer Surfaces::layered(const pov::Texture& texture, const Transform& to_world, const Look& look) {
@@ -125,7 +128,7 @@ Surfaces::Layer Surfaces::blended(const pov::Texture& texture, const Transform& 
     return layer_of({}, to_world, look);
   }
   const Word kind = texture.pattern->kind;
-  if (kind == Word::average_) add_glow_alone(layers);
+  if (kind == Word::average_) add_glow_alone(layers, texture.place);
   Layer result = layers.front().second;
   const bool list = kind == Word::checker_ || kind == Word::brick_ || kind == Word::hexagon_;
   double weights = layers.front().first;

@@ -138,4 +138,34 @@ void SceneMaker::add_surroundings() {
                              reader_.location(place));
 }
 
+bool SceneMaker::hides_surroundings(const Object& object) const {
+  if (!object.no_shadow || !object.no_reflection || !object.no_radiosity || object.no_image) return false;
+  const auto* const ball = std::get_if<SphereShape>(&object.shape);
+  return ball && is_invertible(object.to_parent) &&
+         length(transform_point(inverse(object.to_parent), eye()) - ball->center) < ball->radius;
+}
+
+bool SceneMaker::is_there(const Look& look, bool glows, const Object& object, const Target& target) {
+  if (!look.no_image) {
+    sees_glow_ = sees_glow_ || glows;
+    return true;
+  }
+  const bool lights = glows && &target.shapes == &scene_.shapes;
+  if (lights)
+    unseen_.emplace_back(scene_.shapes.size(), object.place);
+  else
+    reader_.notes.dropped("an object with no_image", reader_.location(object.place));
+  return lights;
+}
+
+void SceneMaker::hide_lamps() {
+  if (unseen_.empty() && sees_around_) return;
+  const bool sees_around = sees_around_ && (world_.background || world_.sky);
+  if (!sees_glow_ && !sees_around) return void(scene_.settings.hides_emitters = true);
+  for (auto shape = unseen_.rbegin(); shape != unseen_.rend(); ++shape) {
+    scene_.shapes.erase(scene_.shapes.begin() + static_cast<std::ptrdiff_t>(shape->first));
+    reader_.notes.dropped("an object with no_image", reader_.location(shape->second));
+  }
+}
+
 }  // namespace vitrail::pov

@@ -170,9 +170,13 @@ Surface Surfaces::of_sides(const Look& look, const Place& place) {
     const auto is_opaque = [&](const Surface& s) {
       return s.opacity == FloatParameter{1.0f} && !traits[s.material.value].transmits;
     };
-    if (is_opaque(outside) && is_opaque(inside) && !inside.glow) {
+    // A lamp of nothing that is clear from behind.
+    const bool is_lamp =
+        outside.glow && inside.opacity == FloatParameter{0.0f} && !inside.glow &&
+        std::holds_alternative<InterfaceMaterial>(scene_.materials[outside.material.value].model);
+    if (is_lamp || (is_opaque(outside) && is_opaque(inside) && !inside.glow)) {
       known->second = outside;
-      if (inside.material != outside.material)
+      if (!is_lamp && inside.material != outside.material)
         known->second->material = add(TwoSidedMaterial{outside.material, inside.material}, place);
       if (outside.glow) {
         AreaLight front = scene_.area_lights[outside.glow->value];

@@ -136,6 +136,22 @@ void sample(Grid& grid, const AtPoint& at) {
         at(grid.bounds.lower + Vector3d{(i + 0.5) * step.x, (j + 0.5) * step.y, (k + 0.5) * step.z});
 }
 
+// By default media around everything weaken no lamp (3.7.0.10). A parallel light is far away here.
+struct WeakenedLamps {
+  bool any = false, all = false;
+};
+
+WeakenedLamps weakened_lamps(const World& world) {
+  WeakenedLamps lamps{false, true};
+  for (const auto& object : world.objects)
+    if (const auto* const light = std::get_if<LightShape>(&object->shape)) {
+      lamps.any = lamps.any || light->attenuated;
+      lamps.all = lamps.all && light->attenuated && !light->parallel;
+    }
+  lamps.all = lamps.all && lamps.any;
+  return lamps;
+}
+
 }  // namespace
 
 std::optional<Id<Medium>> SceneMaker::medium_of(const std::vector<Shared<MediaBlock>>& blocks,
@@ -177,7 +193,11 @@ std::optional<Id<Medium>> SceneMaker::medium_of(const std::vector<Shared<MediaBl
   for (double& a : sums.absorption) a = std::max(a, shines ? nothing / size : 0.0);
   const bool around = box.empty();
   const auto spectrum = [](const Three& c) { return unbounded_from_rgb({c[0], c[1], c[2]}); };
-  medium.veils = around;
+  const WeakenedLamps lamps = around ? weakened_lamps(world_) : WeakenedLamps{};
+  medium.veils = around && !lamps.all;
+  if (lamps.any && !lamps.all)
+    reader_.notes.approximated("media_attenuation of some lights, or of parallel ones: media weaken no lamp",
+                               place);
   if (around && !scatters) {
     medium.coefficients = AbsorptionScattering{spectrum(sums.absorption), Spectrum{ConstantSpectrum{0}}};
   } else {

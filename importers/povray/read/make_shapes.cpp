@@ -113,6 +113,7 @@ Scene SceneMaker::make() {
   add_atmosphere();
   const Target target{scene_.shapes, scene_.instances};
   for (const auto& object : world_.objects) add(*object, {}, {reader_.defaults.texture, {}, nullptr}, target);
+  hide_lamps();
   add_lamps();
   add_surroundings();
   set_eye_medium();
@@ -152,10 +153,10 @@ void SceneMaker::add(const Object& object, const Transform& parent_to_world, Loo
   }
   look.no_shadow = look.no_shadow || object.no_shadow;
   look.hollow = look.hollow || object.hollow;
-  if (object.no_image) {
-    reader_.notes.dropped("an object with no_image", reader_.location(object.place));
-    return;
-  }
+  look.no_image = look.no_image || object.no_image;
+  if (hides_surroundings(object)) return void(sees_around_ = false);
+  if (object.no_reflection && !object.no_image)
+    reader_.notes.approximated("no_reflection: mirrors show the object", reader_.location(object.place));
   if (!object.clipped_by.empty()) {
     for (const Piece& piece : clipped_pieces(object)) add_piece(object, piece, parent_to_world, look, target);
     return;
@@ -262,7 +263,8 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
     fill(shape, *own.medium);
   else if (atmosphere_ && !own.hollow && is_closed(object) && lets_light_in(shape))
     fill(shape, std::nullopt);
-  if (is_invertible(shape.object_to_world)) target.shapes.push_back(std::move(shape));
+  if (is_invertible(shape.object_to_world) && is_there(own, shape.area_light.has_value(), object, target))
+    target.shapes.push_back(std::move(shape));
 }
 
 Id<Material> SceneMaker::shadowless(Id<Material> material) {

@@ -66,14 +66,12 @@ struct LightShape {
   Point3d position;
   Numbers color = Finish::grey(1);
   bool parallel = false, shadowless = false, area = false, circular = false;
-  bool each_lights =
-      false;  // area_illumination: each light of the area lights by itself, not its middle alone
   Point3d point_at;
   double radius_deg = 30, falloff_deg = 45, tightness = 0;
   Vector3d axis1, axis2;
   int count1 = 1, count2 = 1;
   double fade_distance = 0, fade_power = 0;
-  bool projected = false;
+  bool projected = false, attenuated = false;
 };
 
 struct Object {
@@ -87,6 +85,7 @@ struct Object {
   Shared<Interior> interior;
   std::vector<Shared<Object>> clipped_by;
   bool inverse = false, no_shadow = false, no_image = false, hollow = false, uv_mapping = false;
+  bool no_reflection = false, no_radiosity = false;
   bool declared = false;                             // an identifier stands for it
   mutable std::optional<Bounds3d> box;               // of the shape, once it was asked for (extents.h)
   mutable std::shared_ptr<const TriangleTree> tree;  // of the shape, once trace() asked (shape_hits.h)

@@ -201,10 +201,11 @@ bool read_object_modifier(Reader& reader, Object& object, int& layers) {
       object.uv_mapping = true;
       return true;
     case Word::no_reflection_:
-      if (reader.flag())
-        reader.notes.approximated("no_reflection: mirrors show the object", reader.location(token.place));
+      object.no_reflection = reader.flag();
       return true;
     case Word::no_radiosity_:
+      object.no_radiosity = reader.flag();
+      return true;
     case Word::double_illuminate_:
     case Word::sturm_:
     case Word::hierarchy_:

@@ -66,6 +66,12 @@ class SceneMaker {
   // Lights and surroundings (make_lights.cpp).
   void add_light(const Object& object, const LightShape& light, const Transform& to_world);
   void add_surroundings();
+  // A ball around the eye that the camera alone sees: it hides what is around.
+  bool hides_surroundings(const Object& object) const;
+  // Whether the shape that comes next is one: of what has no_image, what glows alone, as it lights the scene.
+  bool is_there(const Look& look, bool glows, const Object& object, const Target& target);
+  // Where the camera sees nothing that shines, it hides emitters. Else what has no_image is not there.
+  void hide_lamps();
   // Lamps that are rectangles (area_lamp.h), once all shapes are there.
   void add_lamps();
   // Fog (make_fog.cpp).
@@ -102,6 +108,8 @@ class SceneMaker {
   std::optional<Id<Material>> clear_sheet_;
   std::map<std::uint32_t, Id<Material>> shadowless_;
   std::vector<AreaLamp> lamps_;
+  std::vector<std::pair<std::size_t, Place>> unseen_;  // shapes that glow and have no_image, from where
+  bool sees_glow_ = false, sees_around_ = true;
   std::vector<Shared<Fog>> fogs_;         // that are there
   std::optional<Id<Medium>> atmosphere_;  // or fog, where there is no object
   std::optional<Id<Medium>> eye_medium_;  // of an object that the eye is in

@@ -18,6 +18,7 @@ struct Look {
   Shared<Interior> interior;
   bool by_uv = false;  // images lie by (u,v)
   bool no_shadow = false;
+  bool no_image = false;
   bool hollow = false;
   bool of_lamp = false;              // it stands around a light, as what that looks like
   std::optional<Id<Medium>> medium;  // in its interior
@@ -63,7 +64,7 @@ class Surfaces {
   Layer layered(const Texture& texture, const Transform& to_world, const Look& look);
   Layer blended(const Texture& texture, const Transform& to_world, const Look& look);
   // (1 − amount)·first + amount·second; with the material, glow and opacity of both.
-  void add_glow_alone(std::vector<std::pair<double, Layer>>& layers) const;
+  void add_glow_alone(std::vector<std::pair<double, Layer>>& layers, const Place& place);
   Layer mixed(const Layer& first, const Layer& second, const FloatParameter& amount, const Place& place);
   Id<Material> material_of(const Pigment& pigment, const Finish& finish, const Transform& to_world,
                            const Look& look);

@@ -38,6 +38,8 @@ struct Context : ConversionNotes {
   std::vector<Nesting> nesting = nesting_of(scene.textures);
   std::vector<MaterialTraits> traits = traits_of(scene.materials);
   std::map<std::uint32_t, std::string> interiors = {};  // of materials that others are made of
+  std::map<std::uint32_t, std::string> media = {};      // as they were written
+  bool has_scattering = false;                          // of a medium
 };
 
 inline std::string vector(Vector3d v) { return fmt::format("<{},{},{}>", v.x, v.y, v.z); }

@@ -108,9 +108,9 @@ std::string options_text(Context& context, const std::string& pov_name) {
     context.approximated("pixel filter: POV-Ray takes the mean over each pixel", context.scene.film_origin);
   if (film.layers.any())
     context.dropped("layers of first surfaces: " + names_of(film.layers), context.scene.film_origin);
-  if (context.scene.settings.hides_emitters)
-    context.dropped("hidden emitters: the camera sees lamps and surroundings",
-                    context.scene.integrator_origin);
+  if (context.scene.settings.hides_emitters &&
+      std::ranges::any_of(context.traits, &MaterialTraits::transmits))
+    context.approximated("hidden emitters: glass does not show them either", context.scene.integrator_origin);
   const double side = std::sqrt(std::max(1, context.scene.settings.samples_per_pixel));
   const int depth = std::clamp(static_cast<int>(std::lround(side)), 1, 9);
   std::string text = fmt::format(

@@ -11,21 +11,25 @@ namespace {
 bool is_black(const Scene& scene, Id<Material> material) {
   const auto* diffuse = std::get_if<DiffuseMaterial>(&scene.materials.at(material.value).model);
   const auto* reflectance = diffuse ? std::get_if<Spectrum>(&diffuse->reflectance) : nullptr;
-  return is_invisible(scene, material) || (reflectance && largest(factor_rgb(*reflectance)) == 0);
+  return reflectance && largest(factor_rgb(*reflectance)) == 0;
 }
 
 }  // namespace
 
-std::string use_of(Context& context, const Shape& shape, const Surface& surface, bool inside_out) {
+std::string use_of(Context& context, const Shape& shape, const Surface& surface, bool inside_out,
+                   const std::string& media) {
   const auto there = [&](const char* name) {
     return weighted(context, shape.opacity, "Clear", fmt::format("{}_{}", name, shape.material.value),
                     shape.origin);
   };
   std::string text = there("Material");
   if (!surface.back.empty()) text += "interior_" + there("Back");
-  if (!surface.interior.empty())
-    text += fmt::format("interior {{ {}_{} }}\n", inside_out ? "Turned" : "Interior", shape.material.value);
-  return text;
+  const std::string interior =
+      surface.interior.empty()
+          ? ""
+          : fmt::format("{}_{} ", inside_out ? "Turned" : "Interior", shape.material.value);
+  if (!interior.empty() || !media.empty()) text += fmt::format("interior {{ {}{} }}\n", interior, media);
+  return media.empty() ? text : text + "hollow ";  // POV-Ray's media fill nothing else
 }
 
 std::string emitter_of(Context& context, const Shape& shape, const Surface& surface, const AreaLight& light) {
@@ -52,8 +56,8 @@ std::string emitter_of(Context& context, const Shape& shape, const Surface& surf
     if (!surface.interior.empty()) text += fmt::format("interior {{ Interior_{} }}\n", material);
   }
   if (light.two_sided) return text;
-  return text + "interior_" +
-         there(fmt::format("{}_{}", surface.back.empty() ? "Material" : "Back", material));
+  const bool has_back = !surface.back.empty() && !is_invisible(context.scene, shape.material);
+  return text + "interior_" + there(fmt::format("{}_{}", has_back ? "Back" : "Material", material));
 }
 
 }  // namespace vitrail::povray

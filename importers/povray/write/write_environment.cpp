@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/povray/write/write_environment.h"
 
+#include "images/texture_values.h"
+#include "importers/images/environment_images.h"
 #include "importers/povray/write/write_pigments.h"
 #include "importers/writing/export_colors.h"
 
@@ -56,10 +58,13 @@ std::string octahedral_pigment() {
 
 std::string environment_text(Context& context, const EnvironmentLight& light, const Origin& origin) {
   const auto image = image_of(context, image_of(light), ImageUse::light, origin);
-  const RGB factor = factor_rgb(light.scale);
+  RGB factor = factor_rgb(light.scale);
   if (!image) return fmt::format("background {{ {} }}\n", color(factor * 0.5));
-  if (light.illuminance)
-    context.dropped("illuminance of an environment: the image is written with its own values", origin);
+  if (light.illuminance) {
+    const Image values = texture_values(image_of(light), read_stored_image(light.filename), ImageUse::light);
+    if (const double natural = upward_illuminance(values, light.projection); natural > 0)
+      factor = factor * (static_cast<double>(*light.illuminance) / natural);
+  }
   if (light.portal) context.dropped("portal of an environment: light enters everywhere", origin);
   const Transform turn = rotation_of(light.light_to_world);
   if (light.projection == EnvironmentLight::Projection::latitude_longitude)

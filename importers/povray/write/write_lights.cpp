@@ -117,12 +117,14 @@ std::string facing(const Context& context, const Rectangle& r, Vector3d front, R
   const Point3d middle = r.corner + r.edge_u * 0.5 + r.edge_v * 0.5 + front * before;
   // POV-Ray puts the first and the last light on the ends of the axes; samples belong in the middle of cells.
   const double inner = (n - 1.0) / n;
+  // In media POV-Ray 3.7 sees neither the fading nor the cosine of area_illumination: all comes from the
+  // middle.
+  const char* const from_all = context.has_scattering ? "" : "area_illumination on ";
   return fmt::format(
       "light_source {{ {} {} spotlight radius 90 falloff 90 tightness 1 point_at {}\n  area_light {}, {}, "
-      "{}, "
-      "{} adaptive 2 area_illumination on {} }}\n",
+      "{}, {} adaptive 2 {}{} }}\n",
       vector(middle), color(radiance * (area / (2 * pi * f * f))), vector(middle + front * length(r.edge_u)),
-      vector(r.edge_u * inner), vector(r.edge_v * inner), n, n, fading(context));
+      vector(r.edge_u * inner), vector(r.edge_v * inner), n, n, from_all, fading(context));
 }
 
 }  // namespace

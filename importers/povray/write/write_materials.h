@@ -26,7 +26,9 @@ std::string weighted(Context& context, const FloatParameter& amount, const std::
 
 // The texture and interior of a shape: "texture { Material_3 } interior { Interior_3 }".
 // `inside_out` is the shape, whose front is inside.
-std::string use_of(Context& context, const Shape& shape, const Surface& surface, bool inside_out);
+// `media` is what fills it, "media { … }" or "".
+std::string use_of(Context& context, const Shape& shape, const Surface& surface, bool inside_out,
+                   const std::string& media);
 
 // The same for a shape that shines.
 std::string emitter_of(Context& context, const Shape& shape, const Surface& surface, const AreaLight& light);

@@ -10,6 +10,7 @@
 #include "importers/povray/write/write_camera.h"
 #include "importers/povray/write/write_lights.h"
 #include "importers/povray/write/write_materials.h"
+#include "importers/povray/write/write_media.h"
 #include "importers/povray/write/write_meshes.h"
 #include "importers/povray/write/write_pigments.h"
 #include "importers/writing/export_colors.h"
@@ -46,14 +47,13 @@ class Writer {
              std::holds_alternative<DistantLight>(light.model);
     });
     join_surroundings(context_, context_.exposed.lights, "POV-Ray", context_.images, context_.directory);
-    std::string body = camera_text(context_);
+    std::string body = camera_text(context_) + surroundings();
     for (const Light& light : context_.exposed.lights)
       if (shows_reflection() || traits_of(light.model).surrounds) body += light_text(context_, light);
     body += materials();
     for (const Prototype& prototype : scene().prototypes) body += prototype_text(prototype);
     for (const Shape& shape : scene().shapes) body += world_shape(shape);
     for (const Instance& instance : scene().instances) body += instance_text(instance);
-    note_media();
     save(std::filesystem::path(out_).replace_extension(".ini"),
          options_text(context_, out_.filename().generic_string()));
     save(out_, header() + body);
@@ -120,9 +120,27 @@ class Writer {
         std::min(bounces, 20));
   }
 
-  void note_media() {
-    for (const Medium& medium : scene().media)
-      context_.dropped(fmt::format("medium {}: space is written as empty", medium.name), medium.origin);
+  // A ball around everything, of so many radii of what is there.
+  std::string ball(double radii, const std::string& what) const {
+    return fmt::format("sphere {{ {}, {} {} }}\n",
+                       vector(transform_point(context_.units.to_pov, context_.units.center)),
+                       radii * context_.units.radius * context_.units.scale, what);
+  }
+
+  // What is around everything. Media without end: POV-Ray looks for lamps at a few places of a ray alone, so
+  // they end where light from far away has come through the scene's diameter. A black ball that the camera
+  // alone sees hides lights from all around.
+  std::string surroundings() {
+    for (std::uint32_t i = 0; i < scene().media.size(); ++i) media_text(context_, Id<Medium>{i});
+    const std::string media = media_text(context_, medium_around(scene()));
+    std::string text;
+    if (!media.empty()) text = ball(2, "pigment { rgbt 1 } hollow interior { " + media + " }");
+    if (!scene().settings.hides_emitters || std::ranges::none_of(scene().lights, [](const Light& light) {
+          return traits_of(light.model).surrounds;
+        }))
+      return text;
+    return text +
+           ball(1000, "pigment { rgb 0 } finish { diffuse 0 } hollow no_shadow no_reflection no_radiosity");
   }
 
   // ---- Materials --------------------------------------------------------------------------------
@@ -169,14 +187,17 @@ class Writer {
       shines_without_source_ = true;
       if (is_unseen)
         context_.approximated("a light that nothing meets: it is in the way of other light", shape.origin);
-      return shape_text(shape, mesh, is_unseen ? "no_image no_reflection " : "");
+      return shape_text(shape, mesh, is_unseen ? "no_image no_reflection " : unseen_by_camera());
     }
     AreaLight source = *light;
     if (!is_unseen) source.scale *= *share;
     const std::string text = shows_reflection() ? rectangle_light_text(context_, *rectangle, source) : "";
     // The source stands for the mesh, which must not be counted a second time.
-    return is_unseen ? text : text + shape_text(shape, mesh, "no_radiosity ");
+    return is_unseen ? text : text + shape_text(shape, mesh, unseen_by_camera() + "no_radiosity ");
   }
+
+  // Of what shines.
+  std::string unseen_by_camera() const { return scene().settings.hides_emitters ? "no_image " : ""; }
 
   static bool is_gone(const Shape& shape) { return shape.opacity == FloatParameter{0.0f}; }
 
@@ -193,19 +214,29 @@ class Writer {
     return shape.area_light ? &context_.exposed.area_lights.at(shape.area_light->value) : nullptr;
   }
 
-  std::string shape_text(const Shape& shape, const MeshText& mesh, const char* flags) {
+  std::string shape_text(const Shape& shape, const MeshText& mesh, const std::string& flags) {
     const AreaLight* const light = light_of(shape);
-    if ((is_invisible(scene(), shape.material) || is_gone(shape)) && !light) return "";
+    const std::string media = light ? "" : media_of(shape, mesh);
+    const bool shows_nothing = is_invisible(scene(), shape.material) && !light;
+    if ((shows_nothing && media.empty()) || (is_gone(shape) && !light)) return "";
     const std::string geometry = geometry_text(shape, mesh);
     if (geometry.empty()) return "";
     const Surface& surface = surfaces_.at(shape.material.value);
     std::string text = shape.name.empty() ? "" : "// " + one_line(shape.name) + "\n";
     text += geometry;
+    if (shows_nothing) return text + fmt::format("texture {{ Clear }} hollow interior {{ {} }} }}\n", media);
     Shape shining = shape;
     if (is_gone(shape)) shining.opacity = 1.0f;  // of a light that nothing meets
     text += light ? emitter_of(context_, shining, surface, *light)
-                  : use_of(context_, shape, surface, !surface.turned.empty() && is_inside_out(mesh));
+                  : use_of(context_, shape, surface, !surface.turned.empty() && is_inside_out(mesh), media);
     return text + flags + "}\n";
+  }
+
+  // What fills a shape that light gets into.
+  std::string media_of(const Shape& shape, const MeshText& mesh) {
+    const bool lets_in =
+        is_invisible(scene(), shape.material) || context_.traits[shape.material.value].transmits;
+    return lets_in ? media_text(context_, medium_inside(scene(), shape, mesh)) : "";
   }
 
   // The beginning of an object; "" for one without area.

@@ -13,7 +13,8 @@ namespace vitrail {
 // stay. Exact are: geometry, cameras, constant colours and images of diffuse surfaces, point, distant and
 // pbrt's spot lights, rectangles that shine and environments. Light that comes over other surfaces, or from
 // shapes that are no rectangles, is POV-Ray's radiosity, an approximation like its models of all other
-// materials; the diagnostics say which. Media are dropped. Throws MachineError.
+// materials; the diagnostics say which. So are homogeneous media that scatter: once, light of light sources.
+// Media of grids are dropped. Throws MachineError.
 Diagnostics write_povray(const Scene& scene, const std::filesystem::path& out);
 
 }  // namespace vitrail

@@ -96,6 +96,42 @@ TEST_F(RefusedByMitsuba, ExtinctionsAboveOneAreScaled) {
   EXPECT_NEAR(std::stod(values.substr(values.find(':') + 1)), 3.6 / 8.3, 1e-6);
 }
 
+// volpath samples one wavelength's free flights: of an extinction that ends within the visible it lost 4 %.
+TEST_F(RefusedByMitsuba, ColouredExtinctionsHaveTheirIntegrator) {
+  const auto integrator = [&](VolumeParameter sigma_t) {
+    Scene scene = square_scene({});
+    Medium medium;
+    medium.coefficients = ExtinctionAlbedo{std::move(sigma_t)};
+    scene.media = {medium};
+    scene.shapes[0].exterior = Id<Medium>{0};
+    return std::string(write(scene).child("integrator").attribute("type").value());
+  };
+  Grid grid{.nx = 1, .ny = 1, .nz = 1, .channels = 1, .values = {2}};
+  EXPECT_EQ(integrator(Spectrum{ConstantSpectrum{3}}), "volpath");
+  EXPECT_EQ(integrator(grid), "volpath");
+  EXPECT_EQ(integrator(tabulate({{400, .5}, {600, .9}}, false)), "volpathmis");
+  grid.channels = 3, grid.values = {1, 2, 3};
+  EXPECT_EQ(integrator(grid), "volpathmis");
+}
+
+// A component of their colour may be above 1 where no sample is, and one below 0 is 0: no light scatters.
+TEST_F(RefusedByMitsuba, ColoursOfExtinctionsInRgbVariants) {
+  const auto medium_of = [&](std::vector<SpectrumSample> samples) {
+    Scene scene = square_scene({});
+    Medium medium;
+    medium.coefficients = ExtinctionAlbedo{Spectrum{tabulate(samples, true)}};
+    scene.media = {medium};
+    scene.shapes[0].exterior = Id<Medium>{0};
+    return write(scene).child("medium");
+  };
+  EXPECT_EQ(value(medium_of({{360, .5}, {830, 1}}), "scale"), "1");
+  EXPECT_THAT(diagnostics_, testing::IsEmpty());
+  EXPECT_GT(std::stod(value(medium_of({{560, .1}, {580, 1}}), "scale")), 1.05);
+  EXPECT_THAT(diagnostics_, testing::Not(approximates("outside of sRGB")));
+  medium_of({{590, .01}, {600, 1}});
+  EXPECT_THAT(diagnostics_, approximates("outside of sRGB"));
+}
+
 // Mitsuba's spectral variants make NaN of an extinction that is 0 at some wavelengths.
 TEST_F(RefusedByMitsuba, ExtinctionsOfLinesAreNowhereZero) {
   Scene scene = square_scene({});

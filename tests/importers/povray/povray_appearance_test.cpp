@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "tests/importers/povray/povray_oracle.h"
@@ -41,6 +42,115 @@ class PovrayAppearance : public PovrayOracle {
     return image;
   }
 };
+
+// An upward plane gets E: a sky of one radiance has E/π.
+TEST_F(PovrayAppearance, SkiesHaveTheirIlluminance) {
+  std::string grey = "P2\n64 64\n255\n";
+  for (int pixel = 0; pixel < 64 * 64; ++pixel) grey += "99 ";
+  folder_.write("grey.pgm", grey);
+  using enum EnvironmentLight::Projection;
+  for (const auto projection : {latitude_longitude, equal_area}) {
+    Scene scene = empty_scene();
+    scene.settings.max_depth = 0;
+    EnvironmentLight sky;
+    sky.filename = (folder_ / "grey.pgm").string();
+    sky.projection = projection;
+    sky.illuminance = static_cast<float>(.3 * pi);
+    scene.lights.push_back({sky});
+    expect_plane(
+        scene,
+        [](double, double) -> std::array<double, 3> {
+          return {.3, .3, .3};
+        },
+        .02);
+  }
+}
+
+// A lamp of a square metre before the plane: its light is there, itself is not.
+TEST_F(PovrayAppearance, HiddenLampsLightTheScene) {
+  const auto irradiance = [](double x, double y) {
+    constexpr int n = 64;
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const double dx = -.5 + (i + .5) / n - x, dy = -.5 + (j + .5) / n - y, d2 = dx * dx + dy * dy + 4;
+        sum += 4 / d2 / d2 / (n * n);
+      }
+    return sum;
+  };
+  Scene scene = plane({.5, .5, .5});
+  TriangleMesh lamp = square(-.5f, .5f, -.5f, .5f, 2);
+  std::swap(lamp.positions[1], lamp.positions[3]);
+  add_emitter(scene, lamp, {2, 2, 2});
+  scene.area_lights.back().two_sided = true;
+  scene.settings.hides_emitters = true;
+  expect_plane(
+      scene,
+      [&](double x, double y) -> std::array<double, 3> {
+        const double seen = 2 * .5 * irradiance(x, y) / pi;
+        return {seen, seen, seen};
+      },
+      .01);
+
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({.2, .4, .1})}});
+  scene.settings.max_depth = 0;
+  expect_plane(scene, [](double, double) -> std::array<double, 3> { return {0, 0, 0}; });
+}
+
+TEST_F(PovrayAppearance, MediaAbsorbAndScatter) {
+  const auto in_a_medium = [](AbsorptionScattering coefficients) {
+    Scene scene = empty_scene();
+    Medium medium;
+    medium.coefficients = std::move(coefficients);
+    scene.media.push_back(medium);
+    scene.camera_medium = Id<Medium>{0};
+    return scene;
+  };
+  const auto way = [](double x, double y) { return std::sqrt(16 + x * x + y * y); };
+  Scene absorbs = in_a_medium({unbounded_from_rgb({.1, .2, .4}), Spectrum{ConstantSpectrum{0}}});
+  add_emitter(absorbs, square(-5, 5, -5, 5, 0), {1, 1, 1});
+  absorbs.settings.max_depth = 0;
+  expect_plane(absorbs, [&](double x, double y) -> std::array<double, 3> {
+    const double d = way(x, y);
+    return {std::exp(-.1 * d), std::exp(-.2 * d), std::exp(-.4 * d)};
+  });
+  // σ_s·d/(4π) of an irradiance of 100π, on what comes straight back.
+  for (const float g : {0.0f, 0.5f}) {
+    Scene scatters = in_a_medium({Spectrum{ConstantSpectrum{0}}, Spectrum{ConstantSpectrum{.0002f}}});
+    scatters.media[0].g = g;
+    add(scatters, square(-5, 5, -5, 5, 0), diffuse({0, 0, 0}));
+    scatters.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({100 * pi, 100 * pi, 100 * pi})}});
+    const PovPicture picture = render_povray(scatters, folder_);
+    ASSERT_FALSE(picture.values.empty());
+    const double share = (1 - g * g) / std::pow(1 + g, 3);
+    EXPECT_NEAR(picture.at(16, 16)[1], .0002 * 4 * 100 / 4 * share, .02 * .02 * share) << g;
+  }
+}
+
+// Of a container that nothing else shows.
+TEST_F(PovrayAppearance, WhatFillsAClosedSurface) {
+  Scene scene = empty_scene();
+  Medium medium;
+  medium.coefficients = AbsorptionScattering{Spectrum{ConstantSpectrum{.5f}}, Spectrum{ConstantSpectrum{0}}};
+  scene.media.push_back(medium);
+  add_emitter(scene, square(-5, 5, -5, 5, 0), {1, 1, 1});
+  Shape& slab = add(scene, {}, InterfaceMaterial{});
+  TriangleMesh& box = scene.meshes[slab.mesh.value];
+  for (const float z : {.5f, 1.5f})
+    for (const float y : {-5.0f, 5.0f})
+      for (const float x : {-5.0f, 5.0f}) box.positions.push_back({x, y, z});
+  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (const bool turned : {false, true}) {
+    slab.flip_orientation = turned;
+    (turned ? slab.exterior : slab.interior) = Id<Medium>{0};
+    if (turned) slab.interior.reset();
+    expect_plane(scene, [](double x, double y) -> std::array<double, 3> {
+      const double left = std::exp(-.5 * std::sqrt(1 + (x * x + y * y) / 16));
+      return {left, left, left};
+    });
+  }
+}
 
 // POV-Ray shows one background or sky sphere, the last.
 TEST_F(PovrayAppearance, LightsFromAllAroundAreSummed) {

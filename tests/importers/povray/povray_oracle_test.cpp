@@ -111,6 +111,21 @@ TEST_F(PovrayOracle, OpacitiesOfShapes) {
   expect_plane(scene, [](double, double) -> std::array<double, 3> { return {.5, .5, .5}; });
 }
 
+// What is behind shows through, brighter by the lamp's radiance; from behind it is alone.
+TEST_F(PovrayOracle, LampsOfNothing) {
+  for (const bool flipped : {false, true}) {
+    Scene scene = empty_scene();
+    scene.settings.max_depth = 4;
+    add_emitter(scene, square(-5, 5, -5, 5, 0), {.4, .4, .4});
+    add_emitter(scene, square(-5, 5, -5, 5, .5), {.2, .3, .4}).flip_orientation = flipped;
+    scene.materials.back().model = InterfaceMaterial{};
+    expect_plane(scene, [&](double, double) -> std::array<double, 3> {
+      if (flipped) return {.4, .4, .4};
+      return {.6, .7, .8};
+    });
+  }
+}
+
 // Of each the front shines and the back is black, as of its triangles; those that POV-Ray has stay
 // themselves.
 TEST_F(PovrayOracle, QuadricsAreTheirTriangles) {

@@ -229,6 +229,11 @@ TEST_F(ReadPovrayMedia, TheEyeInAContainerAndAround) {
   EXPECT_TRUE(around.scene.camera_medium);
   EXPECT_TRUE(around.scene.media[0].veils) << "it weakens no lamp";
   EXPECT_FALSE(inside.scene.media[0].veils);
+  for (const std::string light : {"", "parallel point_at 0"}) {
+    const ImportedScene weakens = read("media { absorption .1 } light_source { 9*y, rgb 1 " + light +
+                                       " media_attenuation on } sphere { z*5, 1 }");
+    EXPECT_EQ(weakens.scene.media[0].veils, !light.empty());
+  }
   EXPECT_FALSE(outside.scene.camera_medium);
 }
 

@@ -240,11 +240,11 @@ TEST_F(ReadPovrayPictures, SpotlightsAcrossAnAreaAreALamp) {
               both =
                   read(gamma_1 + ball + lamp("area_illumination", 1) + lamp("area_illumination", -1) + glow)
                       .scene,
-              grid = read(gamma_1 + ball + lamp("", 1) + glow).scene;
+              middle = read(gamma_1 + ball + lamp("", 1) + glow).scene;  // for media
   const auto light_of = [](const Scene& scene) -> const AreaLight& {
     return scene.area_lights.at(scene.shapes.at(1).area_light->value);
   };
-  for (const Scene* scene : {&unseen, &seen, &both}) {
+  for (const Scene* scene : {&unseen, &seen, &both, &middle}) {
     EXPECT_TRUE(scene->lights.empty());
     ASSERT_EQ(scene->shapes.size(), 2u);
     EXPECT_TRUE(light_of(*scene).sampled);
@@ -252,8 +252,45 @@ TEST_F(ReadPovrayPictures, SpotlightsAcrossAnAreaAreALamp) {
     EXPECT_EQ(light_of(*scene).two_sided, scene == &both);
     EXPECT_EQ(scene->shapes[1].opacity == FloatParameter{0.0f}, scene == &unseen);
   }
-  EXPECT_EQ(grid.lights.size(), 64u);
-  EXPECT_FALSE(light_of(grid).sampled);
+}
+
+// As lamps of nothing are written: their front shines, and light passes.
+TEST_F(ReadPovrayPictures, ClearLamps) {
+  const Scene scene =
+      read(gamma_1 +
+           "#default { finish { ambient 0 } }\n#declare Clear = texture { pigment { rgbt 1 } finish { "
+           "diffuse 0 } }\n"
+           "#declare Black = texture { pigment { rgb 0 } finish { diffuse 0 } }\n"
+           "sphere { 0, 1 texture { average texture_map { [1 Clear] [1 pigment { rgb 1 } finish { "
+           "diffuse 0 emission 2 }] [-1 Black] } } interior_texture { Clear } }\n")
+          .scene;
+  ASSERT_EQ(scene.shapes.size(), 1u);
+  const Shape& lamp = scene.shapes[0];
+  EXPECT_EQ(lamp.opacity, FloatParameter{1.0f});
+  EXPECT_TRUE(std::holds_alternative<InterfaceMaterial>(scene.materials[lamp.material.value].model));
+  ASSERT_TRUE(lamp.area_light);
+  EXPECT_FALSE(scene.area_lights[lamp.area_light->value].two_sided);
+}
+
+// As scenes whose emitters are hidden are written. Beside what glows and is seen, no_image drops the object.
+TEST_F(ReadPovrayPictures, LampsThatTheCameraDoesNotSee) {
+  const std::string
+      lamp = "sphere { <3, 0, 0>, 1 pigment { rgb 1 } finish { diffuse 0 emission 2 } no_image }\n",
+      seen = "sphere { <-3, 0, 0>, 1 pigment { rgb 1 } finish { diffuse 0 emission 2 } }\n",
+      sky = "background { rgb 1 }\n",
+      lid =
+          "sphere { 0, 1000 pigment { rgb 0 } finish { diffuse 0 } hollow no_shadow "
+          "no_reflection no_radiosity }\n";
+  const auto shapes = [&](const std::string& more, bool hides) {
+    const Scene scene = read(gamma_1 + ball + more).scene;
+    EXPECT_EQ(scene.settings.hides_emitters, hides) << more;
+    return scene.shapes.size();
+  };
+  EXPECT_EQ(shapes("", false), 1u);
+  EXPECT_EQ(shapes(lamp, true), 2u);
+  EXPECT_EQ(shapes(lamp + seen, false), 2u);
+  EXPECT_EQ(shapes(lamp + sky, false), 2u) << "the sky's sphere";
+  EXPECT_EQ(shapes(lamp + sky + lid, true), 3u);
 }
 
 // As they are written for shapes with an opacity that is an image, and for shapes that glow.

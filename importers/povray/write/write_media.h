@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "importers/povray/write/context.h"
+#include "importers/povray/write/write_meshes.h"
+
+namespace vitrail::povray {
+
+// "media { … }": the same σ_a, σ_s, phase function and emission. POV-Ray scatters the light of its light
+// sources, once. "" for none, and for grids, which are reported.
+std::string media_text(Context& context, std::optional<Id<Medium>> medium);
+
+// What lies inside of the closed surface of a shape.
+std::optional<Id<Medium>> medium_inside(const Scene& scene, const Shape& shape, const MeshText& mesh);
+
+// What is around everything: the camera is in it, and no shape holds it.
+std::optional<Id<Medium>> medium_around(const Scene& scene);
+
+}  // namespace vitrail::povray
