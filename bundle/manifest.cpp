@@ -152,9 +152,21 @@ Features features_of(const Manifest& m) {
                                 return image && std::holds_alternative<AttributeMapping>(image->mapping);
                               }),
           required_feature::faces);
+  require(std::ranges::any_of(m.textures,
+                              [](const Texture& t) {
+                                const auto* image = std::get_if<ImageTexture>(&t.model);
+                                return image && std::holds_alternative<GlobeMapping>(image->mapping);
+                              }),
+          required_feature::globes);
   require(std::ranges::any_of(
               m.textures, [](const Texture& t) { return std::holds_alternative<PatternTexture>(t.model); }),
           required_feature::patterns);
+  require(std::ranges::any_of(m.textures,
+                              [](const Texture& t) {
+                                const auto* pattern = std::get_if<PatternTexture>(&t.model);
+                                return pattern && pattern->kind == PatternTexture::Kind::formula;
+                              }),
+          required_feature::formulas);
   require(std::ranges::any_of(m.lights,
                               [](const Light& light) {
                                 return std::visit([](const auto& l) { return records::fades(l); },

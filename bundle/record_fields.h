@@ -63,9 +63,15 @@ inline constexpr auto last_of<GridEdge> = GridEdge::zero;
 template <>
 inline constexpr auto last_of<NoiseTexture::Kind> = NoiseTexture::Kind::marble;
 template <>
-inline constexpr auto last_of<PatternTexture::Kind> = PatternTexture::Kind::mandel;
+inline constexpr auto last_of<PatternTexture::Kind> = PatternTexture::Kind::formula;
 template <>
 inline constexpr auto last_of<PatternTexture::Wave> = PatternTexture::Wave::poly;
+template <>
+inline constexpr auto last_of<PatternStep::Op> = PatternStep::Op::fractal;
+template <>
+inline constexpr auto last_of<PatternFractal::Kind> = PatternFractal::Kind::magnet2;
+template <>
+inline constexpr auto last_of<PatternFractal::Color> = PatternFractal::Color::modulus;
 template <>
 inline constexpr auto last_of<TextureFilter> = TextureFilter::anisotropic;
 template <>
@@ -170,14 +176,16 @@ void fields(auto& io, Unresolved auto&) {
 // Those of which bundles have other fields.
 template <class T>
 concept Reduced =
-    IsOneOf<T, ImageTexture, PtexTexture, Roughness, SubsurfaceMaterial, MeasuredMaterial, TabulatedMaterial,
-            AreaLight, PointLight, SpotLight, GoniometricLight, EnvironmentLight>;
+    IsOneOf<T, ImageTexture, PtexTexture, PatternTexture, Roughness, SubsurfaceMaterial, MeasuredMaterial,
+            TabulatedMaterial, AreaLight, PointLight, SpotLight, GoniometricLight, EnvironmentLight>;
 template <HasFields T>
 requires(!Reduced<T>) void fields(auto& io, T& record) {
   visit_fields(record, [&](auto&... field) { (fields(io, field), ...); });
 }
 
 // ---- Textures
+
+inline constexpr std::size_t least_pattern_bytes = 256;
 
 // What its file holds is final: encoding, scale and inversion are applied.
 void fields(auto& io, Is<ImageTexture> auto& t) {
@@ -187,6 +195,20 @@ void fields(auto& io, Is<ImageTexture> auto& t) {
 void fields(auto& io, Is<PtexTexture> auto&) {
   if constexpr (reads<decltype(io)>) io.stream.fail("a texture is not baked");
   throw std::logic_error("a bundle takes baked textures");
+}
+// Only those of the feature `formulas` have a formula. Patterns in it have none: a file cannot nest them.
+void plain_fields(auto& io, Is<PatternTexture> auto& t) {
+  visit_fields(t, [&](auto&... field) { (fields(io, field), ...); });
+}
+void fields(auto& io, Is<PatternTexture> auto& t) {
+  plain_fields(io, t);
+  if (t.kind != PatternTexture::Kind::formula) return;
+  list(io, t.steps), list(io, t.fractals);
+  if constexpr (reads<decltype(io)>)
+    t.patterns.resize(io.stream.get_count(least_pattern_bytes));
+  else
+    io(static_cast<std::uint64_t>(t.patterns.size()));
+  for (auto& pattern : t.patterns) plain_fields(io, pattern);
 }
 void fields(auto& io, Is<Texture> auto& t) { fields(io, t.model), fields(io, t.is_float); }
 

@@ -273,6 +273,7 @@ void move(std::vector<Texture>& textures, Vector3d by) {
   const auto move_mapping = [&](TextureMapping& mapping) {
     if (auto* m = std::get_if<SphericalMapping>(&mapping)) moved(m->texture_to_world);
     if (auto* m = std::get_if<CylindricalMapping>(&mapping)) moved(m->texture_to_world);
+    if (auto* m = std::get_if<GlobeMapping>(&mapping)) moved(m->texture_to_world);
     if (auto* m = std::get_if<PlanarMapping>(&mapping)) moved(m->texture_to_world);
   };
   for (Texture& texture : textures)

@@ -6,6 +6,7 @@
 
 #include "scene/geometry/portable_math.h"
 #include "scene/models/lattice_noise.h"
+#include "scene/models/pattern_formula.h"
 #include "scene/models/pattern_shapes.h"
 
 namespace vitrail {
@@ -51,8 +52,10 @@ double shaped(const PatternTexture& t, double x) {
 // 1 stays: what is between 0 and 1 does not repeat.
 double repeated(double x) { return x >= 0 && x <= 1 ? x : x - std::floor(x); }
 
-double number(const PatternTexture& t, Point3d p) {
-  const double x = number_of_pattern(t, p);
+double number(const PatternTexture& t, Point3d p, Vector3d n) {
+  double x = t.kind == Kind::formula ? formula_value(t, p, n) : number_of_pattern(t, p);
+  // As povray: before the frequency, and not below 0.
+  if (t.kind == Kind::formula && x > 1) x -= std::floor(x);
   const bool has_them = t.kind == Kind::ripples || t.kind == Kind::waves;  // in its sines
   const double turned = has_them ? x : x * static_cast<double>(t.frequency) + static_cast<double>(t.phase);
   return shaped(t, repeated(turned));
@@ -72,23 +75,23 @@ const char* fault_of(const PatternTexture& t) {
   if (t.iterations < 1 || t.iterations > most_iterations) return "has an impossible number of iterations";
   if (t.kind == Kind::gradient && !(length(t.direction) > 0)) return "has a gradient without direction";
   if (!std::ranges::is_sorted(t.map, {}, &PatternStop::at)) return "has a map out of order";
-  return nullptr;
+  return t.kind == Kind::formula ? fault_of_formula(t) : nullptr;
 }
 
-double pattern_value(const PatternTexture& t, Point3d p) {
+double pattern_value(const PatternTexture& t, Point3d p, Vector3d n) {
   const Point3d q = moved(t, p);
-  if (!is_of_places(t.kind)) return number(t, q);
+  if (!is_of_places(t.kind)) return number(t, q, n);
   return static_cast<double>(place_of_pattern(t, q)) / static_cast<double>(places_of(t.kind) - 1);
 }
 
-PatternMix pattern_mix(const PatternTexture& t, Point3d p) {
+PatternMix pattern_mix(const PatternTexture& t, Point3d p, Vector3d n) {
   const Point3d q = moved(t, p);
   const std::size_t last = t.map.size() - 1;
   if (is_of_places(t.kind)) {
     const std::size_t place = std::min(place_of_pattern(t, q), last);
     return {place, place, 0};
   }
-  const double x = number(t, q);
+  const double x = number(t, q, n);
   const auto above =
       std::ranges::find_if(t.map, [&](const PatternStop& stop) { return x < static_cast<double>(stop.at); });
   if (above == t.map.begin()) return {0, 0, 0};

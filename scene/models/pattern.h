@@ -15,10 +15,11 @@ struct PatternMix {
   double amount = 0;  // 0 … 1
 };
 
-// `p`: of the pattern's space, before tiles and turbulence.
-PatternMix pattern_mix(const PatternTexture& pattern, Point3d p);
+// `p`: of the pattern's space, before tiles and turbulence. `n`: the unit normal towards the ray, in the
+// world, which formulas alone look at.
+PatternMix pattern_mix(const PatternTexture& pattern, Point3d p, Vector3d n = {});
 // 0 … 1, by the wave. Of kinds by places: the place over the greatest one of the kind.
-double pattern_value(const PatternTexture& pattern, Point3d p);
+double pattern_value(const PatternTexture& pattern, Point3d p, Vector3d n = {});
 
 // What makes no sense of it, for a message: "has …"; null: nothing.
 const char* fault_of(const PatternTexture& pattern);

@@ -109,10 +109,10 @@ double number_of_pattern(const PatternTexture& t, Point3d p) {
     case Kind::checker:
     case Kind::hexagon:
     case Kind::brick:
-      break;  // by places
-    case Kind::gradient: {
+      break;                // by places
+    case Kind::gradient: {  // what is below 0 is repeated after the frequency, as povray shows
       const double along = dot(Vector3d{p.x, p.y, p.z}, normalize(t.direction));
-      return along - std::trunc(along);
+      return along > 1 ? rest(along) : along;
     }
     case Kind::boxed:
       return below_one(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
@@ -171,6 +171,8 @@ double number_of_pattern(const PatternTexture& t, Point3d p) {
       return std::min(0.5 * scalar_turbulence(p, {10, 2, 0.5}), 1.0);
     case Kind::mandel:
       return mandel(t.iterations, p);
+    case Kind::formula:
+      break;  // pattern_formula.h
   }
   return 0;
 }

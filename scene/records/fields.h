@@ -22,7 +22,7 @@ concept IsOneOf = (Is<A, T> || ...);
 // ---- Textures
 
 auto visit_fields(Is<UvMapping> auto& m, auto&& f) { return f(m.a, m.b, m.c, m.d, m.e, m.f); }
-auto visit_fields(IsOneOf<SphericalMapping, CylindricalMapping> auto& m, auto&& f) {
+auto visit_fields(IsOneOf<SphericalMapping, CylindricalMapping, GlobeMapping> auto& m, auto&& f) {
   return f(m.texture_to_world);
 }
 auto visit_fields(Is<PlanarMapping> auto& m, auto&& f) {
@@ -54,6 +54,12 @@ auto visit_fields(Is<PatternTurbulence> auto& t, auto&& f) {
 auto visit_fields(Is<PatternBrick> auto& b, auto&& f) { return f(b.size, b.mortar); }
 auto visit_fields(Is<PatternCrackle> auto& c, auto&& f) { return f(c.form, c.metric, c.offset, c.solid); }
 auto visit_fields(Is<PatternStop> auto& s, auto&& f) { return f(s.at, s.value); }
+auto visit_fields(Is<PatternStep> auto& s, auto&& f) { return f(s.op, s.index, s.value); }
+auto visit_fields(Is<PatternFractal> auto& p, auto&& f) {
+  return f(p.kind, p.is_julia, p.seed, p.exponent, p.iterations, p.outside, p.inside, p.outside_factor,
+           p.inside_factor);
+}
+// Without what belongs to a formula, which refers to no other records.
 auto visit_fields(Is<PatternTexture> auto& t, auto&& f) {
   return f(t.kind, t.texture_to_world, t.repeat, t.turbulence, t.frequency, t.phase, t.wave, t.exponent,
            t.direction, t.brick, t.crackle, t.arms, t.agate_turb, t.iterations, t.map);

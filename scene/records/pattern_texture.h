@@ -8,6 +8,7 @@
 
 #include "scene/geometry/transform.h"
 #include "scene/records/parameter.h"
+#include "scene/records/pattern_formula.h"
 
 namespace vitrail {
 
@@ -78,6 +79,7 @@ struct PatternTexture {
     waves,     // likewise, of ten wavelengths and heights
     wrinkles,  // Σ noise(2ⁱ·p)/2ⁱ, i < 10, in 0 … 1
     mandel,    // steps of z ↦ z² + x + iy, from x + iy, after which |z| ≤ 2, over `iterations`
+    formula,   // what is left on the stack by `steps`
   };
   // `ramp_wave` … of frequency · v + phase, of which what is beyond 0 … 1 repeats.
   enum class Wave : std::uint8_t {
@@ -104,6 +106,10 @@ struct PatternTexture {
   float agate_turb = 1;          // of agate
   int iterations = 100;          // of mandel, at most 10000
   std::vector<PatternStop> map;  // empty: the number itself, as grey
+  // Of a formula. Its patterns are no formulas, and have constants in their maps.
+  std::vector<PatternStep> steps;
+  std::vector<PatternFractal> fractals;
+  std::vector<PatternTexture> patterns;
   bool operator==(const PatternTexture&) const = default;
 };
 

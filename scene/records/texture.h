@@ -44,8 +44,14 @@ struct AttributeMapping {
   std::string slot;
   bool operator==(const AttributeMapping&) const = default;
 };
-using TextureMapping =
-    std::variant<UvMapping, SphericalMapping, CylindricalMapping, PlanarMapping, AttributeMapping>;
+// s = atan2(y,x)/2π (+1 below 0), t = 1 − acos(z)/π of the direction of the point in texture space, as on
+// globes: what SphericalMapping has, exchanged.
+struct GlobeMapping {
+  Transform texture_to_world;
+  bool operator==(const GlobeMapping&) const = default;
+};
+using TextureMapping = std::variant<UvMapping, SphericalMapping, CylindricalMapping, PlanarMapping,
+                                    AttributeMapping, GlobeMapping>;
 
 // ---- Kinds of texture
 

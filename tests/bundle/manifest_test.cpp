@@ -100,6 +100,36 @@ TEST_F(ManifestFile, WhatPovRayHas) {
   EXPECT_THROW(written_and_read(m), Error);
 }
 
+TEST_F(ManifestFile, Formulas) {
+  using Op = PatternStep::Op;
+  Manifest m = sample_manifest();
+  PatternTexture formula;
+  formula.kind = PatternTexture::Kind::formula;
+  formula.steps = {{Op::pick, 2}, {Op::constant, 0, 0.25}, {Op::multiply}};
+  formula.fractals = {{PatternFractal::Kind::magnet2, true, {0.5, -0.25}, 3, 20}};
+  formula.patterns.resize(2);
+  formula.patterns[1].kind = PatternTexture::Kind::wood;
+  formula.patterns[1].map = {{0, ConstantSpectrum{0}}, {0.5f, ConstantSpectrum{3}}};
+  m.textures.push_back({formula});
+  EXPECT_EQ(features_of(m).required & (required_feature::formulas | required_feature::globes),
+            required_feature::formulas);
+  EXPECT_EQ(written_and_read(m).textures, m.textures);
+  // Of other kinds nothing of a formula is kept.
+  std::get<PatternTexture>(m.textures.back().model).kind = PatternTexture::Kind::onion;
+  EXPECT_EQ(features_of(m).required & required_feature::formulas, 0u);
+  const Manifest r = written_and_read(m);
+  EXPECT_TRUE(std::get<PatternTexture>(r.textures.back().model).steps.empty());
+}
+
+TEST_F(ManifestFile, ImagesAroundGlobes) {
+  Manifest m = sample_manifest();
+  for (Texture& texture : m.textures)
+    if (auto* image = std::get_if<ImageTexture>(&texture.model))
+      image->mapping = GlobeMapping{scale({1, 2, 3})};
+  EXPECT_NE(features_of(m).required & required_feature::globes, 0u);
+  EXPECT_EQ(written_and_read(m).textures, m.textures);
+}
+
 // A reflector with one coefficient a pair, and measurements of nothing in particular.
 ScatteringTable fourier_table() {
   return FourierTable{

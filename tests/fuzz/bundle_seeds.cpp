@@ -70,6 +70,19 @@ void add_bundles(const std::function<void(const std::string&)>& add) {
       for (Material& material : m.materials) material = {DiffuseMaterial{Id<Texture>{2}}};
     });
   });
+  add_changed([](Manifest& m) {
+    using Op = PatternStep::Op;
+    PatternTexture formula;
+    formula.kind = PatternTexture::Kind::formula;
+    formula.patterns.emplace_back();
+    formula.fractals.emplace_back();
+    formula.steps = {{Op::pick, 0}, {Op::pick, 1}, {Op::fractal, 0}, {Op::constant, 0, 0.5},
+                     {Op::pick, 1}, {Op::pick, 2}, {Op::pattern, 0}, {Op::slide, 1},
+                     {Op::cos},     {Op::pick, 5}, {Op::add}};
+    m.camera_medium = -1;
+    m.textures.push_back({formula});
+    for (Material& material : m.materials) material = {DiffuseMaterial{Id<Texture>{2}}};
+  });
   for_each_kind<Camera>([&](const auto& kind) { add_changed([&](Manifest& m) { m.camera = kind; }); });
   add_changed([](Manifest& m) {
     m.film.layers.bits = all_layers;

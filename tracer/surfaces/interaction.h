@@ -33,7 +33,7 @@ struct Interaction {
 
   double side() const { return front ? 1 : -1; }
   TexturePoint texture_point() const {
-    return {uv, p, shading, uv_width, std::span(attributes).first(attribute_count)};
+    return {uv, p, shading, uv_width, std::span(attributes).first(attribute_count), side()};
   }
 };
 

@@ -29,7 +29,9 @@ inline MappedPoint map_point(const PreparedMapping& prepared, Point2d uv, Point3
   const double turn = portable_atan2(q.y, q.x) / (2 * pi);
   if (std::holds_alternative<CylindricalMapping>(prepared.mapping)) return {0.5 + turn, q.z};
   const double r = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
-  return {portable_acos(r > 0 ? q.z / r : 1) / pi, turn < 0 ? turn + 1 : turn};
+  const double down = portable_acos(r > 0 ? q.z / r : 1) / pi, around = turn < 0 ? turn + 1 : turn;
+  if (std::holds_alternative<GlobeMapping>(prepared.mapping)) return {around, 1 - down};
+  return {down, around};
 }
 
 // Greatest size in (s,t) of a circle of diameter 1 in uv, along s and t. 0 where it is not known.

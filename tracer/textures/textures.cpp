@@ -49,6 +49,8 @@ PreparedMapping prepared(const TextureMapping& mapping, std::size_t id) {
     result.world_to_texture = checked_inverse(m->texture_to_world, id);
   if (auto* m = std::get_if<CylindricalMapping>(&mapping))
     result.world_to_texture = checked_inverse(m->texture_to_world, id);
+  if (auto* m = std::get_if<GlobeMapping>(&mapping))
+    result.world_to_texture = checked_inverse(m->texture_to_world, id);
   if (auto* m = std::get_if<PlanarMapping>(&mapping))
     result.world_to_texture = checked_inverse(m->texture_to_world, id);
   return result;
@@ -247,8 +249,9 @@ struct Evaluation {
   }
   Value operator()(const PatternTexture& t) const {
     const Point3d p = transform_point(node.world_to_solid, lookup.at.p);
-    if (t.map.empty()) return lookup.constant(static_cast<float>(pattern_value(t, p)));
-    const PatternMix mix = pattern_mix(t, p);
+    const Vector3d n = lookup.at.normal * lookup.at.side;
+    if (t.map.empty()) return lookup.constant(static_cast<float>(pattern_value(t, p, n)));
+    const PatternMix mix = pattern_mix(t, p, n);
     return mixed(t.map[mix.first].value, t.map[mix.second].value, mix.amount);
   }
   // Not in bundles.

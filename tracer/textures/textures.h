@@ -33,6 +33,7 @@ struct TexturePoint {
   Vector3d normal;      // shading, unit, in the bundle's coordinates
   double uv_width = 0;  // diameter of the ray's cone, in units of uv; 0: the finest level
   std::span<const AttributeValue> attributes{};  // mesh attributes, by slot
+  double side = 1;                               // −1: the normal points away from the ray
 };
 
 // The textures of a bundle. Values are pure functions of the point, whatever is in memory. Safe to use from

@@ -174,6 +174,8 @@ class TextureWriter {
     } else if (const auto* cylinder = std::get_if<CylindricalMapping>(&mapping)) {
       texture_to_world_ = cylinder->texture_to_world;
       p_.text("mapping", "cylindrical");
+    } else if (std::holds_alternative<GlobeMapping>(mapping)) {
+      p_.approximated("an image around a globe, which pbrt turns by a quarter: by the surface's (u,v)");
     } else {
       const auto& plane = std::get<PlanarMapping>(mapping);
       texture_to_world_ = plane.texture_to_world;

@@ -232,7 +232,7 @@ class Compiler {
     expression();
     Instruction i;
     if (known.one) {
-      i.op = Op::one, i.one = known.one;
+      i.op = Op::one, i.one = known.one, i.index = static_cast<std::uint32_t>(known.word);
       emit(i, 0);
     } else {
       std::size_t count = 1;
@@ -240,7 +240,7 @@ class Compiler {
         if (++count > 2 && !known.folds)
           reader_.fail(fmt::format("{}() takes two arguments", token.symbol->name), token.place);
         expression();
-        i.op = Op::two, i.two = known.two;
+        i.op = Op::two, i.two = known.two, i.index = static_cast<std::uint32_t>(known.word);
         emit(i, -1);
       }
       if (count < 2) reader_.fail(fmt::format("{}() takes two arguments", token.symbol->name), token.place);
@@ -274,7 +274,8 @@ Shared<Function> read_function(Reader& reader) {
     function->source = read_pigment_block(reader);
     function->pigment = std::make_shared<PatternField>(reader, *function->source);
   } else if (first.is(Word::pattern_)) {
-    function->pattern = std::make_shared<PatternField>(reader, *read_pattern_block(reader));
+    function->source = read_pattern_block(reader);
+    function->pattern = std::make_shared<PatternField>(reader, *function->source);
   } else if (first.is(Word::transform_)) {
     function->placement = std::make_shared<Placement>(Placement{read_transform_block(reader)});
   } else if (first.is(Word::spline_)) {

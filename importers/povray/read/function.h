@@ -41,7 +41,7 @@ struct Instruction {
   };
   Op op = Op::constant;
   std::uint8_t component = 0;
-  std::uint32_t index = 0;  // of an argument or a function
+  std::uint32_t index = 0;  // of an argument or a function; of `one` and `two` their Word
   union {
     double value = 0;
     double (*one)(double);
@@ -57,11 +57,12 @@ struct Function {
   std::vector<Shared<Function>> callees;
   double (*built_in)(const double* arguments) = nullptr;  // in place of code, of so many arguments
   std::size_t count = 3;
+  int number = 0;         // of `built_in` in functions.inc
   bool unknown = false;   // a formula that is not known here: 0
   std::size_t depth = 0;  // of the stack
   // In place of code:
   std::shared_ptr<const PatternField> pattern, pigment;  // a number or a colour at a point
-  Shared<Pigment> source;                                // of `pigment`
+  Shared<Pigment> source;                                // of `pattern` or `pigment`
   Shared<Placement> placement;                           // a point moved
   std::shared_ptr<const Spline> spline;
 

@@ -47,7 +47,7 @@ constexpr Known known[] = {
     {17, 6,
      [](const double* a) { return hypotenuse(a[0] * a[3], a[1] * a[4], a[2] * a[5]); }},  // f_ellipsoid
     {29, 9, hetero_mf},
-    {45, 4, [](const double* a) { return -a[3] * (a[1] - a[0] * a[0] - a[2] * a[2]); }},  // f_paraboloid
+    {45, 4, [](const double* a) { return a[3] * (a[1] - a[0] * a[0] - a[2] * a[2]); }},  // f_paraboloid
     {47, 3, [](const double* a) { return std::atan2(std::sqrt(a[0] * a[0] + a[2] * a[2]), a[1]); }},  // f_ph
     {57, 3, [](const double* a) { return hypotenuse(a[0], a[1], a[2]); }},                            // f_r
     {59, 9, ridged_mf},
@@ -60,10 +60,9 @@ constexpr Known known[] = {
     {68, 5,
      [](const double* a) {  // f_superellipsoid
        const double e = 2 / a[3], n = a[3] / a[4];
-       return std::pow(std::pow(std::pow(std::abs(a[0]), e) + std::pow(std::abs(a[1]), e), n) +
-                           std::pow(std::abs(a[2]), 2 / a[4]),
-                       a[4] * 0.5) -
-              1;
+       return 1 - std::pow(std::pow(std::pow(std::abs(a[0]), e) + std::pow(std::abs(a[1]), e), n) +
+                               std::pow(std::abs(a[2]), 2 / a[4]),
+                           a[4] * 0.5);
      }},
     {69, 3, [](const double* a) { return std::atan2(a[0], a[2]); }},  // f_th
     {70, 5,
@@ -82,7 +81,7 @@ Shared<Function> internal_function(int number) {
   if (found == std::end(known)) return nullptr;
   auto function = std::make_shared<Function>();
   function->built_in = found->value;
-  function->count = found->count;
+  function->count = found->count, function->number = number;
   return function;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "importers/povray/read/formula.h"
 #include "importers/povray/read/image_values.h"
 #include "importers/povray/read/pattern_kinds.h"
 #include "importers/povray/read/reader.h"
@@ -114,7 +115,7 @@ std::optional<FloatParameter> Surfaces::bump_texture(const Bump& bump, const Tra
   if (bump.pattern.kind == Word::pigment_pattern_ && bump.pattern.pigment)
     return bump_of_pigment(bump, to_world, height_of(bump, to_world));
   if (bump.pattern.kind == Word::quilted_) return bump_of_quilts(bump, to_world);
-  if (!pattern_kind(bump.pattern.kind)) {
+  if (!pattern_record(bump.pattern)) {
     dropped(fmt::format("a normal of this pattern ({}): the surface is smooth", name_of(bump.pattern.kind)),
             bump.place);
     return std::nullopt;
@@ -125,6 +126,12 @@ std::optional<FloatParameter> Surfaces::bump_texture(const Bump& bump, const Tra
   if (bump.map && bump.map->kind == Word::slope_map_ && !is_of_places(made->kind) &&
       !pushes_by_itself(made->kind)) {
     add_slopes(*made, *bump.map, height);
+  } else if (const std::size_t places = places_of_list(bump.pattern.kind);
+             places > 0 && made->kind == PatternTexture::Kind::formula) {
+    const double second = beginning_of_place(1, places);
+    add_stop(*made, 0, 0);
+    add_stop(*made, second, 0);
+    add_stop(*made, second, height);
   } else {
     add_stop(*made, 0, 0);
     add_stop(*made, is_of_places(made->kind) ? 0 : 1, height);
@@ -143,7 +150,7 @@ Id<Material> Surfaces::bumpy(const Body& body, const Bump* bump, const Transform
   const BlendMap& map = *bump->map;
   const bool average = bump->pattern.kind == Word::average_;
   const bool list = !average && map.kind == Word::normal_map_ && map.entries.back().at >= 1 &&
-                    pattern_kind(bump->pattern.kind) && is_of_places(*pattern_kind(bump->pattern.kind));
+                    places_of_list(bump->pattern.kind) > 0;
   double before = 0, weights = 0;
   for (std::size_t i = 0; i < map.entries.size(); ++i) {
     const BlendEntry& entry = map.entries[i];

@@ -2,7 +2,7 @@
 // Several textures on one surface: layers over each other, and patterns between textures.
 #include <algorithm>
 
-#include "importers/povray/read/pattern_kinds.h"
+#include "importers/povray/read/formula.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/surfaces.h"
 
@@ -130,7 +130,7 @@ Surfaces::Layer Surfaces::blended(const pov::Texture& texture, const Transform& 
   const Word kind = texture.pattern->kind;
   if (kind == Word::average_) add_glow_alone(layers, texture.place);
   Layer result = layers.front().second;
-  const bool list = kind == Word::checker_ || kind == Word::brick_ || kind == Word::hexagon_;
+  const bool list = places_of_list(kind) > 0;
   double weights = layers.front().first;
   for (std::size_t i = 1; i < layers.size(); ++i) {
     weights += layers[i].first;

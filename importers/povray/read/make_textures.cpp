@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "importers/povray/read/formula.h"
 #include "importers/povray/read/image_values.h"
 #include "importers/povray/read/pattern_kinds.h"
 #include "importers/povray/read/pigment_patterns.h"
@@ -21,6 +22,26 @@ PatternStop number_stop(double at, float value) {
   stop.at = static_cast<float>(std::clamp(at, 0.0, 1.0));
   stop.value = Spectrum{ConstantSpectrum{value}};
   return stop;
+}
+
+// Of a list whose pattern is a formula: how many places its numbers have; else 0.
+std::size_t places_of_formula(const PatternTexture& t, Word kind) {
+  return t.kind == PatternTexture::Kind::formula ? places_of_list(kind) : 0;
+}
+
+// Steps in place of mixtures. The last value is that of all places after it.
+void add_places(PatternTexture& t, const std::vector<SpectrumParameter>& values, std::size_t places) {
+  for (std::size_t i = 0; i < places; ++i)
+    for (const std::size_t end : {i, i + 1})
+      t.map.push_back(
+          {static_cast<float>(beginning_of_place(end, places)), values.at(std::min(i, values.size() - 1))});
+}
+
+// The axis of images around things is y, of ours z.
+Transform exchanged_y_z() {
+  Transform t;
+  t.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+  return t;
 }
 
 // What a pigment's transforms do to (u, v, 0).
@@ -127,6 +148,13 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
   auto made = pattern_texture(pattern, to_world, pigment.place);
   if (!made) return spectrum_of(pigment.quick_color.value_or(mean_color(pigment)), part, factor);
   std::vector<BlendEntry> entries = pigment.map ? pigment.map->entries : default_entries(pattern.kind);
+  if (const std::size_t places = places_of_formula(*made, pattern.kind)) {
+    std::vector<SpectrumParameter> values;
+    for (const BlendEntry& entry : entries)
+      values.push_back(entry_texture(entry, to_world, part, factor, by_uv));
+    add_places(*made, values, places);
+    return add(std::move(*made), is_number(part), pigment.place);
+  }
   for (const BlendEntry& entry : entries) {
     PatternStop stop;
     stop.at = static_cast<float>(std::clamp(entry.at, 0.0, 1.0));
@@ -195,7 +223,11 @@ FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform&
   auto made = pattern_texture(pattern, to_world, place);
   if (!made) return 0.5f;
   const auto stop = [&](double at, float value) { made->map.push_back(number_stop(at, value)); };
-  if (list) {
+  if (const std::size_t places = list ? places_of_formula(*made, pattern.kind) : 0) {
+    std::vector<SpectrumParameter> values(places, Spectrum{ConstantSpectrum{0}});
+    values[std::min(index, places - 1)] = Spectrum{ConstantSpectrum{1}};
+    add_places(*made, values, places);
+  } else if (list) {
     for (std::size_t i = 0; i <= std::max<std::size_t>(index, 1); ++i) stop(0, i == index ? 1.0f : 0.0f);
     if (made->kind == PatternTexture::Kind::hexagon && index < 2) stop(0, 0);
   } else {
@@ -207,11 +239,12 @@ FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform&
 
 std::optional<PatternTexture> Surfaces::pattern_texture(const Pattern& pattern, const Transform& to_world,
                                                         const Place& place) {
-  if (!pattern_kind(pattern.kind)) {
+  std::optional<PatternTexture> made = pattern_record(pattern);
+  if (!made) {
     dropped(fmt::format("this pattern ({}): the mean of its colours", name_of(pattern.kind)), place);
     return std::nullopt;
   }
-  PatternTexture t = record_of(pattern);
+  PatternTexture& t = *made;
   t.texture_to_world = to_world;
   for (const Warp& warp : pattern.warps) {
     if (warp.kind == Warp::Kind::transform) {
@@ -229,7 +262,7 @@ std::optional<PatternTexture> Surfaces::pattern_texture(const Pattern& pattern, 
   }
   if (!is_invertible(t.texture_to_world)) return std::nullopt;
   if (is_of_noise(t)) approximated("noise: of the same statistics as POV-Ray's, and in other places", place);
-  return t;
+  return made;
 }
 
 // What takes the numbers of a file to those of the scene: as povray 3.7.0.10 shows them. Where numbers stay
@@ -280,6 +313,18 @@ SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& 
       else
         dropped("a warp of an image", place);
     texture.mapping = planar;
+  } else if (image.map_type <= 2 && !reader_.for_export) {
+    Transform around = to_world;
+    for (const Warp& warp : pattern.warps)
+      if (warp.kind == Warp::Kind::transform)
+        around = around * warp.transform;
+      else
+        dropped("a warp of an image", place);
+    around = around * exchanged_y_z();
+    if (image.map_type == 1)
+      texture.mapping = GlobeMapping{around};
+    else
+      texture.mapping = CylindricalMapping{around * scale({-1, -1, 1})};  // ours begins at −x
   } else {
     approximated("an image around a sphere, cylinder or torus: by (u,v) of the surface", place);
     texture.mapping = UvMapping{-1, 0, 1, 0, 1, 0};  // of a sphere u runs the other way

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "importers/povray/read/formula.h"
 #include "importers/povray/read/function.h"
 #include "importers/povray/read/object_hits.h"
 #include "importers/povray/read/pattern_kinds.h"
@@ -55,7 +56,10 @@ PatternField::PatternField(Reader& reader, const Pigment& pigment) : pattern_(pi
   }
   if (pattern_.pigment) inner_ = std::make_shared<PatternField>(reader, *pattern_.pigment);
   record_ = record_of(pattern_);
-  recorded_ = pattern_kind(pattern_.kind).has_value();
+  recorded_ = has_kind(pattern_);
+  if (const Word kind = pattern_.kind; !recorded_ && !has_values(kind) && kind != Word::slope_ &&
+                                       kind != Word::image_map_ && places_of_list(kind) == 0)
+    if (auto formula = pattern_record(pattern_)) record_ = std::move(*formula), recorded_ = true;
   if (recorded_ && is_of_noise(record_))
     reader.notes.approximated("noise: of the same statistics as POV-Ray's, and in other places", place);
   if (!recorded_ && !has_values(pattern_.kind) && pattern_.kind != Word::image_map_)

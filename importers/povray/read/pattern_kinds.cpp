@@ -80,8 +80,10 @@ PatternTexture::Wave wave_of(Word wave, Word pattern) {
     case Word::ramp_wave_:
       return Wave::ramp;
     default:
-      return pattern == Word::marble_ || pattern == Word::wood_ || pattern == Word::spiral1_ ? Wave::triangle
-                                                                                             : Wave::ramp;
+      return pattern == Word::marble_ || pattern == Word::wood_ || pattern == Word::spiral1_ ||
+                     pattern == Word::spiral2_
+                 ? Wave::triangle
+                 : Wave::ramp;
   }
 }
 
@@ -105,9 +107,14 @@ PatternTexture record_of(const Pattern& pattern) {
 }
 
 bool is_of_noise(const PatternTexture& t) {
+  const auto is_step_of_noise = [](const PatternStep& step) {
+    using Op = PatternStep::Op;
+    return step.op == Op::noise || step.op == Op::ridged_mf || step.op == Op::hetero_mf;
+  };
   using Kind = PatternTexture::Kind;
   return t.turbulence.amount != Vector3d{0, 0, 0} || t.kind == Kind::cells ||
-         (t.kind >= Kind::agate && t.kind <= Kind::wrinkles);
+         (t.kind >= Kind::agate && t.kind <= Kind::wrinkles) ||
+         std::ranges::any_of(t.steps, is_step_of_noise) || std::ranges::any_of(t.patterns, is_of_noise);
 }
 
 std::vector<BlendEntry> default_entries(Word pattern) {

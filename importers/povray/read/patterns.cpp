@@ -8,6 +8,7 @@
 
 #include "importers/povray/read/function.h"
 #include "importers/povray/read/objects.h"
+#include "importers/povray/read/pattern_parts.h"
 #include "importers/povray/read/pattern_warps.h"
 #include "importers/povray/read/reader.h"
 
@@ -24,6 +25,7 @@ bool names_pattern(Word word) {
     case Word::cells_:
     case Word::checker_:
     case Word::crackle_:
+    case Word::cubic_:
     case Word::cylindrical_:
     case Word::density_file_:
     case Word::dents_:
@@ -111,21 +113,21 @@ void read_list(Reader& reader, Shared<BlendMap>& map) {
   if (!list.entries.empty()) map = std::make_shared<BlendMap>(std::move(list));
 }
 
+// An object, and how it is moved; what else follows it is of the list.
+Shared<Object> read_solid(Reader& reader) {
+  auto solid = std::make_shared<Object>();
+  solid->place = reader.peek().place;
+  solid->children.push_back(read_object(reader));
+  while (read_transform(reader, solid->to_parent)) {
+  }
+  return solid;
+}
+
 void read_numbers_of(Reader& reader, Word word, Pattern& pattern) {
   if (word == Word::gradient_) pattern.direction = reader.vector("the direction of a gradient");
   if (word == Word::spiral1_ || word == Word::spiral2_) pattern.arms = reader.integer("the number of arms");
-  if (word == Word::mandel_ || word == Word::magnet_ || word == Word::julia_) {
-    if (word == Word::magnet_) {
-      reader.integer("the kind of magnet");
-      if (!reader.accept(Word::mandel_) && reader.accept(Word::julia_)) reader.numbers();
-      reader.comma();
-    }
-    if (word == Word::julia_) {
-      reader.numbers();
-      reader.comma();
-    }
-    pattern.iterations = reader.integer("the number of iterations");
-  }
+  if (word == Word::mandel_ || word == Word::magnet_ || word == Word::julia_)
+    read_fractal(reader, word, pattern);
   if ((word == Word::pavement_ || word == Word::tiling_) && reader.number_follows()) reader.numbers();
   if (word == Word::facets_ && reader.accept(Word::coords_)) reader.numbers();
   if (word == Word::facets_ && reader.accept(Word::size_)) reader.numbers();
@@ -139,6 +141,7 @@ void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>&
     case Word::checker_:
     case Word::brick_:
     case Word::hexagon_:
+    case Word::cubic_:
     case Word::square_:
     case Word::triangular_:
       read_list(reader, map);
@@ -151,7 +154,7 @@ void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>&
       break;
     case Word::object_:
       reader.expect('{', "behind object");
-      pattern.object = read_object_in(reader);
+      pattern.object = read_solid(reader);
       read_list(reader, map);
       reader.expect('}', "at the end of an object");
       break;
@@ -167,17 +170,7 @@ void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>&
       break;
     }
     case Word::slope_:
-      if (reader.accept('{')) {
-        reader.put_back([&] {
-          Token t;
-          t.kind = TokenKind::sign, t.sign = '{';
-          return t;
-        }());
-        skip_block(reader);
-      } else {
-        reader.numbers();
-        while (reader.accept(',')) reader.numbers();
-      }
+      read_slope(reader, pattern.slope);
       break;
     default:
       read_numbers_of(reader, word, pattern);
@@ -277,11 +270,17 @@ bool read_pattern_modifier(Reader& reader, Pattern& pattern, Shared<BlendMap>& m
     case Word::use_index_:
     case Word::no_bump_scale_:
       return true;
-    case Word::exponent_:
+    case Word::exponent_: {
+      constexpr int most = 33;
+      pattern.fractal.exponent =
+          static_cast<std::uint32_t>(std::clamp(reader.integer("the exponent of a fractal"), 2, most));
+      return true;
+    }
     case Word::exterior_:
+      read_fractal_color(reader, pattern.fractal.outside, pattern.fractal.outside_factor);
+      return true;
     case Word::interior_:
-      reader.numbers();
-      while (reader.accept(',')) reader.numbers();
+      read_fractal_color(reader, pattern.fractal.inside, pattern.fractal.inside_factor);
       return true;
     default:
       reader.put_back(token);

@@ -17,11 +17,14 @@ double quadratic(const Knots& k, std::size_t i, std::size_t term, double t) {
          k[i + 2].value.v[term] * (t - a) * (t - b) / ((c - a) * (c - b));
 }
 
-// Hermite's polynomial with the slopes of the neighbours' chords.
+// Hermite's polynomial. Slopes are the means of those of both chords, however long these are.
 double catmull_rom(const Knots& k, std::size_t i, std::size_t term, double t) {
   const double h = k[i + 1].at - k[i].at, s = (t - k[i].at) / h;
   const auto slope = [&](std::size_t j) {
-    return (k[j + 1].value.v[term] - k[j - 1].value.v[term]) / (k[j + 1].at - k[j - 1].at) * h;
+    const auto chord = [&](std::size_t c) {
+      return (k[c + 1].value.v[term] - k[c].value.v[term]) / (k[c + 1].at - k[c].at);
+    };
+    return 0.5 * (chord(j - 1) + chord(j)) * h;
   };
   const double p0 = k[i].value.v[term], p1 = k[i + 1].value.v[term], m0 = slope(i), m1 = slope(i + 1);
   return p0 * (1 + 2 * s) * (1 - s) * (1 - s) + m0 * s * (1 - s) * (1 - s) + p1 * s * s * (3 - 2 * s) +

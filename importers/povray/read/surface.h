@@ -10,6 +10,7 @@
 #include "importers/povray/read/symbols.h"
 #include "importers/povray/read/token.h"
 #include "importers/povray/read/transforms.h"
+#include "scene/records/pattern_formula.h"
 
 namespace vitrail::pov {
 
@@ -82,6 +83,12 @@ struct Pattern {
   bool crackle_solid = false;
   int arms = 1, iterations = 10;
   double agate_turb = 1, control0 = 1, control1 = 1;
+  PatternFractal fractal;  // of mandel, julia, magnet, but for the iterations
+  struct Slope {
+    Vector3d direction, altitude;  // the latter 0: there is none
+    double low = 0, high = 1, low_altitude = 0, high_altitude = 1;
+  };
+  Slope slope;
   Shared<Function> function;
   Shared<Object> object;
   Shared<Pigment> pigment;   // of pigment_pattern

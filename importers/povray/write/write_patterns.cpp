@@ -21,7 +21,7 @@ const char* name_of(Kind kind) {
       "checker", "hexagon", "brick",   "gradient", "boxed",   "cylindrical", "planar", "spherical", "cells",
       "leopard", "marble",  "onion",   "radial",   "spiral1", "wood",        "agate",  "bozo",      "bumps",
       "crackle", "dents",   "granite", "ripples",  "waves",   "wrinkles",    "mandel"};
-  static_assert(names.size() == static_cast<std::size_t>(Kind::mandel) + 1);
+  static_assert(names.size() == static_cast<std::size_t>(Kind::formula));
   return names.at(static_cast<std::size_t>(kind));
 }
 
@@ -79,6 +79,7 @@ std::string pattern_text(const PatternTexture& t, const std::vector<std::string>
 }
 
 std::optional<std::string> normal_text(const PatternTexture& t) {
+  if (t.kind == Kind::formula) return std::nullopt;
   std::vector<double> heights;  // of an amount of 1
   for (const PatternStop& stop : t.map) {
     const auto* constant = std::get_if<Spectrum>(&stop.value);

@@ -72,6 +72,10 @@ Placement place(Context& context, const TextureMapping& mapping, const Origin& o
     // POV-Ray: s = 0 at +x, s = 1/4 at +z, t = 0 at −y. image_of exchanges s and t.
     to_image.m = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
     map_type = "map_type 1 ";
+  } else if (const auto* g = std::get_if<GlobeMapping>(&mapping)) {
+    t = inverse(g->texture_to_world);
+    to_image.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+    map_type = "map_type 1 ";
   } else if (const auto* c = std::get_if<CylindricalMapping>(&mapping)) {
     t = inverse(c->texture_to_world);
     // POV-Ray: t = y, and s as on its spheres. Ours: s = 0 at −x.
@@ -149,7 +153,12 @@ Pigment checkerboard(Context& context, const CheckerboardTexture& texture, const
   return p;
 }
 
-Pigment pattern(Context& context, const PatternTexture& texture, const Use& use) {
+Pigment pattern(Context& context, const PatternTexture& texture, const Origin& origin, const Use& use) {
+  if (texture.kind == PatternTexture::Kind::formula) {
+    context.approximated("formula of a pattern: its mean", origin);
+    const RGB mean = mean_of_pattern(texture);
+    return constant(mean, use);
+  }
   std::vector<std::string> values;
   for (const PatternStop& stop : texture.map) values.push_back(entry(context, stop.value, use));
   const Transform t = from_pov(context, inverse(texture.texture_to_world));
@@ -223,7 +232,7 @@ Pigment build(Context& context, Id<Texture> id, const Use& use) {
     return image(context, *t, texture.is_float, origin, use);
   if (const auto* t = std::get_if<CheckerboardTexture>(&texture.model))
     return checkerboard(context, *t, origin, use);
-  if (const auto* t = std::get_if<PatternTexture>(&texture.model)) return pattern(context, *t, use);
+  if (const auto* t = std::get_if<PatternTexture>(&texture.model)) return pattern(context, *t, origin, use);
   if (const auto* t = std::get_if<ProductTexture>(&texture.model)) return product(context, *t, use);
   if (const auto* t = std::get_if<MixTexture>(&texture.model)) return mix(context, *t, use);
   if (const auto* t = std::get_if<BilinearTexture>(&texture.model)) return bilinear(context, *t, origin, use);

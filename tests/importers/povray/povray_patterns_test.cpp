@@ -70,6 +70,7 @@ TEST_F(PovrayPatterns, ThoseWithoutNoise) {
     pattern.kind = kind;
     pattern.wave = kind == Kind::wood || kind == Kind::marble ? Wave::triangle : Wave::ramp;
     pattern.direction = {1, .5, .25};
+    pattern.frequency = kind == Kind::gradient ? 1.5f : 1;
     pattern.arms = 2;
     pattern.brick = {{1, .6, .7}, .1f};
     pattern.texture_to_world = translate({.31, .17, -.23}) * scale({1.3, 1.1, .9});

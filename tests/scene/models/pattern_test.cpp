@@ -82,6 +82,86 @@ TEST(Patterns, Waves) {
   expect_values(with(Wave::scallop), [&](Point3d p) { return std::abs(std::sin(pi * x(p))); });
   expect_values(with(Wave::cubic), [&](Point3d p) { return x(p) * x(p) * (3 - 2 * x(p)); });
   expect_values(with(Wave::poly), [&](Point3d p) { return x(p) * x(p) * x(p); });
+  // As povray: what is above 1 repeats before the frequency counts, what is below 0 after it.
+  PatternTexture t = of(Kind::gradient);
+  t.frequency = 1.5f;
+  expect_values(t, [](Point3d p) { return rest(1.5 * (p.x > 1 ? rest(p.x) : p.x)); });
+}
+
+using Op = PatternStep::Op;
+
+PatternTexture formula(std::vector<PatternStep> steps) {
+  PatternTexture t = of(Kind::formula);
+  t.steps = std::move(steps);
+  return t;
+}
+
+TEST(Patterns, FormulasAreCarriedOut) {
+  // x·y + ⅓ of a number that is picked twice and dropped
+  const PatternTexture t = formula({{Op::pick, 0},
+                                    {Op::pick, 1},
+                                    {Op::multiply},
+                                    {Op::pick, 6},
+                                    {Op::constant, 0, 3},
+                                    {Op::divide},
+                                    {Op::pick, 7},
+                                    {Op::pick, 6},
+                                    {Op::add},
+                                    {Op::slide, 2}});
+  ASSERT_EQ(fault_of(t), nullptr);
+  EXPECT_NEAR(pattern_value(t, {0.5, 0.6, 9}), 0.4, 1e-15);
+  EXPECT_EQ(pattern_value(formula({{Op::pick, 0}}), {1, 0, 0}), 1);
+  EXPECT_NEAR(pattern_value(formula({{Op::pick, 0}}), {1.25, 0, 0}), 0.25, 1e-15);
+  const PatternTexture normal = formula({{Op::pick, 5}});
+  EXPECT_EQ(pattern_value(normal, {1, 2, 3}, {0, 0.6, 0.8}), 0.8);
+  EXPECT_EQ(pattern_value(formula({{Op::pick, 0}, {Op::ln}}), {-1, 0, 0}), 0);
+}
+
+TEST(Patterns, PatternsAndFractalsOfFormulas) {
+  PatternTexture t = formula({{Op::constant}, {Op::pick, 0}, {Op::constant}, {Op::pattern, 0}});
+  t.patterns = {of(Kind::planar)};
+  t.patterns[0].map = {{0, ConstantSpectrum{0.5f}}, {1, ConstantSpectrum{0.75f}}};
+  ASSERT_EQ(fault_of(t), nullptr);
+  EXPECT_NEAR(pattern_value(t, {0.4, 0, 0}), 0.65, 1e-7);
+  EXPECT_EQ(pattern_value(t, {std::nan(""), 0, 0}), 0);
+  t = formula({{Op::pick, 0}, {Op::pick, 1}, {Op::fractal, 0}});
+  t.fractals.resize(1);
+  t.fractals[0].iterations = 100;
+  ASSERT_EQ(fault_of(t), nullptr);
+  for_points([&](Point3d p) {
+    EXPECT_EQ(pattern_value(t, p), pattern_value(of(Kind::mandel), p)) << p.x << " " << p.y;
+  });
+}
+
+TEST(Patterns, FormulasThatAreRefused) {
+  const auto refused = [](std::vector<PatternStep> steps, std::vector<PatternTexture> patterns = {}) {
+    PatternTexture t = formula(std::move(steps));
+    t.patterns = std::move(patterns);
+    return fault_of(t) != nullptr;
+  };
+  EXPECT_FALSE(refused({{Op::pick, 5}}));
+  EXPECT_TRUE(refused({}));
+  EXPECT_TRUE(refused({{Op::pick, 6}}));
+  EXPECT_TRUE(refused({{Op::slide, 6}}));
+  EXPECT_FALSE(refused({{Op::slide, 5}}));
+  EXPECT_TRUE(refused({{Op::slide, 5}, {Op::add}}));
+  EXPECT_TRUE(refused({{Op::ridged_mf}}));
+  EXPECT_TRUE(refused({{Op::fractal, 0}}));
+  EXPECT_TRUE(refused({{Op::pattern, 1}}, {PatternTexture{}}));
+  EXPECT_FALSE(refused({{Op::pattern, 0}}, {PatternTexture{}}));
+  EXPECT_TRUE(refused({{Op::pattern, 0}}, {formula({{Op::pick, 0}})}));
+  PatternTexture of_textures;
+  of_textures.map = {{0, Id<Texture>{0}}};
+  EXPECT_TRUE(refused({{Op::pattern, 0}}, {of_textures}));
+  EXPECT_TRUE(refused(std::vector<PatternStep>(most_formula_operands, {Op::constant})));
+  EXPECT_TRUE(refused(std::vector<PatternStep>(most_formula_steps + 1, {Op::negate})));
+  PatternTexture slow = formula({});
+  slow.fractals.resize(1);
+  slow.fractals[0].iterations = 10000;
+  for (int i = 0; i < 10; ++i)
+    for (const PatternStep step : {PatternStep{Op::pick, 0}, {Op::pick, 1}, {Op::fractal, 0}, {Op::add}})
+      slow.steps.push_back(step);
+  EXPECT_NE(fault_of(slow), nullptr);
 }
 
 TEST(Patterns, ThoseOfPlaces) {
