@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "images/image_files.h"
 #include "importers/povray/read/formula.h"
 #include "importers/povray/read/image_values.h"
 #include "importers/povray/read/pattern_kinds.h"
@@ -35,6 +37,18 @@ void add_places(PatternTexture& t, const std::vector<SpectrumParameter>& values,
     for (const std::size_t end : {i, i + 1})
       t.map.push_back(
           {static_cast<float>(beginning_of_place(end, places)), values.at(std::min(i, values.size() - 1))});
+}
+
+// Beyond an image that is there once, and by the alpha of its file.
+bool has_clear_parts(const ImageMap& image) {
+  if (image.once) return true;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(image.filename, error)) return false;
+  try {
+    return read_image_layout(image.filename).channels % 2 == 0;
+  } catch (const Error&) {
+    return false;  // who reads it says so
+  }
 }
 
 // The axis of images around things is y, of ours z.
@@ -79,9 +93,13 @@ Spectrum Surfaces::spectrum_of(const Numbers& color, Part part, double factor) c
 
 FloatParameter Surfaces::opacity_of(const Pigment& pigment, const Transform& to_world, bool by_uv) {
   if (pigment.color) return opacity_of(*pigment.color);
-  if (pigment.pattern.image) {
-    const double clear = pigment.pattern.image->filter_all + pigment.pattern.image->transmit_all;
-    return static_cast<float>(std::clamp(1 - clear, 0.0, 1.0));
+  if (const auto& image = pigment.pattern.image) {
+    const double opaque = std::clamp(1 - image->filter_all - image->transmit_all, 0.0, 1.0);
+    const bool has_parts = pigment.pattern.kind == Word::image_map_ && opaque > 0 && has_clear_parts(*image);
+    if (!has_parts) return static_cast<float>(opaque);
+    const SpectrumParameter texture = color_texture(pigment, to_world, Part::opacity, opaque, by_uv);
+    const auto* const id = std::get_if<Id<vitrail::Texture>>(&texture);
+    return id ? FloatParameter{*id} : FloatParameter{static_cast<float>(opaque)};
   }
   if (!pigment.map) return 1.0f;
   float least = 1, most = 0;
@@ -298,7 +316,7 @@ SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& 
   texture.wrap = image.once ? Wrap::black : Wrap::repeat;
   texture.filter = image.interpolate > 0 ? TextureFilter::bilinear : TextureFilter::nearest;
   texture.scale = static_cast<float>(factor);
-  if (is_number(part)) texture.number = ImageNumber::luminance;
+  if (is_number(part)) texture.number = part == Part::opacity ? ImageNumber::alpha : ImageNumber::luminance;
   if (is_number(part) && !image.gamma && !image.gamma_srgb)
     texture.encoding = Encoding::linear;  // the numbers of the file
   else
