@@ -20,9 +20,9 @@ class Checkpointing {
   Checkpointing(Transport& transport, RankState& state, const RenderOptions& options, FilmKeeper* keeper,
                 std::string about, double time_before_s);
 
-  // Asks for a checkpoint or an end where one is due. Where domains come and go, or rays go to other ranks, and
-  // time is limited, an early checkpoint measures how long the rays alive take to end; that is left before the
-  // limit.
+  // Asks for a checkpoint or an end where one is due. Where domains come and go, or rays go to other ranks,
+  // and time is limited, an early checkpoint measures how long the rays alive take to end; that is left
+  // before the limit.
   void watch_clock();
   void rays_are_alive(std::int64_t rays) { rays_alive_ = rays; }
   // Items are done that were not when this run began: before that no time limit ends it.

@@ -61,8 +61,8 @@ class Materials {
   Bsdf bsdf_at(const Material& material, const TexturePoint& at, const SampledWavelengths& wavelengths) const;
   // The normal as bump and normal maps turn it; on the same side as at.geometric.
   Vector3d shading_normal(const Material& material, const Interaction& at) const;
-  // What the tangent of the frame around it follows. A map turns the frame of the smooth normal, whose tangent
-  // is perpendicular to that, as in pbrt and Mitsuba.
+  // What the tangent of the frame around it follows. A map turns the frame of the smooth normal, whose
+  // tangent is perpendicular to that, as in pbrt and Mitsuba.
   static Vector3d tangent(const Material& material, const Interaction& at);
 
  private:

@@ -14,8 +14,8 @@
 
 namespace vitrail {
 
-// Of a hit within an instance, of a quadric, or of a surface whose normal a map turns: what of its Interaction
-// the stages read.
+// Of a hit within an instance, of a quadric, or of a surface whose normal a map turns: what of its
+// Interaction the stages read.
 struct PlacedHit {
   Point3d p;
   Vector3d geometric, shading, dpdu;
