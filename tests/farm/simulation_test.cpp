@@ -38,7 +38,7 @@ struct Case {
     machine.domain_bytes = std::max(largest, all >> among(6));
     machine.rays_allowed = static_cast<std::int64_t>(1 + among(50'000));
     if (among(2) == 0) machine.queue_bytes = machine.bytes_a_ray * among(5000);
-    machine.loaders = 1 + static_cast<int>(among(4));
+    machine.loaders = 1 + static_cast<int>(among(loaders_of_a_rank));
     machine.jitter = among(2) == 0 ? 0 : static_cast<double>(among(100));
     machine.latency_s = 1e-6 * static_cast<double>(1 + among(1000));
     machine.disk_latency_s = 1e-5 * static_cast<double>(1 + among(1000));
