@@ -213,13 +213,20 @@ bool is_mitsuba_file(const Context& context, const Origin& origin) {
   return origin.file < files.size() && std::filesystem::path(files[origin.file]).extension() == ".xml";
 }
 
+bool is_black(const VolumeParameter& value) {
+  const auto* spectrum = std::get_if<Spectrum>(&value);
+  if (!spectrum) return false;
+  const RGB color = color_of(*spectrum);
+  return color.r == 0 && color.g == 0 && color.b == 0;
+}
+
 // What rgb variants make of the extinction's spectrum.
-void report_colour(Context& context, const Medium& medium, const VolumeParameter& sigma_t, double greatest) {
-  const auto* spectrum = std::get_if<Spectrum>(&sigma_t);
+void report_colour(Context& context, const Medium& medium, const ExtinctionAlbedo& of, double greatest) {
+  const auto* spectrum = std::get_if<Spectrum>(&of.sigma_t);
   if (!spectrum || is_constant(*spectrum)) return;
   const RGB color = color_of(*spectrum);
   const double least = std::min({color.r, color.g, color.b});
-  if (!(least > 0) && color.r + color.g + color.b > 0)
+  if (!(least > 0) && color.r + color.g + color.b > 0 && !is_black(of.albedo))
     context.approximated(
         "the colour of an extinction is outside of sRGB: in Mitsuba's rgb variants its medium does not "
         "scatter");
@@ -255,7 +262,7 @@ void write_medium(Context& context, Element root, const Medium& medium, const st
   context.colored_extinction |= is_colored(coefficients.sigma_t);
   const double greatest = greatest_above_one(coefficients.sigma_t);
   VolumeParameter sigma_t = coefficients.sigma_t;
-  report_colour(context, medium, sigma_t, greatest);
+  report_colour(context, medium, coefficients, greatest);
   if (greatest > 1) sigma_t = scaled(std::get<Spectrum>(sigma_t), 1 / greatest);
   add_volume(context, element, "sigma_t", nowhere_zero(sigma_t), medium.medium_to_world);
   add_volume(context, element, "albedo", coefficients.albedo, medium.medium_to_world);

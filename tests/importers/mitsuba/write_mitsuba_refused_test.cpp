@@ -116,10 +116,11 @@ TEST_F(RefusedByMitsuba, ColouredExtinctionsHaveTheirIntegrator) {
 
 // A component of their colour may be above 1 where no sample is, and one below 0 is 0: no light scatters.
 TEST_F(RefusedByMitsuba, ColoursOfExtinctionsInRgbVariants) {
-  const auto medium_of = [&](std::vector<SpectrumSample> samples) {
+  const auto medium_of = [&](std::vector<SpectrumSample> samples, float albedo = 0.5f) {
     Scene scene = square_scene({});
     Medium medium;
-    medium.coefficients = ExtinctionAlbedo{Spectrum{tabulate(samples, true)}};
+    medium.coefficients =
+        ExtinctionAlbedo{Spectrum{tabulate(samples, true)}, Spectrum{ConstantSpectrum{albedo}}};
     scene.media = {medium};
     scene.shapes[0].exterior = Id<Medium>{0};
     return write(scene).child("medium");
@@ -128,6 +129,8 @@ TEST_F(RefusedByMitsuba, ColoursOfExtinctionsInRgbVariants) {
   EXPECT_THAT(diagnostics_, testing::IsEmpty());
   EXPECT_GT(std::stod(value(medium_of({{560, .1}, {580, 1}}), "scale")), 1.05);
   EXPECT_THAT(diagnostics_, testing::Not(approximates("outside of sRGB")));
+  medium_of({{590, .01}, {600, 1}}, 0);
+  EXPECT_THAT(diagnostics_, testing::Not(approximates("outside of sRGB"))) << "nothing is to scatter";
   medium_of({{590, .01}, {600, 1}});
   EXPECT_THAT(diagnostics_, approximates("outside of sRGB"));
 }
