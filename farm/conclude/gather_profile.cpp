@@ -14,6 +14,8 @@ namespace {
 
 using Ways = std::map<std::uint64_t, std::uint64_t>;  // rays, by from << 32 | to
 
+std::uint64_t way_of(std::uint32_t from, std::uint32_t to) { return std::uint64_t{from} << 32 | to; }
+
 // Ways are few, though any pair of domains may be one. Whole on rank 0.
 Ways gather_ways(Transport& transport, const RayTraffic& mine) {
   Ways all;
@@ -44,11 +46,20 @@ RayProfile gather_profile(Transport& transport, const Manifest& manifest, const 
   // A few rays were timed; these are their shares.
   const double timed = std::accumulate(seconds.begin(), seconds.end(), 0.0);
   for (double& s : seconds) s *= walking_s / std::max(timed, 1e-9);
+  std::vector<std::int64_t> traced(mine.traffic.visits().begin(), mine.traffic.visits().end());
+  transport.sum_to_root(std::span(traced));
   // Every ray that is traced in a domain came there by a way.
-  std::vector<std::uint64_t> visits(manifest.domains.size());
+  Ways recorded = gather_ways(transport, mine.traffic);
+  std::vector<bool> is_entered(traced.size());
+  for (const auto& [way, rays] : recorded) is_entered[static_cast<std::uint32_t>(way)] = true;
+  // Where only tasks that nobody recorded sent some, they stand as the camera's: none goes on from nowhere.
+  for (std::uint32_t d = 0; d < traced.size(); ++d)
+    if (!is_entered[d] && traced[d] > 0)
+      recorded[way_of(RayProfile::Way::camera, d)] = static_cast<std::uint64_t>(traced[d]);
+  std::vector<std::uint64_t> visits(traced.size());
   std::vector<RayProfile::Way> ways;
-  for (const auto& [way, recorded] : gather_ways(transport, mine.traffic)) {
-    const auto rays = static_cast<std::uint64_t>(std::llround(of_one * static_cast<double>(recorded)));
+  for (const auto& [way, of_some] : recorded) {
+    const auto rays = static_cast<std::uint64_t>(std::llround(of_one * static_cast<double>(of_some)));
     const auto to = static_cast<std::uint32_t>(way);
     ways.push_back({static_cast<std::uint32_t>(way >> 32), to, rays});
     visits[to] += rays;

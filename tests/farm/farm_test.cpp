@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "farm/conclude/gather_profile.h"
 #include "farm/files/reserved_space.h"
 #include "farm/plan/ending_time.h"
 #include "farm/plan/memory.h"
@@ -562,6 +563,25 @@ TEST(Profiling, TellsWhatTracingCostsWithoutIt) {
   EXPECT_EQ(Profiling::seconds_of_all(profiling.sums, Manner::plain), 6 + 120);
   EXPECT_EQ(Profiling::seconds_of_all(profiling.sums, Manner::walking), 12 + 180);
   EXPECT_EQ(Profiling::samples_a_recorded_one(profiling.sums), 3) << "rays are not samples";
+}
+
+// Rays that a task sent where nobody recorded it were traced all the same where they arrived: none goes on
+// from where none was.
+TEST(Profiling, KnowsRaysWhoseSendersWereNotRecorded) {
+  using Work = Scheduler::Work;
+  Profiling profiling(2);
+  for (int turn = 0; turn < 3; ++turn) profiling.took(Work::generate, profiling.next(Work::generate), 5, 1);
+  profiling.traffic.begin({1, true});
+  profiling.traffic.visit(1);
+  profiling.traffic.leave_for(0);
+  profiling.traffic.end();
+  Manifest manifest;
+  manifest.domains.resize(2);
+  const RayProfile profile = gather_profile(*make_transport(nullptr, nullptr), manifest, profiling, {});
+  EXPECT_EQ(profile.domains[1].rays, 3u);
+  EXPECT_EQ(profile.domains[0].rays, 3u);
+  const std::vector<RayProfile::Way> ways = {{1, 0, 3}, {RayProfile::Way::camera, 1, 3}};
+  EXPECT_EQ(profile.ways, ways);
 }
 
 }  // namespace
