@@ -88,7 +88,7 @@ const std::vector<Heading> of_plan{
     {"On which cluster",
      "ranks threads memory=SIZE latency=MICROSECONDS network=SIZE disk=SIZE disk-latency=MILLISECONDS "
      "scratch=SIZE "
-     "ranks-a-disk distribution homes=FILE"},
+     "ranks-a-disk ranks-a-link=N files-a-second=N slow-rank=X distribution homes=FILE"},
     {"What to write", "svg=FILE json"},
 };
 

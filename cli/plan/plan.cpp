@@ -27,8 +27,9 @@ struct Arguments {
   std::filesystem::path bundle, profile, svg;
   std::vector<int> ranks{1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
   std::string memory, network = "12G", disk = "1G", scratch = "1G";
-  double pictures = 1, latency_us = 5, disk_latency_ms = 1;
-  int threads = 16, ranks_of_a_disk = 1;
+  double pictures = 1, latency_us = 5, disk_latency_ms = 1, slow_rank = 1;
+  double files_a_second = std::numeric_limits<double>::infinity();
+  int threads = 16, ranks_of_a_disk = 1, ranks_of_a_link = 1;
   Distribution distribution = Distribution::automatic;
   std::filesystem::path homes;
   bool json = false;
@@ -37,6 +38,7 @@ struct Arguments {
 
 const char* limit_of(const SimulationResult& r) {
   if (r.efficiency >= .8) return "work";
+  if (r.around_s >= .5 * r.seconds) return "beginning and end";
   if (r.busiest_loader >= .5 && r.busiest_loader >= r.busiest_link) return "loading";
   if (r.busiest_link >= .5) return "network";
   return r.busiest_workers >= .8 ? "one rank's work" : "rays in flight";
@@ -58,6 +60,7 @@ Json to_json(const PlanPoint& p, std::uint64_t scene_bytes) {
   const SimulationResult& r = p.result;
   return {{"ranks", p.ranks},
           {"seconds", r.seconds},
+          {"around_s", r.around_s},
           {"efficiency", r.efficiency},
           {"limit", limit_of(r)},
           {"copies", static_cast<double>(r.most_bytes) / static_cast<double>(scene_bytes)},
@@ -95,6 +98,9 @@ double longest_work_s(const Arguments& a, const RayProfile& profile, const Homes
   return std::ranges::max(work_s) * pictures / a.threads;
 }
 
+// Until a rank has read the manifest and can begin. docs/why/scheduler.md has the measure.
+double setup_s(const Manifest& m) { return 7.5e-3 + 8.7e-6 * static_cast<double>(m.domains.size()); }
+
 // A profile is of few samples, and a job of so few is soon done on any cluster.
 void warn_of_few_samples(const Arguments& a, const Manifest& m, const RayProfile& profile) {
   const PixelRect& c = m.film.crop;
@@ -119,6 +125,12 @@ int plan(const Arguments& a) {
   machine.disk_bytes_s = static_cast<double>(parse_bytes(a.disk));
   machine.scratch_bytes_s = static_cast<double>(parse_bytes(a.scratch));
   machine.ranks_of_a_disk = a.ranks_of_a_disk;
+  machine.ranks_of_a_link = a.ranks_of_a_link;
+  machine.files_s = a.files_a_second;
+  machine.setup_s = setup_s(manifest);
+  machine.film_bytes = static_cast<double>(film_bytes(manifest.film));
+  Mishaps mishaps;
+  mishaps.slow_rank = a.slow_rank;
   const MemoryPlan memory = share_memory(a, manifest);
   machine.domain_bytes = memory.domains_bytes;
   const std::uint64_t scene_bytes = std::max<std::uint64_t>(1, bytes_of_all(manifest));
@@ -145,7 +157,7 @@ int plan(const Arguments& a) {
     machine.round_interval_s = std::clamp(longest_work_s(a, profile, *machine.homes, pictures) / 5'000,
                                           round_interval_s(ranks), .05);
     machine.rays_of_a_batch = std::max<std::uint64_t>(1024, workload.rays_an_item / 4);
-    points.push_back({ranks, simulate(workload, machine, {}, 1)});
+    points.push_back({ranks, simulate(workload, machine, mishaps, 1)});
     if (!a.json) print_row(points.back(), scene_bytes);
   }
   if (a.json) {
@@ -184,7 +196,7 @@ int main(int argc, char** argv) {
   app.add_option("--times", a.pictures, "simulate this many times the samples of the profile")
       ->check(more_than_0);
   app.add_option("--latency", a.latency_us, "latency of a message, µs; default: 5")->check(not_below_0);
-  app.add_option("--network", a.network, "bytes a second that a rank sends; default: 12G");
+  app.add_option("--network", a.network, "bytes a second of a link, each way; default: 12G");
   app.add_option("--disk-latency", a.disk_latency_ms, "latency of a file, ms; default: 1")
       ->check(not_below_0);
   app.add_option("--disk", a.disk, "bytes a second that a disk reads; default: 1G");
@@ -193,6 +205,14 @@ int main(int argc, char** argv) {
   app.add_option("--ranks-a-disk", a.ranks_of_a_disk,
                  "ranks that share a disk and read one file after the other; default: 1")
       ->check(CLI::Range(1, 100000));
+  app.add_option("--ranks-a-link", a.ranks_of_a_link,
+                 "ranks of a node, which share its link to the network; default: 1")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--files-a-second", a.files_a_second,
+                 "files that one server opens a second for all ranks; default: no limit")
+      ->check(more_than_0);
+  app.add_option("--slow-rank", a.slow_rank, "one rank takes so many times as long; default: 1")
+      ->check(CLI::Range(1.0, 1e6));
   app.add_option("--svg", a.svg, "write a plot of seconds and efficiency");
   app.add_option("--domain-memory", a.domain_memory)->group("");
   app.add_flag("--json", a.json, "print JSON");

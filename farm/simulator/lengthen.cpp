@@ -23,9 +23,9 @@ void lengthen(Moment& end, const Moment& from, const Moment& to, double times) {
   const double again = loads > 0 ? std::min(1.0, evictions / loads) : 0;
   for (std::uint64_t Sums::*count : {&Sums::loads, &Sums::loaded_bytes})
     more(end.sums.*count, from.sums.*count, to.sums.*count, again);
+  more(end.link_s, from.link_s, to.link_s);
   for (std::size_t r = 0; r < end.ranks.size(); ++r) {
-    for (double Busy::*seconds : {&Busy::working_s, &Busy::sending_s})
-      more(end.ranks[r].*seconds, from.ranks[r].*seconds, to.ranks[r].*seconds);
+    more(end.ranks[r].working_s, from.ranks[r].working_s, to.ranks[r].working_s);
     more(end.ranks[r].loading_s, from.ranks[r].loading_s, to.ranks[r].loading_s, again);
   }
 }
@@ -36,8 +36,8 @@ void add_shares(Moment& end, const Machine& machine) {
   for (const Busy& rank : end.ranks) {
     all.busiest_workers = std::max(all.busiest_workers, rank.working_s / worker_s);
     all.busiest_loader = std::max(all.busiest_loader, rank.loading_s / all.seconds / machine.loaders);
-    all.busiest_link = std::max(all.busiest_link, rank.sending_s / all.seconds);
   }
+  all.busiest_link = end.link_s / all.seconds;
   all.efficiency = all.busy_s / (worker_s * static_cast<double>(end.ranks.size()));
 }
 

@@ -12,12 +12,13 @@ namespace vitrail {
 // What a rank did so far.
 struct Busy {
   double working_s = 0;  // of all its workers
-  double loading_s = 0, sending_s = 0;
+  double loading_s = 0;
 };
 // A moment of a job: what came together so far, and the ranks' part in it.
 struct Moment {
   SimulationResult sums;
   std::vector<Busy> ranks;
+  double link_s = 0;  // that the busiest link sent, or received
 };
 
 // Adds to `end` what came between two moments `times` times more. What was most at any moment stays.

@@ -256,6 +256,8 @@ class SimulatedJob {
     invariant::check_agreement(quiet_, ranks_.size(), "thought that all was quiet");
     Moment all = moment();
     if (thirds_.size() == 2) lengthen(all, thirds_[0], thirds_[1], world_.workload.middle_again);
+    all.sums.around_s = world_.machine.costs().setup_s + world_.machine.reduction_s();
+    all.sums.seconds += all.sums.around_s;
     add_shares(all, world_.machine.costs());
     return all.sums;
   }
@@ -267,7 +269,7 @@ class SimulatedJob {
     if (3 * world_.generated >= (thirds_.size() + 1) * w.items * w.rays_an_item) thirds_.push_back(moment());
   }
   Moment moment() const {
-    Moment now{world_.result, {}};
+    Moment now{world_.result, {}, world_.machine.busiest_link_s()};
     now.sums.seconds = world_.machine.now_s();
     for (const Rank& r : ranks_) {
       now.ranks.push_back(r.busy());

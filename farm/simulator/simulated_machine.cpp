@@ -13,7 +13,8 @@ SimulatedMachine::SimulatedMachine(const Machine& machine, std::uint64_t seed)
     : costs_(machine),
       random_(seed),
       disks_(static_cast<std::size_t>((machine.ranks - 1) / machine.ranks_of_a_disk + 1)),
-      links_(static_cast<std::size_t>(machine.ranks)) {}
+      out_(static_cast<std::size_t>((machine.ranks - 1) / machine.ranks_of_a_link + 1)),
+      in_(out_.size()) {}
 
 double SimulatedMachine::uniform() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
 
@@ -30,8 +31,9 @@ std::uint64_t SimulatedMachine::rounded(double number) {
 
 double SimulatedMachine::read(int rank, double files, std::uint64_t bytes) {
   const double slow = late();
+  files_until_s_ = std::max(files_until_s_, now_s_) + slow * files / costs_.files_s;
   double& until_s = disks_[static_cast<std::size_t>(rank / costs_.ranks_of_a_disk)];
-  until_s = std::max(until_s, now_s_ + slow * files * costs_.disk_latency_s) +
+  until_s = std::max(until_s, files_until_s_ + slow * files * costs_.disk_latency_s) +
             slow * static_cast<double>(bytes) / costs_.disk_bytes_s;
   return until_s;
 }
@@ -50,13 +52,30 @@ double SimulatedMachine::round_s() {
   return (latency_s() + std::chrono::duration<double>(Nap::shortest).count() + costs_.wake_s) * steps;
 }
 
-double SimulatedMachine::sending_s(std::uint64_t rays) const {
-  return static_cast<double>(rays * costs_.bytes_a_ray) / costs_.network_bytes_s;
+double SimulatedMachine::arrival_s(int from, int to, std::uint64_t rays) {
+  const double latency = latency_s();
+  Way& out = out_[static_cast<std::size_t>(from / costs_.ranks_of_a_link)];
+  Way& in = in_[static_cast<std::size_t>(to / costs_.ranks_of_a_link)];
+  if (&out - out_.data() == &in - in_.data()) return now_s_ + latency;
+  const double takes_s = static_cast<double>(rays * costs_.bytes_a_ray) / costs_.network_bytes_s;
+  out.until_s = std::max(out.until_s, now_s_) + takes_s;
+  // Its first byte comes while its last one waits to be sent.
+  in.until_s = std::max(in.until_s + takes_s, out.until_s + latency);
+  out.busy_s += takes_s;
+  in.busy_s += takes_s;
+  return in.until_s;
 }
 
-double SimulatedMachine::send(int rank, std::uint64_t rays) {
-  double& until_s = links_[static_cast<std::size_t>(rank)];
-  return until_s = std::max(until_s, now_s_) + sending_s(rays);
+double SimulatedMachine::busiest_link_s() const {
+  double most = 0;
+  for (const auto* ways : {&out_, &in_})
+    for (const Way& way : *ways) most = std::max(most, way.busy_s);
+  return most;
+}
+
+double SimulatedMachine::reduction_s() const {
+  const double steps = std::bit_width(static_cast<unsigned>(costs_.ranks) - 1);
+  return steps * (costs_.latency_s + costs_.film_bytes / costs_.network_bytes_s);
 }
 
 double SimulatedMachine::write_and_read_s(std::uint64_t rays) const {

@@ -25,7 +25,8 @@ class SimulatedMachine {
   double late();                         // how many times as long something takes
   std::uint64_t rounded(double number);  // to one of its neighbours, right in the mean
   double latency_s() { return late() * costs_.latency_s; }
-  // Until when a rank's disk reads so much for it: after all that was asked of that disk before.
+  // Until when a rank's disk reads so much for it: after all that was asked of that disk before, and when the
+  // server has opened the files, after those that anybody wanted before.
   double read(int rank, double files, std::uint64_t bytes);
   // When the thread of messages looks next, where something moved at `moved_s` last: it naps longer and
   // longer, and the system wakes it later.
@@ -33,16 +34,25 @@ class SimulatedMachine {
   // From the last rank that joins a round to its end on one of them.
   double round_s();
 
-  double sending_s(std::uint64_t rays) const;
-  // Until when a rank sends them: after all that it sent before.
-  double send(int rank, std::uint64_t rays);
+  // When rays from one rank have come to another: after all that the sender's link sends, and that the
+  // receiver's receives. Draws a number.
+  double arrival_s(int from, int to, std::uint64_t rays);
+  // Of all links and ways, how long the one that has most to do was busy.
+  double busiest_link_s() const;
+  // Until the films of all ranks are one: up a tree, of which every step takes a film.
+  double reduction_s() const;
   double write_and_read_s(std::uint64_t rays) const;  // on the scratch disk
 
  private:
   const Machine costs_;
   std::mt19937_64 random_;
+  struct Way {
+    double until_s = 0;  // it is busy
+    double busy_s = 0;   // in all
+  };
   std::vector<double> disks_;  // until when each reads
-  std::vector<double> links_;  // until when each rank sends
+  double files_until_s_ = 0;   // until when the server opens files
+  std::vector<Way> out_, in_;  // of each link
   double now_s_ = 0;
 };
 

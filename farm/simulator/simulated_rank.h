@@ -265,11 +265,9 @@ class SimulatedRank {
   void send(int to, SimulatedMessage message) {
     std::uint64_t rays = 0;
     for (const auto& [domain, batch] : message) rays += batch;
-    busy_.sending_s += world_.machine.sending_s(rays);
-    const double until_s = world_.machine.send(number_, rays);
     const std::uint64_t number = world_.result.messages++;
     world_.messages.emplace(number, std::move(message));
-    const double arrives_s = until_s + world_.machine.latency_s();
+    const double arrives_s = world_.machine.arrival_s(number_, to, rays);
     if (number == world_.mishaps.lost_message) return;
     if (world_.mishaps.in_two_parts) world_.routes.emplace(number, SimulatedWorld::Route{number_, to});
     world_.events.at(arrives_s, {world_.mishaps.in_two_parts ? SimulationEvent::Kind::head

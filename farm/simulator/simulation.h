@@ -28,16 +28,21 @@ struct Machine {
   double scratch_bytes_s = 1e9;
   std::uint64_t bytes_a_ray = 48;
   double latency_s = 5e-6;         // of a message
-  double network_bytes_s = 1e10;   // a rank
+  double network_bytes_s = 1e10;   // a link, each way; what comes from many senders comes one after the other
+  int ranks_of_a_link = 1;         // its neighbours by number, of one node; among them nothing takes the link
   double wake_s = 6e-5;            // that a thread sleeps longer than it means to: Linux adds 50 µs
   double ray_handling_s = 1.2e-7;  // of a worker, for a ray that waits: packed, queued, unpacked
   double disk_latency_s = 1e-3;    // of a file
   double disk_bytes_s = 1e9;       // a disk, which reads one file after the other
   int ranks_of_a_disk = 1;         // its neighbours by number
+  double files_s = std::numeric_limits<double>::infinity();  // that one server opens a second, for all ranks
   std::uint64_t rays_of_a_batch = 1024;
   double round_interval_s = 1e-3;
   double jitter = 0;      // any of these takes up to 1 + this times as long: messages overtake
   double patience_s = 0;  // Watch's; 0: a rank that is silent is waited for
+  // Before the first ray, on each rank, and after the last.
+  double setup_s = 0;
+  double film_bytes = 0;  // that come together on rank 0
 };
 
 // What a checkpoint holds: whole rounds of samples, and items of the next one.
@@ -81,6 +86,7 @@ struct InvariantBroken : std::logic_error {
 
 struct SimulationResult {
   double seconds = 0;     // of the clock, to the end
+  double around_s = 0;    // of these before the first ray and after the last
   double busy_s = 0;      // of all workers
   double efficiency = 0;  // busy_s ÷ (seconds × workers)
   // Of the rank where it is most, the share of the time.

@@ -94,6 +94,12 @@ TEST_F(Plan, SharesTheRecordedWork) {
   EXPECT_EQ(points[0]["limit"], "work");
   std::ifstream svg(path("plan.svg"));
   EXPECT_THAT(std::string(std::istreambuf_iterator<char>(svg), {}), HasSubstr("</svg>"));
+  const nlohmann::json short_job = nlohmann::json::parse(
+      plan("box.vit",
+           "--threads 64 --ranks 64 --times 50 --slow-rank 2 --files-a-second 1e6 --ranks-a-link 4 --network "
+           "100M --json")
+          .output)["plan"][0];
+  EXPECT_EQ(short_job["limit"], "beginning and end") << short_job.dump();
   const CommandResult table = plan("box.vit", "--threads 1 --ranks 1,4");
   EXPECT_EQ(table.status, 0);
   EXPECT_THAT(table.output, HasSubstr("limited by"));

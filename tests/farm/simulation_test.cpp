@@ -44,6 +44,10 @@ struct Case {
     machine.disk_latency_s = 1e-5 * static_cast<double>(1 + among(1000));
     machine.ranks_of_a_disk =
         1 + static_cast<int>(among(2) * among(static_cast<std::uint64_t>(machine.ranks)));
+    machine.ranks_of_a_link =
+        1 + static_cast<int>(among(2) * among(static_cast<std::uint64_t>(machine.ranks)));
+    if (among(4) == 0) machine.network_bytes_s = 1e6;
+    if (among(4) == 0) machine.files_s = static_cast<double>(1 + among(10'000));
     mishaps.checkpoints = among(3) == 0 ? static_cast<int>(among(4)) : 0;
     mishaps.checkpoint_mean_s = .01;
     mishaps.rounds_of_samples = 1 + static_cast<int>(among(3));
@@ -167,6 +171,71 @@ TEST(Simulation, RanksWaitForTheirDisk) {
   EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds / own_s, 2, .1);
   machine.ranks_of_a_disk = 4;
   EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds / own_s, 4, .2);
+}
+
+// 10⁵ rays of the camera that end where they come to, with nothing but the network to wait for.
+SimulationResult sent(int ranks, std::uint32_t domains, int ranks_of_a_link) {
+  Workload workload;
+  workload.manifest.domains.resize(domains);
+  for (DomainInfo& d : workload.manifest.domains) d.bytes = 1000;
+  workload.domains.assign(domains, {1e-9, {}});
+  for (std::uint32_t d = 0; d < domains; ++d) workload.camera.ways.push_back({d, 1.0 / domains});
+  workload.items = 1000;
+  workload.rays_an_item = 100;
+  Machine machine;
+  machine.ranks = ranks;
+  machine.rays_allowed = 1'000'000;
+  machine.distribution = Distribution::decompose;
+  machine.domain_bytes = bytes_of_all(workload.manifest);
+  machine.ray_handling_s = 0;
+  machine.network_bytes_s = 1e6;
+  machine.ranks_of_a_link = ranks_of_a_link;
+  return simulate(workload, machine, {}, 1);
+}
+
+// All rays go to one rank, which receives those of three others one after the other.
+TEST(Simulation, ManySendersWaitForOneReceiver) {
+  const SimulationResult all = sent(4, 1, 1);
+  const double expected_s = .75 * 1e5 * 48 / 1e6;
+  EXPECT_NEAR(all.seconds, expected_s, .02 * expected_s);
+  EXPECT_GT(all.busiest_link, .95);
+}
+
+// Of four ranks each sends three quarters of its rays. Two of a node send half of theirs over one link.
+TEST(Simulation, RanksOfANodeShareALink) {
+  const auto busy_s = [](const SimulationResult& r) { return r.busiest_link * r.seconds; };
+  EXPECT_NEAR(busy_s(sent(4, 4, 1)), .75 / 4 * 1e5 * 48 / 1e6, .02);
+  EXPECT_NEAR(busy_s(sent(4, 4, 2)), .5 / 2 * 1e5 * 48 / 1e6, .02);
+  EXPECT_LT(sent(4, 4, 4).seconds, .1 * sent(4, 4, 1).seconds) << "nothing leaves the node";
+}
+
+// Four ranks open all files, at one server.
+TEST(Simulation, RanksWaitForTheServerOfFiles) {
+  std::mt19937_64 random(1);
+  Machine machine;
+  machine.ranks = 4;
+  machine.rays_allowed = 1'000'000;
+  machine.distribution = Distribution::replicate;
+  const Workload workload = random_workload(random, 8, 40, 100);
+  machine.domain_bytes = bytes_of_all(workload.manifest);
+  machine.files_s = 10;
+  const double files = 4. * static_cast<double>(8 + workload.manifest.objects.size());
+  const double expected_s = files / machine.files_s;
+  EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds, expected_s, .1 * expected_s);
+}
+
+// The same job, begun later, and ended when the films are one.
+TEST(Simulation, CountsTheBeginningAndTheEnd) {
+  std::mt19937_64 random(1);
+  Machine machine;
+  machine.ranks = 8;
+  machine.rays_allowed = 100'000;
+  const Workload workload = random_workload(random, 8, 400, 100);
+  machine.domain_bytes = bytes_of_all(workload.manifest);
+  const double between_s = simulate(workload, machine, {}, 1).seconds;
+  machine.setup_s = 2;
+  machine.film_bytes = machine.network_bytes_s;
+  EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds, between_s + 2 + 3, 1e-3) << "a tree of three steps";
 }
 
 // Rays leave some thousand at a time, or when a worker has nothing to do: not after each task. What came
