@@ -16,6 +16,9 @@ using Kind = PatternTexture::Kind;
 
 double rest(double x) { return x - std::floor(x); }
 bool is_odd(double whole) { return whole - 2 * std::floor(whole / 2) != 0; }
+// Of cells of size 1: a floor that lies where two of them meet is in the upper one, as povray shows, however
+// the point was rounded on its way.
+double cell_of(double x) { return std::floor(x + 1e-5); }
 double radius(Point3d p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
 double below_one(double distance) { return std::max(1 - distance, 0.0); }
 // sin 2πt
@@ -101,7 +104,7 @@ std::size_t places_of(Kind kind) { return kind == Kind::hexagon ? 3 : 2; }
 std::size_t place_of_pattern(const PatternTexture& t, Point3d p) {
   if (t.kind == Kind::hexagon) return hexagon(p);
   if (t.kind == Kind::brick) return brick(t.brick, p);
-  return is_odd(std::floor(p.x) + std::floor(p.y) + std::floor(p.z)) ? 1 : 0;
+  return is_odd(cell_of(p.x) + cell_of(p.y) + cell_of(p.z)) ? 1 : 0;
 }
 
 double number_of_pattern(const PatternTexture& t, Point3d p) {
@@ -126,7 +129,7 @@ double number_of_pattern(const PatternTexture& t, Point3d p) {
       constexpr std::uint64_t values = 6;  // of the numbers of a cell
       constexpr double greatest = 0x1p52;
       if (!(radius(p) < greatest)) return 0;
-      const auto cell = [](double x) { return static_cast<std::int64_t>(std::floor(x)); };
+      const auto cell = [](double x) { return static_cast<std::int64_t>(cell_of(x)); };
       return numbers_of_cell(cell(p.x), cell(p.y), cell(p.z), values).w;
     }
     case Kind::leopard: {
