@@ -35,7 +35,7 @@ void add_shares(Moment& end, const Machine& machine) {
   const double worker_s = all.seconds * static_cast<double>(machine.workers);
   for (const Busy& rank : end.ranks) {
     all.busiest_workers = std::max(all.busiest_workers, rank.working_s / worker_s);
-    all.busiest_loader = std::max(all.busiest_loader, rank.loading_s / all.seconds / machine.loaders);
+    all.busiest_loader = std::max(all.busiest_loader, std::min(1.0, rank.loading_s / all.seconds));
   }
   all.busiest_link = end.link_s / all.seconds;
   all.efficiency = all.busy_s / (worker_s * static_cast<double>(end.ranks.size()));

@@ -89,7 +89,7 @@ struct SimulationResult {
   double around_s = 0;    // of these before the first ray and after the last
   double busy_s = 0;      // of all workers
   double efficiency = 0;  // busy_s ÷ (seconds × workers)
-  // Of the rank where it is most, the share of the time.
+  // Of the rank, or the link, where it is most, the share of the time. A loader waits for one file at least.
   double busiest_workers = 0, busiest_loader = 0, busiest_link = 0;
   std::uint64_t events = 0, messages = 0, rays = 0, forwarded_rays = 0, loads = 0, evictions = 0;
   std::uint64_t rounds = 0, checkpoints = 0;
