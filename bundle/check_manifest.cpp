@@ -197,12 +197,19 @@ void check_tables(const Checker& c, const Manifest& m) {
     if (const auto* slab = std::get_if<SlabMaterial>(&material.model))
       c.require(slab->thickness >= 0 && slab->g > -1 && slab->g < 1,
                 "a slab has a negative thickness, or its g is not between -1 and 1");
-  for (const Material& material : m.materials)
-    if (const auto* finish = std::get_if<FinishMaterial>(&material.model))
+  for (const Material& material : m.materials) {
+    const auto* glazed = std::get_if<GlazedMaterial>(&material.model);
+    const auto* finish = glazed ? &glazed->finish : std::get_if<FinishMaterial>(&material.model);
+    if (finish)
       c.require(finish->brilliance >= 0 && finish->phong_size >= 0 && finish->roughness > 0 &&
                     std::isfinite(finish->brilliance + finish->phong_size + finish->roughness +
                                   finish->phong + finish->specular),
                 "a finish has a negative exponent, or one that is not finite");
+    if (glazed)
+      c.require(glazed->falloff >= 0 && glazed->metallic >= 0 && glazed->metallic <= 1 && glazed->eta > 0 &&
+                    std::isfinite(glazed->falloff + glazed->eta),
+                "a finish that mirrors has a negative exponent, or an index that is not above 0");
+  }
 }
 
 void check_lights(const Checker& c, const Manifest& m) {

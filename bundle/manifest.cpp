@@ -190,6 +190,9 @@ Features features_of(const Manifest& m) {
   require(std::ranges::any_of(
               m.materials, [](const Material& a) { return std::holds_alternative<FinishMaterial>(a.model); }),
           required_feature::finishes);
+  require(std::ranges::any_of(
+              m.materials, [](const Material& a) { return std::holds_alternative<GlazedMaterial>(a.model); }),
+          required_feature::glazes);
   require(std::ranges::any_of(m.media, &Medium::veils), required_feature::veils);
   require(has_shadowless_materials(m) || !std::ranges::all_of(m.lights, &Light::casts_shadows),
           required_feature::shadowless);

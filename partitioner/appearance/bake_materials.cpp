@@ -132,6 +132,12 @@ class MaterialBaker {
     factor(m.reflectance), factor(m.highlight);
     return m;
   }
+  MaterialModel operator()(GlazedMaterial m) {
+    for (SpectrumParameter* p :
+         {&m.finish.reflectance, &m.finish.highlight, &m.mirror_min, &m.mirror_max, &m.tint, &m.through})
+      factor(*p);
+    return m;
+  }
   MaterialModel operator()(const InterfaceMaterial& m) { return m; }
   MaterialModel operator()(BlendMaterial m) {
     part(m.first), part(m.second), number(m.amount);

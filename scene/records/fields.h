@@ -125,6 +125,10 @@ auto visit_fields(Is<SlabMaterial> auto& m, auto&& f) { return f(m.sigma_a, m.si
 auto visit_fields(Is<FinishMaterial> auto& m, auto&& f) {
   return f(m.reflectance, m.highlight, m.brilliance, m.phong, m.phong_size, m.specular, m.roughness);
 }
+auto visit_fields(Is<GlazedMaterial> auto& m, auto&& f) {
+  return f(m.finish, m.mirror_min, m.mirror_max, m.tint, m.falloff, m.metallic, m.fresnel, m.conserves_energy,
+           m.through, m.eta);
+}
 auto visit_fields(Is<Material> auto& m, auto&& f) {
   return f(m.model, m.two_sided, m.displacement, m.normal_map, m.bump_shadowing);
 }

@@ -26,10 +26,26 @@ const char* kind_of(const TextureModel& model) {
 }
 
 const char* kind_of(const MaterialModel& model) {
-  return name_of(model, std::array{"diffuse", "dielectric", "thin dielectric", "conductor", "plastic",
-                                   "coated diffuse", "coated conductor", "diffuse transmission", "principled",
-                                   "subsurface", "hair", "measured", "interface", "blend", "mask",
-                                   "two-sided", "tabulated", "slab", "finish"});
+  return name_of(model, std::array{"diffuse",
+                                   "dielectric",
+                                   "thin dielectric",
+                                   "conductor",
+                                   "plastic",
+                                   "coated diffuse",
+                                   "coated conductor",
+                                   "diffuse transmission",
+                                   "principled",
+                                   "subsurface",
+                                   "hair",
+                                   "measured",
+                                   "interface",
+                                   "blend",
+                                   "mask",
+                                   "two-sided",
+                                   "tabulated",
+                                   "slab",
+                                   "finish",
+                                   "glazed finish"});
 }
 
 const char* kind_of(const LightModel& model) {

@@ -213,6 +213,25 @@ struct FinishMaterial {
   bool operator==(const FinishMaterial&) const = default;
 };
 
+// POV-Ray's finish of a surface that also mirrors, or lets light through. At an angle θ light adds up as
+//
+//   lit by `finish` + R·metal·mirrored + T·behind,     R = mirror_min + (mirror_max − mirror_min)·k,
+//   k = (1 − cos θ)^falloff, or Fresnel's reflectance of `eta`,
+//
+// T = through, ·(1 − R) with `conserves_energy`; metal goes from 1 to `tint` by `metallic`, and back at
+// grazing angles. Energy may be made. What is behind is bent by `eta`; shadows go straight on. The laws are
+// measured, by POV-Ray 3.7 (docs/why/converting.md).
+struct GlazedMaterial {
+  FinishMaterial finish;  // its reflectance is of the share that is solid
+  SpectrumParameter mirror_min = ConstantSpectrum{0}, mirror_max = ConstantSpectrum{0};
+  SpectrumParameter tint = ConstantSpectrum{1};
+  float falloff = 1, metallic = 0;
+  bool fresnel = false, conserves_energy = false;
+  SpectrumParameter through = ConstantSpectrum{0};
+  float eta = 1;  // index behind / in front
+  bool operator==(const GlazedMaterial&) const = default;
+};
+
 // No interface at all: rays go through unchanged.
 struct InterfaceMaterial {
   bool operator==(const InterfaceMaterial&) const = default;
@@ -243,7 +262,7 @@ using MaterialVariant =
                  PlasticMaterial, CoatedDiffuseMaterial, CoatedConductorMaterial, DiffuseTransmissionMaterial,
                  PrincipledMaterial, SubsurfaceMaterial, HairMaterial, MeasuredMaterial, InterfaceMaterial,
                  BlendMaterial, MaskMaterial, TwoSidedMaterial, TabulatedMaterial, SlabMaterial,
-                 FinishMaterial>;
+                 FinishMaterial, GlazedMaterial>;
 // Copied, moved, destroyed and compared in scene/records/special_members.cpp alone: in every file that
 // handles a scene, that took up to two thirds of its compiling.
 struct MaterialModel : MaterialVariant {

@@ -81,6 +81,10 @@ struct Traits {
     return {.transmits = true, .straight = true, .counts = true, .lobes = spread};
   }
   MaterialTraits operator()(const FinishMaterial&) const { return {.gathers = true, .lobes = spread}; }
+  MaterialTraits operator()(const GlazedMaterial& m) const {
+    const bool clear = m.through != SpectrumParameter{ConstantSpectrum{0}};
+    return {.transmits = clear, .straight = clear, .counts = clear, .lobes = {true, true}};
+  }
 };
 
 // What a part has, a material made of it has too; but for what it counts, which is said where it is met.

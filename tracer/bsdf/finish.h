@@ -14,11 +14,6 @@ struct FinishBsdf {
   double brilliance = 1, phong = 0, phong_size = 40, specular = 0, roughness = 0.05;
 };
 
-inline FinishBsdf without_highlights(FinishBsdf bsdf) {
-  bsdf.phong = bsdf.specular = 0;
-  return bsdf;
-}
-
 BsdfValue eval(const FinishBsdf& bsdf, Vector3d out, Vector3d in);
 double pdf(const FinishBsdf& bsdf, Vector3d out, Vector3d in);
 std::optional<BsdfSample> sample(const FinishBsdf& bsdf, Vector3d out, float u_lobe, Point2f u);

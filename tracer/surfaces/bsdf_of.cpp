@@ -151,10 +151,18 @@ SlabBsdf BsdfMaker::slab(const SlabMaterial& m) const {
   return b;
 }
 
-Bsdf BsdfMaker::operator()(const FinishMaterial& m) const {
+FinishBsdf BsdfMaker::finish(const FinishMaterial& m) const {
   const auto number = [](float x) { return static_cast<double>(x); };
-  return FinishBsdf{spectrum(m.reflectance), spectrum(m.highlight), number(m.brilliance), number(m.phong),
-                    number(m.phong_size),    number(m.specular),    number(m.roughness)};
+  return {spectrum(m.reflectance), spectrum(m.highlight), number(m.brilliance), number(m.phong),
+          number(m.phong_size),    number(m.specular),    number(m.roughness)};
+}
+
+Bsdf BsdfMaker::operator()(const GlazedMaterial& m) const {
+  const auto number = [](float x) { return static_cast<double>(x); };
+  return GlazedBsdf{finish(m.finish), spectrum(m.mirror_min), spectrum(m.mirror_max),
+                    spectrum(m.tint), number(m.falloff),      number(m.metallic),
+                    m.fresnel,        m.conserves_energy,     spectrum(m.through),
+                    number(m.eta)};
 }
 
 // Tints are of the colour: they do not depend on the wavelengths that a path has.

@@ -50,7 +50,8 @@ struct BsdfMaker {
   }
   Bsdf operator()(const TabulatedMaterial& m) const;
   Bsdf operator()(const SlabMaterial& m) const { return slab(m); }
-  Bsdf operator()(const FinishMaterial& m) const;
+  Bsdf operator()(const FinishMaterial& m) const { return finish(m); }
+  Bsdf operator()(const GlazedMaterial& m) const;
   // Never asked: parts are chosen, nothing is gone through, and bundles have no subsurface materials.
   Bsdf operator()(const BlendMaterial&) const { return LambertBsdf{}; }
   Bsdf operator()(const MaskMaterial&) const { return LambertBsdf{}; }
@@ -67,6 +68,7 @@ struct BsdfMaker {
   Microfacets microfacets(const Roughness& r) const;
   Microfacets microfacets(const Roughness& r, Masking masking) const;
   ConductorBsdf metal(const Metal& metal) const;
+  FinishBsdf finish(const FinishMaterial& m) const;
   LayerVolume coating(const CoatingVolume& v) const;
   double luminance_of(const PrincipledMaterial& m) const;
   SampledSpectrum absorption(const HairMaterial& m) const;

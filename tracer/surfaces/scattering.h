@@ -10,6 +10,7 @@
 #include "tracer/bsdf/diffuse.h"
 #include "tracer/bsdf/finish.h"
 #include "tracer/bsdf/fourier.h"
+#include "tracer/bsdf/glazed.h"
 #include "tracer/bsdf/hair.h"
 #include "tracer/bsdf/layered.h"
 #include "tracer/bsdf/measured.h"
@@ -23,13 +24,21 @@ namespace vitrail {
 using Bsdf = std::variant<LambertBsdf, OrenNayarBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf,
                           ThinDielectricBsdf, PlasticBsdf, RoughPlasticBsdf, PrincipledBsdf,
                           PrincipledThinBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf, MeasuredSheetBsdf,
-                          FourierBsdf, AdaptiveBsdf, SlabBsdf, HairBsdf, FinishBsdf>;
+                          FourierBsdf, AdaptiveBsdf, SlabBsdf, HairBsdf, FinishBsdf, GlazedBsdf>;
 
 inline BsdfValue eval(const Bsdf& bsdf, Vector3d out, Vector3d in) {
   return std::visit([&](const auto& b) { return eval(b, out, in); }, bsdf);
 }
 inline std::optional<BsdfSample> sample(const Bsdf& bsdf, Vector3d out, float u_lobe, Point2f u) {
   return std::visit([&](const auto& b) { return sample(b, out, u_lobe, u); }, bsdf);
+}
+
+// As a lamp shows it that makes no highlights of POV-Ray's.
+inline Bsdf without_highlights(Bsdf bsdf) {
+  auto* const glazed = std::get_if<GlazedBsdf>(&bsdf);
+  FinishBsdf* const finish = glazed ? &glazed->finish : std::get_if<FinishBsdf>(&bsdf);
+  if (finish) finish->phong = finish->specular = 0;
+  return bsdf;
 }
 
 // Whether it scatters into single directions alone: eval and pdf are 0 everywhere.
@@ -52,7 +61,8 @@ inline bool has_one_lobe(const Bsdf& bsdf) {
 
 // Whether patterns that turn its normal away from the ray do so, as POV-Ray's.
 inline bool takes_any_normal(const Bsdf& bsdf) {
-  return has_one_lobe(bsdf) || std::holds_alternative<FinishBsdf>(bsdf);
+  return has_one_lobe(bsdf) || std::holds_alternative<FinishBsdf>(bsdf) ||
+         std::holds_alternative<GlazedBsdf>(bsdf);
 }
 
 // Whether light from everywhere counts about alike.

@@ -232,6 +232,8 @@ SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interac
       return straight_transmittance(maker_at(at.texture_point(), wavelengths).thin(*thin), cosine);
     if (const auto* slab = std::get_if<SlabMaterial>(&m.model))
       return straight_transmittance(maker_at(at.texture_point(), wavelengths).slab(*slab), cosine);
+    if (const auto* glazed = std::get_if<GlazedMaterial>(&m.model))
+      return textures_.spectrum(glazed->through, at.texture_point(), wavelengths);
     return {};
   });
 }

@@ -163,7 +163,6 @@ void connect_surface(Tracing& tracing, const CameraPath& path, const Event& even
                      const Scattering& scattering, Vector3d out, std::uint32_t candidates,
                      ShadowRays& shadows) {
   const Interaction& at = event.at;
-  const auto* const finish = std::get_if<FinishBsdf>(&scattering.bsdf);
   const auto scatter = [&](const LightSample& light) -> BsdfValue {
     const Vector3d direction = light.to_light;
     const Vector3d in = scattering.frame.to_local(direction);
@@ -171,8 +170,8 @@ void connect_surface(Tracing& tracing, const CameraPath& path, const Event& even
     if (!scattering.transmits &&
         (dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * in.z > 0))
       return {};
-    BsdfValue scattered = finish && is_shadowless(tracing, light) ? eval(without_highlights(*finish), out, in)
-                                                                  : eval(scattering.bsdf, out, in);
+    BsdfValue scattered =
+        eval(is_shadowless(tracing, light) ? without_highlights(scattering.bsdf) : scattering.bsdf, out, in);
     scattered.value =
         scattered.value * static_cast<float>(scattering.bump_shadowing(dot(direction, at.shading)));
     return scattered;

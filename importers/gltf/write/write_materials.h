@@ -68,6 +68,7 @@ class MaterialWriter {
   void put(const TabulatedMaterial&) { grey("tabulated material", 0.5); }
   void put(const SlabMaterial&) { grey("slab of a medium", 0.5); }
   void put(const FinishMaterial& m) { put(DiffuseMaterial{m.reflectance}); }
+  void put(const GlazedMaterial& m) { put(m.finish); }
   void put(const InterfaceMaterial&);
   void put(const BlendMaterial& m);
   void put(const MaskMaterial& m);

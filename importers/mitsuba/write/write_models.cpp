@@ -327,6 +327,10 @@ void write(Context& context, Element parent, ElementId id, const FinishMaterial&
   write(context, parent, id, DiffuseMaterial{m.reflectance});
 }
 
+void write(Context& context, Element parent, ElementId id, const GlazedMaterial& m) {
+  write(context, parent, id, m.finish);
+}
+
 void write(Context&, Element parent, ElementId id, const InterfaceMaterial&) {
   add(parent, "bsdf", "null", "", id);
 }

@@ -203,6 +203,7 @@ class Writer : MtlText {
     approximated("highlights of POV-Ray that are not normalised: diffuse");
     color("Kd", "map_Kd", m.reflectance);
   }
+  void put(const GlazedMaterial& m) { put(m.finish); }
   void put(const InterfaceMaterial&) { text += "Kd 0 0 0\nd 0\n"; }
 
   void put(const BlendMaterial& m) {

@@ -165,6 +165,7 @@ class MaterialWriter {
     p_.albedo("reflectance", m.reflectance);
     return "diffuse";
   }
+  const char* operator()(const GlazedMaterial& m) { return (*this)(m.finish); }
   const char* operator()(const InterfaceMaterial&) { return "interface"; }
   const char* operator()(const BlendMaterial& m) {
     const std::vector<std::string>& names = p_.writer().materials;

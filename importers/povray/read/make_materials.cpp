@@ -96,7 +96,8 @@ std::string key_of(const Finish& f) {
   return key_of(f.ambient) + key_of(f.emission) + key_of(f.reflection_min) + key_of(f.reflection_max) +
          fmt::format("{},{},{},{},{},{},{},{},{},{},{},{};", f.diffuse, f.brilliance, f.phong, f.phong_size,
                      f.specular, f.roughness, f.metallic, f.fresnel, f.reflection_metallic, f.diffuse_back,
-                     f.subsurface, f.crand);
+                     f.subsurface, f.crand) +
+         fmt::format("{},{};", f.reflection_falloff, f.conserve_energy);
 }
 
 std::string key_of(const Look& look) {
@@ -194,7 +195,8 @@ Surface Surfaces::made(const Look& look) {
   static const auto black = std::make_shared<pov::Texture>();
   const pov::Texture& texture = look.texture ? *look.texture : *black;
   const Transform to_world = look.to_world * texture.to_object;
-  const Layer result = layered(texture, to_world, look);
+  const bool alone = texture.layers.empty() && !texture.pattern;
+  const Layer result = alone ? layer_of(texture, to_world, look, alone) : layered(texture, to_world, look);
   Surface surface{result.material, std::nullopt, result.opacity, result.clears};
   if (result.glow_scale > 0) {
     AreaLight glow;
@@ -207,7 +209,8 @@ Surface Surfaces::made(const Look& look) {
   return surface;
 }
 
-Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform& to_world, const Look& look) {
+Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform& to_world, const Look& look,
+                                   bool alone) {
   static const auto black = [] {
     auto pigment = std::make_shared<Pigment>();
     pigment->color = Finish::grey(0);
@@ -222,8 +225,10 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
   const bool clear = opacity && *opacity < 1 && look.interior && look.interior->ior > 1.0001;
   const bool colored = opacity && *opacity < 1 && pigment.color && pigment.color->v[3] > 0;
   Body body{pigment, finish, placed, look, std::nullopt, texture.place};
-  if (clear || colored) body.solid = *opacity;
-  layer.clears = clear && passed_twice(mean_color(pigment)) > 0.5;
+  body.glazed = opacity && (alone || clear || colored || *opacity >= 1) &&
+                is_glazed(finish, look.interior.get(), *opacity);
+  if (clear || colored || (body.glazed && *opacity < 1)) body.solid = *opacity;
+  layer.clears = clear && !body.glazed && passed_twice(mean_color(pigment)) > 0.5;
   const Bump* const bump = texture.normal.get();
   layer.material = bumpy(body, bump, bump ? to_world * bump->to_object : to_world);
   if (body.solid) layer.opacity = 1.0f;
@@ -253,6 +258,7 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
 }
 
 Id<Material> Surfaces::material_of(const Body& body) {
+  if (body.glazed) return glazed(body);
   if (!body.solid) return material_of(body.pigment, body.finish, body.to_world, body.look);
   const Id<Material> through = clear_material(body.pigment, body.finish, body.look.interior.get());
   if (!(*body.solid > 0.001f)) return through;

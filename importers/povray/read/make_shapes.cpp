@@ -98,7 +98,10 @@ Numbers ambient_of(const World& world) {
 }  // namespace
 
 SceneMaker::SceneMaker(Reader& reader, const World& world, MeshMemory& memory)
-    : reader_(reader), world_(world), memory_(memory), surfaces_(reader, scene_, ambient_of(world)) {}
+    : reader_(reader),
+      world_(world),
+      memory_(memory),
+      surfaces_(reader, scene_, ambient_of(world), !reader.for_export && !world.photons) {}
 
 Scene SceneMaker::make() {
   for (const std::string& file : reader_.files()) scene_.files.push_back(file);

@@ -36,9 +36,11 @@ struct Surface {
 
 class Surfaces {
  public:
-  // `ambient`: what the light of `ambient` is multiplied by; 0 with radiosity.
-  Surfaces(Reader& reader, Scene& scene, Numbers ambient)
-      : reader_(reader), scene_(scene), ambient_(ambient) {}
+  // `ambient`: what the light of `ambient` is multiplied by; 0 with radiosity. `glazes`: what mirrors by
+  // angle or lets light through is a GlazedMaterial, which other formats do not have, and photons do not
+  // know.
+  Surfaces(Reader& reader, Scene& scene, Numbers ambient, bool glazes)
+      : reader_(reader), scene_(scene), ambient_(ambient), glazes_(glazes) {}
 
   Surface of(const Look& look);
   // With its interior_texture, if it has one, at the back. Where that glows, or light goes through either,
@@ -59,7 +61,8 @@ class Surfaces {
   };
 
   Surface made(const Look& look);
-  Layer layer_of(const Texture& texture, const Transform& to_world, const Look& look);
+  // `alone`: nothing shows through it but what is behind the surface.
+  Layer layer_of(const Texture& texture, const Transform& to_world, const Look& look, bool alone = false);
   // Of layers or a pattern of textures, else layer_of (make_layers.cpp).
   Layer layered(const Texture& texture, const Transform& to_world, const Look& look);
   Layer blended(const Texture& texture, const Transform& to_world, const Look& look);
@@ -76,7 +79,11 @@ class Surfaces {
     const Look& look;
     std::optional<float> solid;  // how much of it; none: all, as nothing goes through
     Place place;
+    bool glazed = false;
   };
+  // What mirrors by angle, or shows all of its highlights though it is clear (make_glazed.cpp).
+  bool is_glazed(const Finish& finish, const Interior* interior, float opacity) const;
+  Id<Material> glazed(const Body& body);
   Id<Material> material_of(const Body& body);
   Id<Material> bumpy(const Body& body, const Bump* bump, const Transform& to_world);
   std::optional<FloatParameter> bump_texture(const Bump& bump, const Transform& to_world);
@@ -132,6 +139,7 @@ class Surfaces {
   Reader& reader_;
   Scene& scene_;
   Numbers ambient_;
+  bool glazes_;
   std::optional<FloatParameter> displacement_;  // of materials that are added
   std::map<std::string, Surface> made_;
   std::map<std::array<std::uint32_t, 3>, std::optional<Surface>> sides_;  // by outside, inside, glow

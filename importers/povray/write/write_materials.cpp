@@ -288,6 +288,7 @@ class Builder {
     if (m.specular > 0) more += fmt::format(" specular {} roughness {}", m.specular, m.roughness);
     return {diffuse(pigment(m.reflectance), 1, more), "", ""};
   }
+  Surface surface_of(const GlazedMaterial& m) { return surface_of(m.finish); }
   Surface surface_of(const InterfaceMaterial&) { return {"texture { Clear }\n", "", ""}; }
 
   // ---- Made of others ---------------------------------------------------------------------------

@@ -284,6 +284,36 @@ TEST_F(PovrayPictures, ShadowsOfClearGlass) {
       0.03);
 }
 
+// The floor lies where two cells meet, whatever their size.
+TEST_F(PovrayPictures, CheckersOfAFloor) {
+  for (const char* scale : {".3", ".7", "1.1"})
+    expect_alike(linear + lamps + "plane { y, 0 pigment { checker rgb <.9, .8, .7>, rgb <.2, .3, .1> scale " +
+                     scale + " } }",
+                 0.02);
+}
+
+// Mirror and highlights are the same however clear a surface is; glass bends by its ior, mirrors by its
+// finish.
+TEST_F(PovrayPictures, ClearSurfacesThatShine) {
+  for (const char* ball :
+       {"pigment { rgbf <1, .3, .3, .8> } finish { ambient 0 phong .9 phong_size 40 }",
+        "pigment { rgbt <1, 1, .3, .7> } finish { ambient .1 specular .9 roughness .02 reflection .2 }",
+        "pigment { rgbt <1, 1, .9, .8> } finish { specular .9 roughness .02 reflection .3 conserve_energy }"
+        " interior { ior 1.3 }",
+        "pigment { rgbf <.7, .9, 1, .5> } finish { specular .9 roughness .02 reflection { 0, 1 fresnel } }"
+        " interior { ior 1.5 fade_distance 1 fade_power 1001 fade_color <.5, .9, .6> }",
+        "pigment { rgb <1, .8, .6> } finish { specular .9 roughness .01 reflection { .1, 1 fresnel } }"
+        " interior { ior 1.5 }",
+        "pigment { rgb <1, .6, .3> } finish { ambient 0 reflection { .3, .9 falloff 2 metallic } }"})
+    expect_alike(linear + lamps +
+                     "plane { z, 20 pigment { rgb <.2, .3, .5> } finish { ambient 1 diffuse 0 } }\n" +
+                     "plane { y, 0 pigment { checker rgb <.8, .7, .6>, rgb <.3, .4, .2> scale .7 } "
+                     "finish { ambient .1 } }\n"
+                     "sphere { <0, .9, .5>, .9 " +
+                     ball + " }",
+                 0.03, 256);
+}
+
 TEST_F(PovrayPictures, NormalsBeginAsTheDefaultOne) {
   expect_alike(linear + lamps +
                    "#default { pigment { rgb .7 } normal { onion .8 scale .4 } finish { phong .5 } }\n"

@@ -8,6 +8,8 @@
 
 #include "scene/geometry/portable_math.h"
 #include "tests/laws/light/flat_scenes.h"
+#include "tracer/bsdf/glazed.h"
+#include "tracer/bsdf/local.h"
 
 namespace vitrail::test {
 namespace {
@@ -126,6 +128,72 @@ TEST(PovraySurfaces, AnAtmosphereWeakensNoLamp) {
     // ∫ s·e^(−s·t)·e^(−s·(3 + t)) dt over the two units before the floor
     const double scattered = veils ? 1 - left : std::exp(-0.6) * (1 - std::exp(-0.8)) / 2;
     expect_mean(veils ? "an atmosphere" : "another medium", scene, left * to_lamp + scattered, 4096);
+  }
+}
+
+// What mirrors, lets through, and shines with highlights adds up under a sky of 1: as much as POV-Ray's laws
+// say.
+TEST(PovraySurfaces, GlazedUnderASky) {
+  GlazedMaterial glazed;
+  glazed.finish = {ConstantSpectrum{0.3f}, ConstantSpectrum{1}};
+  glazed.finish.specular = 0.5f, glazed.finish.roughness = 0.2f;
+  glazed.mirror_min = ConstantSpectrum{0.1f}, glazed.mirror_max = ConstantSpectrum{0.5f};
+  for (const double view_deg : {0.0, 40.0, 75.0})
+    for (const bool fresnel : {false, true})
+      for (const bool conserves : {false, true})
+        for (const float through : {0.0f, 0.6f}) {
+          const Vector3d out = direction(view_deg);
+          const double lit = over_sphere([&](Vector3d in) {
+            return in.z <= 0 ? 0.0 : (0.3 * in.z + 0.5 * std::pow(normalize(out + in).z, 5)) / pi;
+          });
+          glazed.fresnel = fresnel, glazed.conserves_energy = conserves;
+          glazed.through = ConstantSpectrum{through};
+          glazed.eta = 1.5f, glazed.falloff = 2;
+          const double between = fresnel ? fresnel_dielectric(out.z, 1.5) : std::pow(1 - out.z, 2);
+          const double mirrored = 0.1 + 0.4 * between;
+          const double expected =
+              lit + mirrored + static_cast<double>(through) * (conserves ? 1 - mirrored : 1);
+          expect_luminance(plane_under_sky(Material{glazed}, out, 256), expected, 0.01,
+                           fmt::format("glazed, {}°, fresnel {}, conserves {}, through {}", view_deg, fresnel,
+                                       conserves, through),
+                           1e-3);
+        }
+}
+
+// Highlights are the same however much goes through, and a lamp behind shines through, bent or not.
+TEST(PovraySurfaces, LampsAndClearSurfaces) {
+  GlazedMaterial glazed;
+  glazed.finish = {ConstantSpectrum{0.1f}, ConstantSpectrum{1}};
+  glazed.finish.phong = 0.5f, glazed.finish.phong_size = 10;
+  glazed.through = ConstantSpectrum{0.75f};
+  for (const float eta : {1.0f, 1.5f}) {
+    glazed.eta = eta;
+    expect_mean(fmt::format("seen, index {}", eta), seen(Material{glazed}, direction(30), direction(30, 180)),
+                0.1 * std::cos(30 * pi / 180) + 0.5);
+    Scene scene = seen(white, direction(20), direction(20, 180));
+    add_shape(scene, square(scene, 30, 1), Material{glazed});
+    scene.shapes.back().object_to_world = translate({-30 * std::tan(20 * pi / 180), 0, 0});
+    expect_mean(fmt::format("lit through it, index {}", eta), scene, 0.75 * std::cos(20 * pi / 180));
+  }
+}
+
+// From inside beyond the critical angle all of it is mirrored; weights and chances agree.
+TEST(PovraySurfaces, GlazedFromInside) {
+  GlazedBsdf glazed;
+  glazed.finish.reflectance = filled(0.2f);
+  glazed.through = filled(0.6f), glazed.mirror_min = glazed.mirror_max = filled(0.1f), glazed.eta = 1.5;
+  for (const double view_deg : {10.0, 60.0}) {
+    const Vector3d out = -direction(view_deg);
+    double mirrored = 0, through = 0;
+    constexpr int n = 1 << 14;
+    for (int i = 0; i < n; ++i) {
+      const auto chosen = sample(glazed, out, (static_cast<float>(i) + 0.5f) / n, {0.3f, 0.4f});
+      ASSERT_TRUE(chosen);
+      if (!chosen->specular) continue;
+      (chosen->in.z < 0 ? mirrored : through) += static_cast<double>(chosen->weight.v[0]) / n;
+    }
+    EXPECT_NEAR(mirrored, view_deg > 42 ? 0.7 : 0.1, 1e-3) << view_deg;
+    EXPECT_NEAR(through, view_deg > 42 ? 0 : 0.6, 1e-3) << view_deg;
   }
 }
 

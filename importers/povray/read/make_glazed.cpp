@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces of POV-Ray that mirror by angle, or are clear and shine: their mirror and highlights are the same
+// however much light goes through.
+#include <algorithm>
+
+#include "importers/povray/read/reader.h"
+#include "importers/povray/read/surfaces.h"
+#include "scene/spectra/rgb_to_spectrum.h"
+
+namespace vitrail::pov {
+
+bool Surfaces::is_glazed(const Finish& finish, const Interior* interior, float opacity) const {
+  if (!glazes_ || finish.diffuse_back > 0 || finish.crand > 0) return false;
+  const auto is_any = [](const Numbers& n) { return std::max({n.v[0], n.v[1], n.v[2]}) > 0; };
+  const auto differs = [&](std::size_t i) {
+    return finish.reflection_min.v[i] != finish.reflection_max.v[i];
+  };
+  const bool mirrors = is_any(finish.reflection_min) || is_any(finish.reflection_max);
+  if (opacity >= 1) return mirrors && (finish.fresnel || differs(0) || differs(1) || differs(2));
+  return mirrors || finish.phong > 0 || finish.specular > 0 || (interior && interior->ior > 1.0001);
+}
+
+Id<Material> Surfaces::glazed(const Body& body) {
+  const Finish& finish = body.finish;
+  const auto factors = [&](const Numbers& n) -> SpectrumParameter {
+    return Spectrum{
+        unbounded_from_rgb({reader_.linear(n.v[0]), reader_.linear(n.v[1]), reader_.linear(n.v[2])})};
+  };
+  GlazedMaterial m;
+  const double solid = static_cast<double>(body.solid.value_or(1.0f));
+  m.finish.reflectance = color_texture(body.pigment, body.to_world, Part::factor,
+                                       reader_.linear(finish.diffuse) * solid, body.look.by_uv);
+  m.finish.highlight = highlight_color(body.pigment, finish, body.to_world, body.look);
+  m.finish.brilliance = static_cast<float>(std::max(finish.brilliance, 0.0));
+  m.finish.phong = static_cast<float>(std::max(finish.phong, 0.0));
+  m.finish.phong_size = static_cast<float>(std::max(finish.phong_size, 0.0));
+  m.finish.specular = static_cast<float>(std::max(finish.specular, 0.0));
+  m.finish.roughness = static_cast<float>(std::max(finish.roughness, 1e-6));
+  m.mirror_min = factors(finish.reflection_min);
+  m.mirror_max = factors(finish.reflection_max);
+  m.metallic = static_cast<float>(std::clamp(finish.reflection_metallic, 0.0, 1.0));
+  if (m.metallic > 0) m.tint = color_texture(body.pigment, body.to_world, Part::factor, 1, body.look.by_uv);
+  m.falloff = static_cast<float>(std::max(finish.reflection_falloff, 0.0));
+  m.fresnel = finish.fresnel;
+  m.conserves_energy = finish.conserve_energy;
+  if (body.look.interior && body.look.interior->ior > 0) m.eta = static_cast<float>(body.look.interior->ior);
+  if (solid < 1) {
+    const Numbers color = body.pigment.color.value_or(mean_color(body.pigment));
+    const double filter = std::max(color.v[3], 0.0), transmit = std::max(color.v[4], 0.0);
+    const auto part = [&](std::size_t i) { return reader_.linear(color.v[i]) * filter + transmit; };
+    m.through = Spectrum{unbounded_from_rgb({part(0), part(1), part(2)})};
+  }
+  if (finish.irid > 0) dropped("irid", finish.place);
+  if (finish.subsurface) dropped("subsurface", finish.place);
+  return add(std::move(m), body.pigment.place);
+}
+
+}  // namespace vitrail::pov
