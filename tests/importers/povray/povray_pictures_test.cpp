@@ -199,6 +199,24 @@ TEST_F(PovrayPictures, FogOnTheGround) {
     expect_alike(linear + walls + "fog { fog_type 2 " + fog + " }", 0.03, 256);
 }
 
+// Whether it has an end or not, over objects and over what is around.
+TEST_F(PovrayPictures, FogThatTransmitsAndFilters) {
+  const std::string around =
+      "sky_sphere { pigment { gradient y color_map { [0 rgb .9] [1 rgb <.2, .3, .9>] } } }\n";
+  for (const char* fog : {"distance 4 rgbt <.4, .5, .6, .3>", "distance 4 rgbf <.7, .5, .2, .8>",
+                          "distance 2 fog_type 2 fog_offset 2 fog_alt 1 rgbt <.4, .5, .6, .3>",
+                          "distance 4 fog_type 2 fog_offset .2 fog_alt .6 rgbft <.3, .5, .2, 1, .4>"}) {
+    expect_alike(linear + ball + around + "fog { " + fog + " }", 0.03, 128);
+    expect_alike(linear + walls + "fog { " + fog + " }", 0.03, 128);
+  }
+  // From above, as on a landscape.
+  expect_alike(
+      "#version 3.7; global_settings { assumed_gamma 1 }\n"
+      "camera { location <0, 9, -9> look_at <0, 0, 3> }\n" +
+          ball + around + "fog { distance 1 fog_type 2 fog_alt .4 rgbt <.9, .8, .7, .25> }",
+      0.03, 256);
+}
+
 TEST_F(PovrayPictures, FogWithTurbulence) {
   for (const char* fog :
        {"distance 8 rgb <.7, .8, .9> turbulence .5", "distance 3 rgb .9 turbulence 2 octaves 3",
