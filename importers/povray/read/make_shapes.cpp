@@ -133,6 +133,7 @@ void SceneMaker::add(const Object& object, const Transform& parent_to_world, Loo
   }
   look.no_shadow = look.no_shadow || object.no_shadow;
   look.hollow = look.hollow || object.hollow;
+  look.double_illuminate = look.double_illuminate || object.double_illuminate;
   look.no_image = look.no_image || object.no_image;
   if (hides_surroundings(object)) return void(sees_around_ = false);
   if (object.no_reflection && !object.no_image)
