@@ -109,7 +109,7 @@ double height_of_column(const Fog& fog, double sum) {
 // The length of densest fog that weakens as much as it may.
 double deepest(const Fog& fog) {
   const double t = fog.color.v[4];
-  return t > 0 ? -std::log(std::min(t, 1.0)) * fog.distance / turbulent_share(fog) : infinity;
+  return t > 0 ? -std::log(t) * fog.distance / turbulent_share(fog) : infinity;
 }
 
 }  // namespace

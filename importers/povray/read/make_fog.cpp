@@ -93,8 +93,9 @@ void SceneMaker::add_fog_face(const FogEdge& edge, double height, std::optional<
 
 // Of a layer that would go on: beyond it there is no fog.
 void SceneMaker::add_fog_side(const FogEdge& edge, double low, double high, Id<Medium> medium) {
-  low = std::max(low, edge.low), high = std::min(high, edge.high);
-  if (!(low < high) || !std::isfinite(low) || !std::isfinite(high)) return;
+  low = std::max({low, edge.low, edge.eye - 2 * reach_});
+  high = std::min({high, edge.high, edge.eye + 2 * reach_});
+  if (!(low < high)) return;
   constexpr int rings = 32, segments = 96;
   std::vector<solids::MeridianChord> chords;
   const auto at = [&](int k) {
@@ -127,7 +128,7 @@ void SceneMaker::add_fog_filter(const Fog& fog) {
 
 void SceneMaker::add_fog() {
   for (const Shared<Fog>& fog : world_.fogs)
-    if (fog->distance > 0) fogs_.push_back(fog);
+    if (fog->distance > 0 && fog->color.v[4] < 1) fogs_.push_back(fog);
   if (fogs_.empty()) return;
   const SourceLocation place = reader_.location(fogs_.front()->place);
   if (fogs_.size() > 1)
