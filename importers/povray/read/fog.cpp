@@ -121,7 +121,8 @@ double mean_density(const Fog& fog, double low, double high) {
 
 std::array<double, 3> filter_of(const Fog& fog) {
   const double f = fog.color.v[3];
-  return {1 - f + f * fog.color.v[0], 1 - f + f * fog.color.v[1], 1 - f + f * fog.color.v[2]};
+  const auto passed = [&](std::size_t i) { return std::max(1 - f + f * fog.color.v[i], 0.0); };
+  return {passed(0), passed(1), passed(2)};
 }
 
 FogEdge edge_of(const Fog& fog, double eye_height) {

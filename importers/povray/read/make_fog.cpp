@@ -91,8 +91,9 @@ void SceneMaker::add_fog_face(const FogEdge& edge, double height, std::optional<
   add_fog_shape(edge.fog, quadric_mesh({QuadricKind::disk, QuadricUv::pbrt, 0, 1}), to_world, below, above);
 }
 
-// Of a layer that would go on: beyond it there is no fog.
+// The end of a layer that transmits: beyond it there is no fog.
 void SceneMaker::add_fog_side(const FogEdge& edge, double low, double high, Id<Medium> medium) {
+  if (!(edge.fog.color.v[4] > 0)) return;
   low = std::max({low, edge.low, edge.eye - 2 * reach_});
   high = std::min({high, edge.high, edge.eye + 2 * reach_});
   if (!(low < high)) return;
@@ -148,7 +149,7 @@ void SceneMaker::add_fog() {
     add_layers(**layered);
   }
   const Fog& fog = **(layered == fogs_.end() ? fogs_.begin() : layered);
-  if (layered == fogs_.end())
+  if (layered == fogs_.end() && atmosphere_)
     add_fog_side(edge_of(fog, dot(eye() - Point3d{}, fog.up)), -infinity, infinity, *atmosphere_);
   if (fog.color.v[3] > 0) add_fog_filter(fog);
 }
