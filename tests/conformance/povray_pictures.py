@@ -134,7 +134,9 @@ def blocks(scene, folder, options):
             raise Skipped(f"has {note[:60]}")
     if b"radiosity" in scene.read_bytes():
         raise Skipped("has radiosity")
-    theirs = by_povray(scene, folder, options, ["+A0.1"])
+    # The reader has 640 × 480 as image_width and image_height, whatever the camera sees.
+    shown = argparse.Namespace(**{**vars(options), "height": options.width * 3 // 4})
+    theirs = by_povray(scene, folder, shown, ["+A0.1"]).resize((options.width, options.height), Image.BOX)
     ours = by_vitrail(scene, folder, options, ["--spp", str(options.spp)])
     a, b = blocks_of(light_of(theirs)), blocks_of(light_of(ours))
     return np.abs(a - b).mean() / max(a.mean(), 1e-3), (theirs, ours)

@@ -150,6 +150,17 @@ prism { 0, 1, 4, 0, x, y, 0 } lathe { cubic_spline 4, x, x+y, y, 2*y } sor { 4, 
 superellipsoid { <.5,.5> } quadric { <1,1,1>, 0, 0, -1 } ovus { 1, .5 })pov");
   seeds.add(
       "povray",
+      R"pov(#declare F = function { f_torus(x, y, z, 1, .4) + f_noise3d(x, y, z)*pow(sin(x), 2) + select(y, atan2(x, z), mod(z, 2)) }
+#declare R = function { transform { rotate 30*y } } #declare P = function { pattern { crackle solid } }
+plane { y, 0 double_illuminate pigment { function { F(x, y, z) + P(x, y, z) } color_map { [0 rgb -.5] [1 rgbt <1,0,0,.5>] } }
+  normal { average normal_map { [1 ripples .3 slope_map { [0 <0,1>] [1 <1,0>] }] [2 wrinkles .2 scale .3] } } }
+sphere { 0, 1 hollow pigment { rgbt 1 } interior { media { absorption .1 emission .2 scattering { 3, .1 eccentricity .2 extinction .5 }
+  density { spherical density_map { [0 rgb 0] [1 rgb 1] } } } } }
+box { -1, 1 texture { slope { y, .2, .8 altitude y, 0, 2 } texture_map { [0 pigment { julia <.3,.4>, 20 interior 1,3 exterior 5,1 }]
+  [1 pigment { object { sphere { 0, 1 } rgb 0, rgb 1 } }] } } }
+fog { fog_type 2 distance 5 fog_offset 1 fog_alt 2 up z turbulence .2 turb_depth .5 rgbft <.5,.5,.6,.3,.2> })pov");
+  seeds.add(
+      "povray",
       R"pov(height_field { function 4, 4 { pattern { bozo } } } sky_sphere { pigment { gradient y color_map { [0 rgb 1] [1 rgb z] } } } background { rgb 1 })pov");
 }
 

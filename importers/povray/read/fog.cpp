@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "importers/povray/read/reader.h"
 
@@ -86,15 +88,55 @@ double turbulent_share(const Fog& fog) {
   return 1 - mean_transmittance * std::clamp(fog.turb_depth * sum, 0.0, 1.0);
 }
 
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// ∫ of the density from the offset to a height: that height below it, alt·atan u above it.
+double column(const Fog& fog, double height) {
+  const double above = height - fog.offset;
+  if (!fog.ground || above <= 0) return above;
+  return fog.alt > 0 ? fog.alt * std::atan(above / fog.alt) : 0;
+}
+
+// The height up to which it is so much; ∞ where it never is.
+double height_of_column(const Fog& fog, double sum) {
+  if (!fog.ground || sum <= 0) return fog.offset + sum;
+  const double angle = fog.alt > 0 ? sum / fog.alt : infinity;
+  return angle < std::numbers::pi / 2 ? fog.offset + fog.alt * std::tan(angle) : infinity;
+}
+
+// The length of densest fog that weakens as much as it may.
+double deepest(const Fog& fog) {
+  const double t = fog.color.v[4];
+  return t > 0 ? -std::log(t) * fog.distance / turbulent_share(fog) : infinity;
+}
+
+}  // namespace
+
 double mean_density(const Fog& fog, double low, double high) {
   if (!fog.ground || !std::isfinite(low)) return 1;
-  // ∫ of the density from the offset to a height: that height below it, alt·atan u above it.
-  const auto integral = [&](double y) {
-    const double above = y - fog.offset;
-    if (above <= 0) return above;
-    return fog.alt > 0 ? fog.alt * std::atan(above / fog.alt) : 0;
-  };
-  return (integral(high) - integral(low)) / (high - low);
+  return (column(fog, high) - column(fog, low)) / (high - low);
+}
+
+std::array<double, 3> filter_of(const Fog& fog) {
+  const double f = fog.color.v[3];
+  const auto passed = [&](std::size_t i) { return std::max(1 - f + f * fog.color.v[i], 0.0); };
+  return {passed(0), passed(1), passed(2)};
+}
+
+FogEdge edge_of(const Fog& fog, double eye_height) {
+  const double depth = deepest(fog), here = column(fog, eye_height);
+  return {height_of_column(fog, here - depth), height_of_column(fog, here + depth), fog, eye_height};
+}
+
+double FogEdge::radius(double height) const {
+  const double rise = height - eye, here = column(fog, eye);
+  const double nearby = 1e-6 * (std::abs(eye) + fog.alt + 1e-3);
+  const double density = std::abs(rise) > nearby ? (column(fog, height) - here) / rise
+                                                 : (column(fog, eye + nearby) - here) / nearby;
+  const double far = deepest(fog) / density;  // ∞ where there is no fog
+  return far > std::abs(rise) ? std::sqrt(far * far - rise * rise) : 0;
 }
 
 }  // namespace vitrail::pov

@@ -2,6 +2,8 @@
 // fog {}.
 #pragma once
 
+#include <array>
+
 #include "importers/povray/read/surface.h"
 
 namespace vitrail::pov {
@@ -31,5 +33,21 @@ double turbulent_share(const Fog& fog);
 
 // The mean density between two heights, low < high; 1 where one of them is −∞.
 double mean_density(const Fog& fog, double low, double high);
+
+// What a color filters: what is behind is multiplied by it, however near it is.
+std::array<double, 3> filter_of(const Fog& fog);
+
+// Fog that transmits t of what is behind weakens it to t, and no more: as if fog ended where e^(−depth) is t.
+// That is a surface of revolution about `up` through the eye, as the depth to a point at the height y in the
+// distance s is share·s·(C(y) − C(eye))/((y − eye)·distance), with C = ∫ density.
+struct FogEdge {
+  double low = 0, high = 0;  // heights; ±∞ where the fog does not end there
+  const Fog& fog;
+  double eye = 0;  // its height
+
+  // From the axis, at a height between them; ∞ without `transmit`.
+  double radius(double height) const;
+};
+FogEdge edge_of(const Fog& fog, double eye_height);
 
 }  // namespace vitrail::pov

@@ -110,7 +110,9 @@ void SceneMaker::add_surroundings() {
     radiance = surfaces_.radiance_of(world_.sky->pigments, sphere);
   }
   // Fog without end hides it.
-  const bool hidden = !fogs_.empty() && std::ranges::none_of(fogs_, &Fog::ground);
+  const bool hidden = !fogs_.empty() && std::ranges::none_of(fogs_, [](const Shared<Fog>& fog) {
+    return fog->ground || fog->color.v[4] > 0;
+  });
   if (is_black() || (hidden && !world_.radiosity)) return;
   const auto* const constant = std::get_if<Spectrum>(&radiance);
   if (world_.radiosity && constant) {

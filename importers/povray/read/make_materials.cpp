@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finishes as BSDFs.
-//
-// A lamp of colour c shows ρ·c·cos θ on a diffuse surface of reflectance ρ = pigment · diffuse, as its
-// intensity is π·c here. Highlights are a FinishMaterial; for export, and upon a coat, a highlight s·(n·h)^m
-// adds a lobe of Beckmann's microfacets of α² = 2/(m + 2), whose share w is such that its peak is as high:
-// π·c·w/(4π·α²) = s·c.
+// Finishes as BSDFs. A lamp of colour c shows ρ·c·cos θ on a diffuse surface of reflectance ρ = pigment ·
+// diffuse, as its intensity is π·c here. Highlights are a FinishMaterial; for export, and upon a coat, a
+// highlight s·(n·h)^m adds a lobe of Beckmann's microfacets of α² = 2/(m + 2), whose share w is such that its
+// peak is as high: π·c·w/(4π·α²) = s·c.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -101,7 +99,8 @@ std::string key_of(const Finish& f) {
 }
 
 std::string key_of(const Look& look) {
-  std::string key = fmt::format("{},{};", static_cast<const void*>(look.interior.get()), look.by_uv);
+  std::string key = fmt::format("{},{},{};", static_cast<const void*>(look.interior.get()), look.by_uv,
+                                look.double_illuminate);
   if (!look.texture) return key;
   const pov::Texture& t = *look.texture;
   if (t.layers.empty() && !t.pattern && !t.normal && t.pigment && t.pigment->color) {
@@ -217,7 +216,8 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
     return Shared<Pigment>(pigment);
   }();
   const Pigment& pigment = texture.pigment ? *texture.pigment : *black;
-  const Finish& finish = texture.finish ? *texture.finish : default_finish();
+  Finish finish = texture.finish ? *texture.finish : default_finish();
+  if (look.double_illuminate && finish.diffuse_back == 0) finish.diffuse_back = finish.diffuse;
   const Transform placed = to_world * pigment.to_object;
   Layer layer;
   layer.opacity = opacity_of(pigment, placed, look.by_uv);
@@ -232,10 +232,9 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
   const Bump* const bump = texture.normal.get();
   layer.material = bumpy(body, bump, bump ? to_world * bump->to_object : to_world);
   if (body.solid) layer.opacity = 1.0f;
-  const Numbers& a = finish.ambient;
   std::array<double, 3> factors;
   for (std::size_t i = 0; i < 3; ++i)
-    factors[i] = reader_.linear(a.v[i] * ambient_.v[i]) + reader_.linear(finish.emission.v[i]);
+    factors[i] = reader_.linear(finish.ambient.v[i] * ambient_.v[i]) + reader_.linear(finish.emission.v[i]);
   const double factor = std::max({factors[0], factors[1], factors[2]});
   if (factor > 0) {
     if (factors[0] != factors[1] || factors[1] != factors[2])

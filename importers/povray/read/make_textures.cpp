@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -37,6 +38,30 @@ void add_places(PatternTexture& t, const std::vector<SpectrumParameter>& values,
     for (const std::size_t end : {i, i + 1})
       t.map.push_back(
           {static_cast<float>(beginning_of_place(end, places)), values.at(std::min(i, values.size() - 1))});
+}
+
+// With an entry more wherever a colour between two of them falls below 0, as POV-Ray shows 0 from there on.
+std::vector<BlendEntry> without_negative(const std::vector<BlendEntry>& entries) {
+  std::vector<BlendEntry> all;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    all.push_back(entries[i]);
+    if (i + 1 == entries.size() || entries[i].pigment || entries[i + 1].pigment) continue;
+    const auto &a = entries[i].color.v, &b = entries[i + 1].color.v;
+    std::array<double, 3> crossings{};  // shares of the way; 0: none
+    for (std::size_t k = 0; k < 3; ++k)
+      if ((a[k] < 0) != (b[k] < 0)) crossings[k] = a[k] / (a[k] - b[k]);
+    std::ranges::sort(crossings);
+    for (const double share : crossings) {
+      if (!(share > 0 && share < 1)) continue;
+      BlendEntry between = entries[i];
+      between.at += share * (entries[i + 1].at - entries[i].at);
+      for (std::size_t k = 0; k < between.color.v.size(); ++k) between.color.v[k] += share * (b[k] - a[k]);
+      all.push_back(std::move(between));
+    }
+  }
+  for (BlendEntry& entry : all)
+    for (std::size_t k = 0; k < 3; ++k) entry.color.v[k] = std::max(entry.color.v[k], 0.0);
+  return all;
 }
 
 // Beyond an image that is there once, and by the alpha of its file.
@@ -173,6 +198,7 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
     add_places(*made, values, places);
     return add(std::move(*made), is_number(part), pigment.place);
   }
+  if (!is_of_places(made->kind)) entries = without_negative(entries);
   for (const BlendEntry& entry : entries) {
     PatternStop stop;
     stop.at = static_cast<float>(std::clamp(entry.at, 0.0, 1.0));

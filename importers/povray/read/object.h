@@ -85,7 +85,7 @@ struct Object {
   Shared<Interior> interior;
   std::vector<Shared<Object>> clipped_by;
   bool inverse = false, no_shadow = false, no_image = false, hollow = false, uv_mapping = false;
-  bool no_reflection = false, no_radiosity = false;
+  bool no_reflection = false, no_radiosity = false, double_illuminate = false;
   bool declared = false;                             // an identifier stands for it
   mutable std::optional<Bounds3d> box;               // of the shape, once it was asked for (extents.h)
   mutable std::shared_ptr<const TriangleTree> tree;  // of the shape, once trace() asked (shape_hits.h)

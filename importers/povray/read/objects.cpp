@@ -207,6 +207,8 @@ bool read_object_modifier(Reader& reader, Object& object, int& layers) {
       object.no_radiosity = reader.flag();
       return true;
     case Word::double_illuminate_:
+      object.double_illuminate = reader.flag();
+      return true;
     case Word::sturm_:
     case Word::hierarchy_:
     case Word::split_union_:

@@ -49,12 +49,13 @@ class SceneMaker {
   // Of an object without shadow, for formats that have none. What only glows becomes a clear sheet that
   // glows, so that light passes it.
   Surface without_shadow(Surface surface, bool of_lamp, const Object& object);
-  std::vector<Piece> pieces_of(const Object& object);
-  std::vector<Piece> round_pieces(const ConeShape& cone);
   Id<TriangleMesh> add_mesh(TriangleMesh mesh);
   Id<TriangleMesh> quadric_mesh(const Quadric& quadric);
   std::optional<Id<Prototype>> prototype_of(const Shared<Object>& object);
   bool is_plain(const Object& object);
+  // Quadrics and meshes (make_pieces.cpp).
+  std::vector<Piece> pieces_of(const Object& object);
+  std::vector<Piece> round_pieces(const ConeShape& cone);
   // Sets of points (make_csg.cpp).
   std::vector<Piece> set_pieces(const Object& object);
   std::vector<Piece> clipped_pieces(const Object& object);
@@ -77,8 +78,13 @@ class SceneMaker {
   // Fog (make_fog.cpp).
   void add_fog();
   std::optional<Id<Medium>> fog_between(double low, double high);
-  void add_fog_face(const Fog& fog, double height, std::optional<Id<Medium>> below,
+  void add_layers(const Fog& fog);
+  void add_fog_face(const FogEdge& edge, double height, std::optional<Id<Medium>> below,
                     std::optional<Id<Medium>> above);
+  void add_fog_side(const FogEdge& edge, double low, double high, Id<Medium> medium);
+  void add_fog_filter(const Fog& fog);
+  void add_fog_shape(const Fog& fog, Id<TriangleMesh> mesh, const Transform& to_world,
+                     std::optional<Id<Medium>> interior, std::optional<Id<Medium>> exterior);
   // media {} (make_media.cpp), of an object under this transform, and of what is around.
   std::optional<Id<Medium>> media_of(const Object& object, const Interior& interior,
                                      const Transform& to_world);

@@ -20,6 +20,7 @@ struct Look {
   bool no_shadow = false;
   bool no_image = false;
   bool hollow = false;
+  bool double_illuminate = false;    // lamps light each side from both
   bool of_lamp = false;              // it stands around a light, as what that looks like
   std::optional<Id<Medium>> medium;  // in its interior
   Shared<Texture> interior_texture;  // of the inside; null: as outside

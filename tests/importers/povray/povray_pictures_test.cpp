@@ -199,6 +199,45 @@ TEST_F(PovrayPictures, FogOnTheGround) {
     expect_alike(linear + walls + "fog { fog_type 2 " + fog + " }", 0.03, 256);
 }
 
+// A map's colours below 0 show 0, and mixtures with them.
+TEST_F(PovrayPictures, ColorsBelowZero) {
+  for (const char* map :
+       {"[0 rgb -.5] [.4 rgb x] [.7 rgb <.2, .5, .9>] [1 rgb 1]", "[0 rgb <1, -1, .5>] [1 rgb <-.2, 1, 1>]"})
+    expect_alike(linear + lamps + "plane { z, 0 pigment { gradient x color_map { " + map +
+                     " } scale 2 translate x } finish { ambient .5 } }",
+                 0.02);
+}
+
+TEST_F(PovrayPictures, DoubleIlluminate) {
+  const std::string behind = linear +
+                             "light_source { <-2, 4, 4> rgb .8 } light_source { <3, 2, -4> rgb .3 }"
+                             " plane { y, 0 pigment { rgb .6 } finish { ambient .1 diffuse .6 } }\n";
+  for (const char* shape :
+       {"polygon { 5 <-1, 0>, <1, 0>, <1, 1.5>, <-1, 1.5>, <-1, 0>", "box { <-1, .1, 0>, <1, 1.5, .1>",
+        "sphere { y, .8 clipped_by { plane { z, .2 } }"})
+    for (const char* pigment : {"rgb <.9, .4, .2>", "rgbf <1, 1, 1, .7>"})
+      expect_alike(behind + shape + " double_illuminate pigment { " + pigment + " } finish { ambient .1 } }",
+                   0.02);
+}
+
+// Whether it has an end or not, over objects and over what is around.
+TEST_F(PovrayPictures, FogThatTransmitsAndFilters) {
+  const std::string around =
+      "sky_sphere { pigment { gradient y color_map { [0 rgb .9] [1 rgb <.2, .3, .9>] } } }\n";
+  for (const char* fog : {"distance 4 rgbt <.4, .5, .6, .3>", "distance 4 rgbf <.7, .5, .2, .8>",
+                          "distance 2 fog_type 2 fog_offset 2 fog_alt 1 rgbt <.4, .5, .6, .3>",
+                          "distance 4 fog_type 2 fog_offset .2 fog_alt .6 rgbft <.3, .5, .2, 1, .4>"}) {
+    expect_alike(linear + ball + around + "fog { " + fog + " }", 0.03, 128);
+    expect_alike(linear + walls + "fog { " + fog + " }", 0.03, 128);
+  }
+  // From above, as on a landscape.
+  expect_alike(
+      "#version 3.7; global_settings { assumed_gamma 1 }\n"
+      "camera { location <0, 9, -9> look_at <0, 0, 3> }\n" +
+          ball + around + "fog { distance 1 fog_type 2 fog_alt .4 rgbt <.9, .8, .7, .25> }",
+      0.03, 256);
+}
+
 TEST_F(PovrayPictures, FogWithTurbulence) {
   for (const char* fog :
        {"distance 8 rgb <.7, .8, .9> turbulence .5", "distance 3 rgb .9 turbulence 2 octaves 3",

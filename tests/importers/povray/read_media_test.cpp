@@ -53,6 +53,25 @@ TEST_F(ReadPovrayMedia, FogHidesTheBackground) {
   EXPECT_FALSE(off.scene.camera_medium);
 }
 
+// The fog around the eye ends where it is as thick as it gets; with transmit 1 there is none.
+TEST_F(ReadPovrayMedia, FogThatTransmitsEnds) {
+  const ImportedScene fog = read("fog { distance 20 rgbt <.5, .5, .5, .25> } sphere { z*5, 1 }"),
+                      plain = read("fog { distance 20 rgb .5 } sphere { z*5, 1 }"),
+                      none = read("fog { distance 20 rgbt 1 } sphere { z*5, 1 }"),
+                      vast = read("fog { distance 1e60 rgbt <.5, .5, .5, .25> } sphere { z*5, 1 }");
+  ASSERT_EQ(fog.scene.shapes.size(), 2u);
+  const Shape& side = fog.scene.shapes.front();
+  EXPECT_EQ(side.interior, fog.scene.camera_medium);
+  EXPECT_FALSE(side.exterior);
+  for (const Point3f p : fog.scene.meshes[side.mesh.value].positions)
+    EXPECT_NEAR(length(cast<double>(p) - Point3d{}), -20 * std::log(0.25), 1e-3);
+  EXPECT_EQ(plain.scene.shapes.size(), 1u);
+  EXPECT_TRUE(none.scene.media.empty());
+  EXPECT_FALSE(none.scene.camera_medium);
+  for (const Point3f p : vast.scene.meshes[vast.scene.shapes.front().mesh.value].positions)
+    EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+}
+
 TEST_F(ReadPovrayMedia, GroundFogIsAsThickAsItsLayers) {
   const ImportedScene fog = read(
       "#declare F = fog { fog_type 2 distance 10 rgb .5 fog_offset 1 fog_alt 2 }"
