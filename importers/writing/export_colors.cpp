@@ -45,10 +45,12 @@ double fresnel(double cos_i, double eta) {
 
 }  // namespace
 
-RGB emission_rgb(const Spectrum& emission) {
+RGB signed_emission_rgb(const Spectrum& emission) {
   if (const auto* light = std::get_if<RgbIlluminantSpectrum>(&emission)) return rgb(light->rgb);
-  return without_negatives(xyz_to_srgb(to_xyz(resolved(emission))));
+  return xyz_to_srgb(to_xyz(resolved(emission)));
 }
+
+RGB emission_rgb(const Spectrum& emission) { return without_negatives(signed_emission_rgb(emission)); }
 
 RGB factor_rgb(const Spectrum& factor) {
   const Spectrum values = resolved(factor);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What formats of three numbers a colour can say of spectra: linear sRGB, without negative components.
+// What formats of three numbers a colour can say of spectra: linear sRGB. Most want no negative components.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,11 @@
 
 namespace vitrail {
 
-// The colour of a radiance, intensity or irradiance.
+// The colour of a radiance, intensity or irradiance, without negative components.
 RGB emission_rgb(const Spectrum& emission);
+// The same with those, where it lies outside of sRGB. Example: a line of 650 nm is 1.5, −.28, −.01 of its
+// luminance by blue and green that it takes away.
+RGB signed_emission_rgb(const Spectrum& emission);
 // The colour of a reflectance or factor under D65.
 RGB factor_rgb(const Spectrum& factor);
 // Whether rgb gives the spectrum back: it was made of one, or is constant.

@@ -121,5 +121,17 @@ TEST_F(PeerMitsuba, SeesFourPercentInRgbToo) {
   EXPECT_THAT(other.output, HasSubstr("Mitsuba scalar_rgb shows it otherwise than vitrail shows the input"));
 }
 
+// Of a lamp that covers whole pixels of 64: a filter's reach in so small a picture is no difference.
+TEST_F(PeerMitsuba, ComparesBoxesWhereFiltersReachDifferently) {
+  const std::string in = write("in.pbrt", R"(LookAt 0 0 4 0 0 0 0 1 0
+      Camera "orthographic" "float screenwindow" [-4 4 -4 4]
+      PixelFilter "gaussian" "float xradius" 1.5 "float yradius" 1.5
+      Film "rgb" "integer xresolution" 16 "integer yresolution" 16 WorldBegin
+      AreaLightSource "diffuse" "rgb L" [2 2 2] Material "diffuse" "rgb reflectance" [0 0 0]
+      Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point3 P" [-2 -2 0  2 -2 0  2 2 0  -2 2 0])");
+  const auto result = ask(in, "exec python3 \"$@\"\n");
+  EXPECT_EQ(result.status, 0) << result.output;
+}
+
 }  // namespace
 }  // namespace vitrail

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "importers/mitsuba/read/builder.h"
+#include "importers/mitsuba/read/light_samples.h"
 #include "importers/mitsuba/read/load.h"
 #include "importers/reading/default_view.h"
 
@@ -66,6 +67,7 @@ static void build(Builder& b, const Object& root, const ImportOptions& options) 
     if ((*object)->tag == "emitter") p.queried = true, add_emitter(b, **object);
     if ((*object)->tag == "shape") p.queried = true, add_shape(b, **object);
   }
+  multiply_by_samples(b, root);
   report_null_depth(b);
   report_dark_bumps(b);
   report_clipping(b);

@@ -51,6 +51,14 @@ void join_uv_transform(Object& object) {
   if (place) object.properties.push_back({"to_uv", translate(offset) * scale(size), *place});
 }
 
+// How often 0.6's "direct" looks at each light changes nothing; since version 2 it does (light_samples.h).
+void leave_out_light_samples(Object& object) {
+  if (object.tag == "integrator")
+    std::erase_if(object.properties, [](const Property& p) {
+      return p.name == "emitter_samples" || p.name == "luminaire_samples" || p.name == "shading_samples";
+    });
+}
+
 }  // namespace
 
 std::string name_of_today(const std::string& name) {
@@ -86,6 +94,7 @@ void upgrade(Object& object) {
   rename_properties(object);
   mark_old_meanings(object);
   join_uv_transform(object);
+  leave_out_light_samples(object);
 }
 
 }  // namespace vitrail::mitsuba

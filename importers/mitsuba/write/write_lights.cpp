@@ -9,6 +9,7 @@
 #include "images/image_files.h"
 #include "importers/images/environment_images.h"
 #include "importers/images/joined_surroundings.h"
+#include "importers/mitsuba/write/rgb_variants.h"
 #include "importers/mitsuba/write/write_images.h"
 #include "importers/mitsuba/write/write_projectors.h"
 #include "importers/writing/export_colors.h"
@@ -32,6 +33,7 @@ std::optional<SpectrumParameter> flat_image(const Scene& scene, const AreaLight&
 Spectrum intensity_of(Context& context, const auto& light, Point3d position) {
   const PhysicalLight physical = physical_light(context.scene, light.fading, position);
   if (!physical.note.empty()) context.approximated(physical.note);
+  report_rgb_variants(context, light.intensity);
   return physical.factor == 1 ? light.intensity : scaled(light.intensity, physical.factor);
 }
 
@@ -70,13 +72,15 @@ void write(Context& context, Element root, const GoniometricLight& light) {
   write_goniometric(context, root, light);
 }
 
-void write(Context&, Element root, const DistantLight& light) {
+void write(Context& context, Element root, const DistantLight& light) {
+  report_rgb_variants(context, light.irradiance);
   Element element = add(root, "emitter", "directional");
   add_coordinates(element, "vector", "direction", light.direction);
   add_spectrum(element, "irradiance", light.irradiance, Meaning::emission);
 }
 
-void write(Context&, Element root, const InfiniteLight& light) {
+void write(Context& context, Element root, const InfiniteLight& light) {
+  report_rgb_variants(context, light.radiance);
   add_spectrum(add(root, "emitter", "constant"), "radiance", light.radiance, Meaning::emission);
 }
 
@@ -188,9 +192,11 @@ void write_area_light(Context& context, Element shape, const AreaLight& light) {
                         light.name.empty() ? "" : context.new_id(light.name, "area", 0));
   if (light.directional)
     context.approximated("Mitsuba's path tracers show nothing of a directionalarea; its ptracer does");
-  if (const auto radiance = value_of(context, light.radiance))
+  if (const auto radiance = value_of(context, light.radiance)) {
+    report_rgb_variants(context, *radiance);
     return add_spectrum(element, "radiance", scaled(*radiance, static_cast<double>(light.scale)),
                         Meaning::emission);
+  }
   if (const auto flat = flat_image(context.scene, light)) {
     add_parameter(context, element, "radiance", *flat, Meaning::emission);
   } else {

@@ -34,7 +34,7 @@ std::string at(const Context& context, Point3d p) { return vector(transform_poin
 
 // Colour and fading of a point or spot light.
 std::string strength(const Context& context, const auto& light) {
-  const RGB intensity = emission_rgb(light.intensity);
+  const RGB intensity = signed_emission_rgb(light.intensity);
   if (!light.fading) return fmt::format("{} {}", intensity_color(context, intensity), fading(context));
   const std::string shade = color(intensity * (1 / pi));
   if (!weakens(*light.fading)) return shade;
@@ -70,7 +70,7 @@ std::string text_of(Context& context, const DistantLight& light, const Origin&) 
   const Point3d target = context.units.center;
   const Point3d from = target - normalize(light.direction) * (4 * context.units.radius);
   return fmt::format("light_source {{ {} {} parallel point_at {} }}\n", at(context, from),
-                     color(emission_rgb(light.irradiance) * (1 / pi)), at(context, target));
+                     color(signed_emission_rgb(light.irradiance) * (1 / pi)), at(context, target));
 }
 
 std::string text_of(Context& context, const ProjectionLight&, const Origin& origin) {
@@ -81,11 +81,12 @@ std::string text_of(Context& context, const ProjectionLight&, const Origin& orig
 std::string text_of(Context& context, const GoniometricLight& light, const Origin& origin) {
   const EvenLight even = even_light(light);
   context.approximated(even.note, origin);
-  return point(context, transform_point(light.light_to_world, {0, 0, 0}), emission_rgb(even.intensity));
+  return point(context, transform_point(light.light_to_world, {0, 0, 0}),
+               signed_emission_rgb(even.intensity));
 }
 
 std::string text_of(Context&, const InfiniteLight& light, const Origin&) {
-  return fmt::format("background {{ {} }}\n", color(emission_rgb(light.radiance)));
+  return fmt::format("background {{ {} }}\n", color(signed_emission_rgb(light.radiance)));
 }
 
 std::string text_of(Context& context, const EnvironmentLight& light, const Origin& origin) {
@@ -136,7 +137,8 @@ std::string light_text(Context& context, const Light& light) {
 }
 
 std::string rectangle_light_text(Context& context, const Rectangle& rectangle, const AreaLight& light) {
-  const RGB radiance = emission_rgb(std::get<Spectrum>(light.radiance)) * static_cast<double>(light.scale);
+  const RGB radiance =
+      signed_emission_rgb(std::get<Spectrum>(light.radiance)) * static_cast<double>(light.scale);
   std::string text = facing(context, rectangle, rectangle.front, radiance);
   if (light.two_sided) text += facing(context, rectangle, -rectangle.front, radiance);
   return text;

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/povray/write/write_media.h"
 
-#include <algorithm>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <functional>
+
+#include "importers/povray/write/density_files.h"
 #include "importers/writing/export_colors.h"
+#include "importers/writing/medium_grids.h"
 #include "scene/models/measured_media.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail::povray {
 
@@ -28,8 +34,6 @@ std::optional<Colors> colors_of(const VolumeParameter& first, const VolumeParame
 }
 
 std::optional<Colors> colors_of(const Medium& medium) {
-  if (!std::holds_alternative<std::monostate>(medium.density) || medium.temperature || medium.emission_scale)
-    return std::nullopt;
   if (const auto* m = std::get_if<AbsorptionScattering>(&medium.coefficients))
     return colors_of(m->sigma_a, m->sigma_s, false);
   if (const auto* m = std::get_if<ExtinctionAlbedo>(&medium.coefficients))
@@ -47,6 +51,96 @@ bool holds(const Scene& scene, Id<Medium> medium) {
          });
 }
 
+// What one "media" says: coefficients, and the density that multiplies both.
+struct Part {
+  std::string density;
+  RGB absorption, scattering;
+};
+struct Parts {
+  std::vector<Part> parts;
+  bool as_rgb = true;  // whether no spectrum was lost
+};
+
+// Of colours, times a density where there is one.
+Parts of_colors(Context& context, const Medium& medium, const Colors& colors) {
+  const auto* density = std::get_if<Grid>(&medium.density);
+  if (!density) return {{{"", colors.absorption, colors.scattering}}, colors.as_rgb};
+  Parts result{{}, colors.as_rgb};
+  for (const DensityPart& part : density_parts(context, *density, medium.medium_to_world))
+    result.parts.push_back({part.density, part.color * colors.absorption, part.color * colors.scattering});
+  return result;
+}
+
+VolumeParameter times_density(const Medium& medium, const VolumeParameter& value) {
+  const auto* density = std::get_if<Grid>(&medium.density);
+  return density ? combined_cells(*density, value, std::multiplies<>()) : value;
+}
+
+// A coefficient as parts, of which `member` has its colour.
+void add_parts(Context& context, const Medium& medium, const VolumeParameter& value, RGB Part::*member,
+               std::vector<Part>& parts) {
+  const VolumeParameter whole = times_density(medium, value);
+  std::vector<DensityPart> found;
+  if (const auto* grid = std::get_if<Grid>(&whole))
+    found = density_parts(context, *grid, medium.medium_to_world);
+  else
+    found = {{"", factor_rgb(std::get<Spectrum>(whole))}};
+  for (const DensityPart& part : found) {
+    if (!(largest(part.color) > 0)) continue;
+    parts.push_back({part.density, {}, {}});
+    parts.back().*member = part.color;
+  }
+}
+
+// Where the coefficients are grids themselves.
+Parts of_grids(Context& context, const Medium& medium) {
+  Parts result;
+  const auto add = [&](const VolumeParameter& absorption, const VolumeParameter& scattering) {
+    add_parts(context, medium, absorption, &Part::absorption, result.parts);
+    add_parts(context, medium, scattering, &Part::scattering, result.parts);
+  };
+  if (const auto* m = std::get_if<AbsorptionScattering>(&medium.coefficients)) {
+    add(m->sigma_a, m->sigma_s);
+    result.as_rgb = !becomes_color(m->sigma_a) && !becomes_color(m->sigma_s);
+  } else {
+    const auto& of = std::get<ExtinctionAlbedo>(medium.coefficients);
+    const auto cells = [&](auto&& f) { return combined_cells(of.sigma_t, of.albedo, f); };
+    add(cells([](double t, double a) { return t * (1 - a); }), cells(std::multiplies<>()));
+    result.as_rgb = !becomes_color(of.sigma_t) && !becomes_color(of.albedo);
+  }
+  return result;
+}
+
+std::optional<Parts> parts_of(Context& context, const Medium& medium) {
+  if (std::holds_alternative<CloudDensity>(medium.density) || medium.temperature || medium.emission_scale)
+    return std::nullopt;
+  try {
+    if (const std::optional<Colors> colors = colors_of(medium)) return of_colors(context, medium, *colors);
+    if (std::holds_alternative<NamedMedium>(medium.coefficients)) return std::nullopt;
+    return of_grids(context, medium);
+  } catch (const Error& error) {
+    context.approximated(fmt::format("medium {}: {}", medium.name, error.what()), medium.origin);
+    return std::nullopt;
+  }
+}
+
+std::string text_of(const Context& context, const Medium& medium, const Part& part) {
+  const double per_unit = static_cast<double>(medium.scale) / context.units.scale;
+  std::string text = fmt::format("absorption {}", color(part.absorption * per_unit));
+  if (largest(part.scattering) > 0) {
+    // A lamp of colour c, which has π·c on a surface, shows c·s·d where σ_s = s would show a fourth of it.
+    const std::string strength = color(part.scattering * (per_unit / 4));
+    text += medium.g == 0
+                ? fmt::format(" scattering {{ 1, {} extinction 4 }}", strength)
+                : fmt::format(" scattering {{ 5, {} eccentricity {} extinction 4 }}", strength, medium.g);
+  }
+  if (medium.emission)
+    text += fmt::format(" emission {}", color(signed_emission_rgb(*medium.emission) * part.absorption *
+                                              (per_unit * static_cast<double>(medium.emission_factor))));
+  return fmt::format("media {{ method 3 intervals 4 samples 16 {}{} }}", text,
+                     part.density.empty() ? "" : "\n  " + part.density);
+}
+
 }  // namespace
 
 std::string media_text(Context& context, std::optional<Id<Medium>> id) {
@@ -54,31 +148,27 @@ std::string media_text(Context& context, std::optional<Id<Medium>> id) {
   const auto [known, is_new] = context.media.try_emplace(id->value);
   if (!is_new) return known->second;
   const Medium& medium = context.scene.media.at(id->value);
-  const std::optional<Colors> colors = colors_of(medium);
-  if (!colors) {
+  const std::optional<Parts> parts = parts_of(context, medium);
+  if (!parts) {
     context.dropped(fmt::format("medium {}: its space is written as empty", medium.name), medium.origin);
     return "";
   }
-  const double scale = static_cast<double>(medium.scale), per_unit = scale / context.units.scale;
-  std::string text = fmt::format("absorption {}", color(colors->absorption * per_unit));
-  if (largest(colors->scattering) > 0) {
+  std::vector<std::string> all;  // POV-Ray adds up the media of an interior
+  bool scatters = false;
+  for (const Part& part : parts->parts) {
+    scatters |= largest(part.scattering) > 0;
+    all.push_back(text_of(context, medium, part));
+  }
+  if (scatters) {
     context.has_scattering = true;
     context.approximated(
         fmt::format("medium {}: POV-Ray's media scatter the light of its light sources, once", medium.name),
         medium.origin);
-    // A lamp of colour c, which has π·c on a surface, shows c·s·d where σ_s = s would show a fourth of it.
-    const std::string strength = color(colors->scattering * (per_unit / 4));
-    text += medium.g == 0
-                ? fmt::format(" scattering {{ 1, {} extinction 4 }}", strength)
-                : fmt::format(" scattering {{ 5, {} eccentricity {} extinction 4 }}", strength, medium.g);
   }
-  if (!colors->as_rgb)
+  if (!parts->as_rgb)
     context.approximated(fmt::format("medium {}: its spectra are written as colours", medium.name),
                          medium.origin);
-  if (medium.emission)
-    text += fmt::format(" emission {}", color(emission_rgb(*medium.emission) * colors->absorption *
-                                              (per_unit * static_cast<double>(medium.emission_factor))));
-  return known->second = fmt::format("media {{ method 3 intervals 4 samples 16 {} }}", text);
+  return known->second = fmt::format("{}", fmt::join(all, "\n"));
 }
 
 std::optional<Id<Medium>> medium_inside(const Scene& scene, const Shape& shape, const MeshText& mesh) {

@@ -9,8 +9,9 @@
 
 namespace vitrail::povray {
 
-// "media { … }": the same σ_a, σ_s, phase function and emission. POV-Ray scatters the light of its light
-// sources, once. "" for none, and for grids, which are reported.
+// "media { … }", once or more: the same σ_a, σ_s, phase function and emission, of grids by density files.
+// POV-Ray scatters the light of its light sources, once. "" for none, and for what is reported: procedural
+// clouds, temperatures and emission by a grid.
 std::string media_text(Context& context, std::optional<Id<Medium>> medium);
 
 // What lies inside of the closed surface of a shape.

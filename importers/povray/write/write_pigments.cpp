@@ -263,7 +263,8 @@ Pigment build(Context& context, const SpectrumParameter& parameter, const Use& u
   if (const auto* id = std::get_if<Id<Texture>>(&parameter)) return build(context, *id, use);
   const Spectrum& spectrum = std::get<Spectrum>(parameter);
   if (!is_rgb(spectrum)) context.approximated("spectrum: written as its colour in linear sRGB", use.user);
-  return constant(use.colors == Colors::emissions ? emission_rgb(spectrum) : factor_rgb(spectrum), use);
+  return constant(use.colors == Colors::emissions ? signed_emission_rgb(spectrum) : factor_rgb(spectrum),
+                  use);
 }
 
 bool is_uv(const TextureMapping& mapping) { return std::holds_alternative<UvMapping>(mapping); }

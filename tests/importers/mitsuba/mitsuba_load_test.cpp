@@ -336,5 +336,33 @@ TEST_F(MitsubaLoad, HarmIsBounded) {
   EXPECT_EQ(read(blends).scene.materials.size(), 120u) << "nor where each is changed";
 }
 
+// Measured with 3.9.1: a point, spot, directional or projecting light is as many times as bright as "direct"
+// has emitter_samples, lamps and constant light are not.
+TEST_F(MitsubaLoad, DirectAddsUpSamplesOfLightsWithoutExtent) {
+  const auto lights = [](const char* integrator) {
+    return std::string(integrator) +
+           "<emitter type=\"point\"><spectrum name=\"intensity\" value=\"2\"/></emitter>"
+           "<emitter type=\"constant\"><spectrum name=\"radiance\" value=\"2\"/></emitter>";
+  };
+  const auto intensity = [&](const std::string& inside) {
+    imported_ = read(inside);
+    EXPECT_EQ(std::get<InfiniteLight>(imported_.scene.lights.at(1).model).radiance,
+              Spectrum{ConstantSpectrum{2}});
+    return std::get<PointLight>(imported_.scene.lights.at(0).model).intensity;
+  };
+  EXPECT_EQ(intensity(lights("<integrator type=\"direct\"><integer name=\"emitter_samples\" value=\"4\"/>"
+                             "</integrator>")),
+            Spectrum{ConstantSpectrum{8}});
+  EXPECT_TRUE(mentions("4 times as bright"));
+  EXPECT_EQ(intensity(lights("<integrator type=\"aov\"><integrator type=\"direct\"><integer "
+                             "name=\"shading_samples\" value=\"3\"/></integrator></integrator>")),
+            Spectrum{ConstantSpectrum{6}});
+  EXPECT_EQ(intensity(lights("<integrator type=\"direct\"/>")), Spectrum{ConstantSpectrum{2}});
+  EXPECT_FALSE(mentions("times as bright"));
+  EXPECT_EQ(intensity(lights("<integrator type=\"path\"><integer name=\"emitter_samples\" value=\"4\"/>"
+                             "</integrator>")),
+            Spectrum{ConstantSpectrum{2}});
+}
+
 }  // namespace
 }  // namespace vitrail

@@ -254,5 +254,16 @@ TEST_F(MitsubaLoad, OldLuminairesAndPinholes) {
   EXPECT_TRUE(imported_.diagnostics.empty());
 }
 
+// Since version 2 they make lights without extent brighter.
+TEST_F(MitsubaLoad, SamplesOfLightsChangeNothingInOldFiles) {
+  imported_ = read_mitsuba(folder_.write(
+      "scene.xml",
+      "<scene version=\"0.6.0\"><integrator type=\"direct\"><integer name=\"emitterSamples\" value=\"4\"/>"
+      "</integrator><emitter type=\"point\"><rgb name=\"intensity\" value=\"1 1 1\"/></emitter></scene>"));
+  EXPECT_EQ(std::get<PointLight>(imported_.scene.lights.at(0).model).intensity,
+            Spectrum{emission_from_rgb({1, 1, 1})});
+  EXPECT_FALSE(mentions("times as bright"));
+}
+
 }  // namespace
 }  // namespace vitrail

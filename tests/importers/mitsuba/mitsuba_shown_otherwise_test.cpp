@@ -7,6 +7,7 @@
 #include "images/image_files.h"
 #include "importers/mitsuba/read/mitsuba.h"
 #include "importers/mitsuba/write/write_mitsuba.h"
+#include "scene/spectra/color.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
@@ -203,6 +204,23 @@ TEST_F(ShownOtherwise, NotTheSidesOfBumpsInBlends) {
   write_and_read();
   EXPECT_THAT(written_, IsEmpty());
   EXPECT_THAT(read_, IsEmpty());
+}
+
+// scalar_rgb against scalar_spectral of 3.9.1, in luminance: lines of 2 nm at 650 nm 1.51, of .2 nm at 546.15
+// nm nothing.
+TEST_F(ShownOtherwise, LightOfLinesInRgb) {
+  const auto lit_by = [&](const Spectrum& radiance) {
+    scene_.lights = {{InfiniteLight{radiance}, {}}};
+    write();
+  };
+  lit_by(tabulate({{649, 0}, {650, 1000}, {651, 0}}, false));
+  EXPECT_THAT(written_, say("light is 1.5 times as bright"));
+  lit_by(tabulate({{546.05, 0}, {546.06, 1}, {546.24, 1}, {546.25, 0}}, false));
+  EXPECT_THAT(written_, say("light is 0 times as bright"));
+  lit_by(tabulate({{400, 1}, {700, 2}}, false));
+  EXPECT_THAT(written_, IsEmpty());
+  lit_by(emission_from_rgb({1, 0, 0}));
+  EXPECT_THAT(written_, IsEmpty());
 }
 
 }  // namespace

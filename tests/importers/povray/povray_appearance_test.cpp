@@ -127,6 +127,15 @@ TEST_F(PovrayAppearance, MediaAbsorbAndScatter) {
   }
 }
 
+// From z = .5 to 1.5.
+void add_box(TriangleMesh& box) {
+  for (const float z : {.5f, 1.5f})
+    for (const float y : {-5.0f, 5.0f})
+      for (const float x : {-5.0f, 5.0f}) box.positions.push_back({x, y, z});
+  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+}
+
 // Of a container that nothing else shows.
 TEST_F(PovrayAppearance, WhatFillsAClosedSurface) {
   Scene scene = empty_scene();
@@ -135,12 +144,7 @@ TEST_F(PovrayAppearance, WhatFillsAClosedSurface) {
   scene.media.push_back(medium);
   add_emitter(scene, square(-5, 5, -5, 5, 0), {1, 1, 1});
   Shape& slab = add(scene, {}, InterfaceMaterial{});
-  TriangleMesh& box = scene.meshes[slab.mesh.value];
-  for (const float z : {.5f, 1.5f})
-    for (const float y : {-5.0f, 5.0f})
-      for (const float x : {-5.0f, 5.0f}) box.positions.push_back({x, y, z});
-  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  add_box(scene.meshes[slab.mesh.value]);
   for (const bool turned : {false, true}) {
     slab.flip_orientation = turned;
     (turned ? slab.exterior : slab.interior) = Id<Medium>{0};
@@ -150,6 +154,53 @@ TEST_F(PovrayAppearance, WhatFillsAClosedSurface) {
       return {left, left, left};
     });
   }
+}
+
+// A slab of two cells, thin below and dense above, as a density beside coefficients and as the coefficients.
+TEST_F(PovrayAppearance, GridsOfMedia) {
+  Grid grid;
+  grid.nx = grid.ny = 1, grid.nz = 2;
+  grid.values = {.25f, .75f};
+  grid.bounds = {{-5, -5, .5}, {5, 5, 1.5}};
+  Grid colors = grid;
+  colors.channels = 3;
+  colors.values = {.1f, .2f, .4f, .3f, .6f, 1.2f};
+  Medium beside, of_grids, of_colors;
+  beside.density = grid;
+  beside.coefficients =
+      AbsorptionScattering{unbounded_from_rgb({.4, .8, 1.6}), Spectrum{ConstantSpectrum{0}}};
+  of_grids.coefficients = AbsorptionScattering{grid, Spectrum{ConstantSpectrum{0}}};
+  of_colors.coefficients = ExtinctionAlbedo{colors, Spectrum{ConstantSpectrum{0}}};
+  const std::array<double, 3> of_mean{.2, .4, .8}, grey{.5, .5, .5};
+  for (const auto& [medium, mean] :
+       {std::pair{beside, of_mean}, std::pair{of_grids, grey}, std::pair{of_colors, of_mean}}) {
+    Scene scene = empty_scene();
+    scene.media.push_back(medium);
+    add_emitter(scene, square(-5, 5, -5, 5, 0), {1, 1, 1});
+    Shape& slab = add(scene, {}, InterfaceMaterial{});
+    slab.interior = Id<Medium>{0};
+    add_box(scene.meshes[slab.mesh.value]);
+    expect_plane(
+        scene,
+        [&](double x, double y) -> std::array<double, 3> {
+          const double way = std::sqrt(1 + (x * x + y * y) / 16);
+          return {std::exp(-mean[0] * way), std::exp(-mean[1] * way), std::exp(-mean[2] * way)};
+        },
+        .02);
+  }
+}
+
+// Of a line of the laser's red: what it takes from green and blue is kept.
+TEST_F(PovrayAppearance, LightOutsideOfSrgb) {
+  const Spectrum line = tabulate({{649, 0}, {650, 300}, {651, 0}}, false);
+  const RGB color = xyz_to_srgb(to_xyz(resolved(line)));
+  ASSERT_LT(color.g, -.1);
+  Scene scene = plane({.5, .5, .5});
+  scene.lights.push_back({DistantLight{{0, 0, -1}, line}});
+  scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({1, 1, 1})}});
+  expect_plane(scene, [&](double, double) -> std::array<double, 3> {
+    return {(1 + color.r) * .5 / pi, (1 + color.g) * .5 / pi, (1 + color.b) * .5 / pi};
+  });
 }
 
 // POV-Ray shows one background or sky sphere, the last.
