@@ -138,7 +138,9 @@ struct LightSampler {
   // Whether sample_light may ever give something.
   bool can_sample() const { return !share.empty(); }
   bool has_discs = false;  // some distant light is a sun
-  bool fades = false;      // some emitter does, as POV-Ray's
+  // A scattered ray finds no light that connections go to as well.
+  bool has_only_glows = false;
+  bool fades = false;  // some emitter does, as POV-Ray's
   // Whether background's radiance may be other than 0, or that of discs.
   bool has_background() const { return !infinite.empty() || !environments.empty() || has_discs; }
 };

@@ -224,6 +224,7 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   Sorter sorter{s, images, pi * std::max(diagonal * diagonal / 4, 1e-30)};
   for (; sorter.light < scene.lights.size(); ++sorter.light)
     std::visit(sorter, scene.lights[sorter.light].model);
+  s.has_only_glows = !s.has_background() && std::ranges::none_of(scene.area_lights, &AreaLight::sampled);
   prepare_quadrics(s);
   s.numbers = LightNumbers({scene.triangles.size(), s.quadrics.size(), s.emitters.size(), s.distant.size(),
                             s.environments.size(), s.infinite.size()});

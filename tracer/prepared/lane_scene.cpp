@@ -59,6 +59,11 @@ void set(const PrincipledMaterial& m, LaneSurface& s) {
       });
 }
 
+void set(const FinishMaterial& m, LaneSurface& s) {
+  s.kind = LaneKind::finish;
+  s.is_textured = !is_constant(m.reflectance) || !is_constant(m.highlight);
+}
+
 void set(const DielectricMaterial& m, LaneSurface& s) {
   const auto *behind = std::get_if<ConstantSpectrum>(&m.eta),
              *before = std::get_if<ConstantSpectrum>(&m.exterior_eta);
@@ -95,10 +100,12 @@ LaneSurface lane_surface(const Manifest& manifest, const Textures& images, const
   if (const auto* metal = std::get_if<ConductorMaterial>(&material.model)) set(*metal, s);
   if (const auto* plastic = std::get_if<PlasticMaterial>(&material.model)) set(*plastic, s);
   if (const auto* principled = std::get_if<PrincipledMaterial>(&material.model)) set(*principled, s);
+  if (const auto* finish = std::get_if<FinishMaterial>(&material.model)) set(*finish, s);
   if (const auto* glass = std::get_if<DielectricMaterial>(&material.model)) set(*glass, s);
   s.is_tilted = material.displacement || material.normal_map;
-  // `shade` lets patterns turn normals of diffuse surfaces away from the ray.
-  if (s.is_tilted && (s.kind == LaneKind::glass || (s.kind == LaneKind::diffuse && material.displacement)))
+  // `shade` lets patterns turn normals of such surfaces away from the ray.
+  const bool takes_any_normal = s.kind == LaneKind::diffuse || s.kind == LaneKind::finish;
+  if (s.is_tilted && (s.kind == LaneKind::glass || (takes_any_normal && material.displacement)))
     s.kind = LaneKind::none;
   return s;
 }
@@ -140,6 +147,9 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf) {
     l.a = p->base_color;
     l.microfacets = principled::microfacets(p->roughness, p->anisotropic);
     l.principled = *p;
+  } else if (const auto* finish = std::get_if<FinishBsdf>(&bsdf)) {
+    l.a = finish->reflectance, l.b = finish->highlight;
+    l.finish = *finish;
   }
   return l;
 }
@@ -147,10 +157,9 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf) {
 LaneScene::LaneScene(const Manifest& manifest, const Textures& images, const Interiors& interiors,
                      const Materials& materials, const LightSampler& lights) {
   const Requirements& r = manifest.requirements;
-  // Lanes send every connection through the scene.
-  is_enabled =
-      !manifest.settings.direct_only && std::ranges::all_of(lights.emitters, &PointEmitter::casts_shadows);
-  has_connections = r.see_through || r.media || (materials.have_panes() && !lights.distant.empty());
+  has_connections = r.see_through || r.media || (materials.have_panes() && !lights.distant.empty()) ||
+                    (r.refraction && manifest.settings.direct_only) ||
+                    !std::ranges::all_of(lights.emitters, &PointEmitter::casts_shadows);
   divides_space = interiors.divide_space();
   for (const Surface& surface : manifest.surfaces) {
     surfaces.push_back(lane_surface(manifest, images, interiors, surface));

@@ -21,9 +21,10 @@ enum class LaneKind : std::uint8_t {
   plastic,  // PlasticBsdf
   rough_plastic,
   principled,  // PrincipledBsdf, opaque
+  finish,      // FinishBsdf
   glass        // smooth, of one index
 };
-inline constexpr std::size_t lane_kinds = 8;
+inline constexpr std::size_t lane_kinds = 9;
 
 // An image that lanes look up: by (u,v), bilinear, the finest level.
 struct LaneTexture {
@@ -57,6 +58,7 @@ struct LaneBsdf {
   const float* external_transmittance = nullptr;  // of rough ones: RoughPlasticTables'
   bool is_nonlinear = false, is_perfect = false;
   PrincipledBsdf principled;
+  FinishBsdf finish;
 };
 // Of a surface of that kind.
 LaneBsdf lane_bsdf(const Bsdf& bsdf);
@@ -65,10 +67,10 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf);
 enum class LaneLamp : std::uint8_t { other, triangle, sphere };
 
 struct LaneScene {
-  bool is_enabled = false;       // all but where direct light alone is asked for
-  bool has_connections = false;  // light may pass something straight on: a connection may be no shadow ray
-  bool divides_space = false;    // as Interiors
-  bool has_textures = false;     // some surface has a LaneTexture
+  // A connection may be no shadow ray: light may pass something straight on, or has nothing in its way.
+  bool has_connections = false;
+  bool divides_space = false;         // as Interiors
+  bool has_textures = false;          // some surface has a LaneTexture
   std::vector<LaneSurface> surfaces;  // of all Manifest::surfaces
   std::vector<LaneLamp> lamps;        // of each of LightSampler::slots
   // Stand for what a path does not have.

@@ -14,29 +14,31 @@ namespace {
 namespace detail {
 
 #if defined(__AVX512F__)
-#define VITRAIL_SLEEF_8(name) static constexpr auto eight = Sleef_cinz_##name##d8_u35avx512fnofma;
+#define VITRAIL_SLEEF_8(name, ulps) static constexpr auto eight = Sleef_cinz_##name##d8_##ulps##avx512fnofma;
 #else
-#define VITRAIL_SLEEF_8(name)
+#define VITRAIL_SLEEF_8(name, ulps)
 #endif
 #if defined(__AVX2__)
-#define VITRAIL_SLEEF_4(name) static constexpr auto four = Sleef_cinz_##name##d4_u35avx;
+#define VITRAIL_SLEEF_4(name, ulps) static constexpr auto four = Sleef_cinz_##name##d4_##ulps##avx;
 #else
-#define VITRAIL_SLEEF_4(name)
+#define VITRAIL_SLEEF_4(name, ulps)
 #endif
 #if defined(__SSE2__)
-#define VITRAIL_SLEEF_2(name) static constexpr auto two = Sleef_cinz_##name##d2_u35sse2;
+#define VITRAIL_SLEEF_2(name, ulps) static constexpr auto two = Sleef_cinz_##name##d2_##ulps##sse2;
 #else
-#define VITRAIL_SLEEF_2(name)
+#define VITRAIL_SLEEF_2(name, ulps)
 #endif
-#define VITRAIL_SLEEF(type, name)                                     \
-  struct type {                                                       \
-    static constexpr auto one = Sleef_cinz_##name##d1_u35purec;       \
-    VITRAIL_SLEEF_2(name) VITRAIL_SLEEF_4(name) VITRAIL_SLEEF_8(name) \
+#define VITRAIL_SLEEF(type, name, ulps)                                                 \
+  struct type {                                                                         \
+    static constexpr auto one = Sleef_cinz_##name##d1_##ulps##purec;                    \
+    VITRAIL_SLEEF_2(name, ulps) VITRAIL_SLEEF_4(name, ulps) VITRAIL_SLEEF_8(name, ulps) \
   };
-VITRAIL_SLEEF(Sine, sin)
-VITRAIL_SLEEF(Cosine, cos)
-VITRAIL_SLEEF(ArcCosine, acos)
-VITRAIL_SLEEF(ArcTangent, atan2)
+VITRAIL_SLEEF(Sine, sin, u35)
+VITRAIL_SLEEF(Cosine, cos, u35)
+VITRAIL_SLEEF(ArcCosine, acos, u35)
+VITRAIL_SLEEF(ArcTangent, atan2, u35)
+VITRAIL_SLEEF(Exponential, exp, u10)
+VITRAIL_SLEEF(Logarithm, log, u35)
 #undef VITRAIL_SLEEF
 #undef VITRAIL_SLEEF_2
 #undef VITRAIL_SLEEF_4
@@ -72,14 +74,13 @@ VITRAIL_LANES D by_sleef(D x, More... more) {
   }
 }
 
-// Of a function that is reduced to half turns about `middle` half turns. Where the nearest of them is a tie,
-// the variant for one lane rounds otherwise than the wider ones: there it is asked itself.
+// Of a function that is reduced by the integer nearest to `steps`, |steps| < 2³¹. Where that is a tie, the
+// variant for one lane rounds otherwise than the wider ones: there it is asked itself.
 template <class Function, class D>
-VITRAIL_LANES D by_half_turns(D x, double middle) {
+VITRAIL_LANES D by_nearest(D x, D steps) {
   D value = by_sleef<Function>(x);
   if constexpr (width < D >> 1) {
-    const D turns = x * (1 / pi) - middle;
-    const D part = abs(turns - to_doubles(convert<std::int32_t>(turns)));
+    const D part = abs(steps - to_doubles(convert<std::int32_t>(steps)));
     const Mask<D> is_tie = abs(part - 0.5) < 1e-9;
     if (any(is_tie))
       for (int j = 0; j < width<D>; ++j)
@@ -91,11 +92,26 @@ VITRAIL_LANES D by_half_turns(D x, double middle) {
 }  // namespace detail
 
 // clang-format off
-template <class D> VITRAIL_LANES D portable_sin(D x) { return detail::by_half_turns<detail::Sine>(x, 0); }  // |x| < 10⁹
-template <class D> VITRAIL_LANES D portable_cos(D x) { return detail::by_half_turns<detail::Cosine>(x, 0.5); }
+template <class D> VITRAIL_LANES D portable_sin(D x) { return detail::by_nearest<detail::Sine, D>(x, x * (1 / pi)); }  // |x| < 10⁹
+template <class D> VITRAIL_LANES D portable_cos(D x) { return detail::by_nearest<detail::Cosine, D>(x, x * (1 / pi) - 0.5); }
 template <class D> VITRAIL_LANES D portable_acos(D x) { return detail::by_sleef<detail::ArcCosine>(lanes::clamp<D>(x, -1.0, 1.0)); }
 template <class D> VITRAIL_LANES D portable_atan2(D y, D x) { return detail::by_sleef<detail::ArcTangent>(y, x); }
 // clang-format on
+template <class D>
+VITRAIL_LANES D portable_log(D x) {
+  return detail::by_sleef<detail::Logarithm>(x);
+}
+template <class D>
+VITRAIL_LANES D portable_exp(D x) {
+  return detail::by_nearest<detail::Exponential, D>(x, lanes::clamp<D>(x * 1.4426950408889634, -2e9, 2e9));
+}
+// x ≥ 0 to any power.
+template <class D>
+VITRAIL_LANES D portable_pow(D x, D y) {
+  const Mask<D> has_logarithm = x > 0;
+  const D power = portable_exp<D>(y * portable_log(select<D>(has_logarithm, x, fill<D>(1))));
+  return select<D>(has_logarithm, power, select<D>(y == 0, fill<D>(1), fill<D>(0)));
+}
 
 }  // namespace
 }  // namespace vitrail::lanes

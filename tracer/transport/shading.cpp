@@ -14,14 +14,6 @@ namespace vitrail {
 
 namespace {
 
-// Of mirrors and glass before what is lit by lamps alone: no wavelength brings as much as is looked at
-// (FilmKey::threshold).
-bool is_too_dark(const Tracing& tracing, const CameraPath& path) {
-  if (!tracing.settings().direct_only || path.only_straight) return false;
-  const float brightest = max_value(path.throughput) * (path.dispersed ? 1.0f / hero_count : 1.0f);
-  return brightest < tracing.film.key().threshold;
-}
-
 // Beside a light sample of density light_pdf: the weight of a path that has found the light by itself.
 double weight_of_finding(const CameraPath& path, double light_pdf) {
   const auto pdf = static_cast<double>(path.pdf);
@@ -59,6 +51,7 @@ bool scatter_in_medium(Tracing& tracing, CameraPath& path, double g, Point3d p, 
   const Departure from{p, cast<float>(p), no_triangle, path.inside};
   const std::uint32_t candidates = light_candidates(tracing, path, p, true);
   if (tracing.scene.lights.can_sample()) connect_medium(tracing, path, from, g, out, candidates, shadows);
+  if (ends_lit(tracing)) return false;
   const std::array<float, 4> u = numbers_for_scattering(path);
   const Vector3d in = sample_phase(g, out, u[0], u[1]);
   path.pdf = density_beside(phase(g, out, in), candidates);
@@ -113,6 +106,7 @@ bool scatter_path(Tracing& tracing, CameraPath& path, const Event& event, Shadow
   const bool gathered = tracing.photons && gathers(scattering);
   if (gathered) gather(tracing, path, at, scattering, out);
   const bool one_lobe = has_one_lobe(scattering.bsdf);
+  if (one_lobe && ends_lit(tracing)) return false;
   std::array<float, 4> u = numbers_for_scattering(path, one_lobe ? Wanted::two : Wanted::four);
   const std::optional<BsdfSample> chosen = sample(scattering.bsdf, out, u[2], {u[0], u[1]});
   if (!chosen) return false;
@@ -127,6 +121,7 @@ bool scatter_path(Tracing& tracing, CameraPath& path, const Event& event, Shadow
   const auto kept = kept_on_its_side(scattering, at, out, *chosen, sampled);
   if (!kept) return false;
   path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, candidates);
+  if (!chosen->specular && ends_lit(tracing)) return false;
   if (!chosen->specular) path.connected = true;
   if (!chosen->specular && !(path.pdf > 0)) return false;
   if (one_lobe && survival(tracing, path) < 1) u = numbers_for_scattering(path);
@@ -135,7 +130,17 @@ bool scatter_path(Tracing& tracing, CameraPath& path, const Event& event, Shadow
   return true;
 }
 
+// Whether it ends at a surface of which nothing is to be looked up.
+bool ends_unseen(const Tracing& tracing, const CameraPath& path) {
+  const Requirements& r = tracing.requirements();
+  if (!is_spent(tracing, path) || path.unrecorded) return false;
+  if (r.see_through || (path.only_straight && r.refraction)) return false;
+  const Surface& surface = surface_at(tracing, path);
+  return surface.area_light < 0 && !tracing.scene.materials.kind(surface.material).smooth_dielectric;
+}
+
 bool shade_surface(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
+  if (ends_unseen(tracing, path)) return false;
   const Event event = event_of(tracing, path);
   const Interaction& at = event.at;
   if (!event.is_there) {
@@ -169,6 +174,17 @@ bool shade_surface(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
 
 bool is_hidden(const Tracing& tracing, const CameraPath& path) {
   return tracing.settings().hides_emitters && path.depth == 0;
+}
+
+// Of mirrors and glass before what is lit by lamps alone (FilmKey::threshold).
+bool is_too_dark(const Tracing& tracing, const CameraPath& path) {
+  if (!tracing.settings().direct_only || path.only_straight) return false;
+  const float brightest = max_value(path.throughput) * (path.dispersed ? 1.0f / hero_count : 1.0f);
+  return brightest < tracing.film.key().threshold;
+}
+
+bool ends_lit(const Tracing& tracing) {
+  return tracing.settings().direct_only && tracing.scene.lights.has_only_glows;
 }
 
 void add_emission(Tracing& tracing, const CameraPath& path, const Interaction& at, std::uint32_t light) {

@@ -13,6 +13,11 @@ namespace vitrail {
 bool shade(Tracing& tracing, CameraPath& path, ShadowRays& shadows);
 // Whether lamps and surroundings are not to be seen by a path, as it comes from the camera directly.
 bool is_hidden(const Tracing& tracing, const CameraPath& path);
+// With direct light alone: whether no wavelength of a path brings as much as is looked at.
+bool is_too_dark(const Tracing& tracing, const CameraPath& path);
+// Whether a path ends where connections to lights are made: with direct light alone it could only find lamps
+// by itself, and there are none to be found.
+bool ends_lit(const Tracing& tracing);
 // Light of a surface that emits, where a path has come to it.
 void add_emission(Tracing& tracing, const CameraPath& path, const Interaction& at, std::uint32_t area_light);
 

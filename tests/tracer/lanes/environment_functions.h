@@ -9,9 +9,11 @@
 namespace vitrail::lane_tests {
 namespace {
 
-LANE_FUNCTION(portable_math, 2, 4) {
+LANE_FUNCTION(portable_math, 4, 7) {
   out.number(lanes::portable_sin(in.d(0))), out.number(lanes::portable_cos(in.d(0)));
   out.number(lanes::portable_acos(in.d(0))), out.number(lanes::portable_atan2(in.d(0), in.d(1)));
+  out.number(lanes::portable_exp(in.d(2))), out.number(lanes::portable_log(in.d(3)));
+  out.number(lanes::portable_pow(in.d(3), in.d(2)));
 }
 LANE_FUNCTION(sphere_map, 5, 7) {
   const auto direction = in.vector(0);

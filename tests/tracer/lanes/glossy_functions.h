@@ -5,6 +5,7 @@
 #include "tests/tracer/lanes/context.h"
 #include "tests/tracer/lanes/lane_table.h"
 #include "tracer/bsdf/conductor_lanes.h"
+#include "tracer/bsdf/finish_lanes.h"
 #include "tracer/bsdf/plastic_lanes.h"
 #include "tracer/bsdf/principled_lanes.h"
 #include "tracer/bsdf/principled_lobes.h"
@@ -93,6 +94,14 @@ LANE_FUNCTION(principled, 25, 15) {
   const auto f = lanes::eval(bsdf, in.vector(16), in.vector(19));
   out.four(f.value), out.number(f.pdf);
   put_sample(lanes::sample(bsdf, in.vector(16), in.f(22), in.f(23), in.f(24)), out);
+}
+// Reflectance, highlight, five numbers, two directions, three numbers.
+LANE_FUNCTION(finish, 22, 15) {
+  const lanes::Finish<lanes::Doubles<W>> bsdf{four_of(in, 0), four_of(in, 4), in.d(8), in.d(9),
+                                              in.d(10),       in.d(11),       in.d(12)};
+  const auto f = lanes::eval(bsdf, in.vector(13), in.vector(16));
+  out.four(f.value), out.number(f.pdf);
+  put_sample(lanes::sample(bsdf, in.vector(13), in.f(19), in.f(20), in.f(21)), out);
 }
 
 }  // namespace

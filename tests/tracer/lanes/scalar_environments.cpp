@@ -12,6 +12,17 @@ namespace {
 
 Vector3d vector_of(const double* in) { return {in[0], in[1], in[2]}; }
 
+// Zero, ends of the range, and where two multiples of ln 2 are as near.
+std::vector<double> exponents() {
+  std::vector<double> all{0, -0.0, 1, -746, 710};
+  for (const double steps : {-2.5, -1.5, -0.5, 0.5, 1.5, 2.5}) {
+    double x = steps * 0.6931471805599453;
+    for (int i = 0; i < 2; ++i) x = std::nextafter(x, -1e9);
+    for (int i = 0; i < 5; ++i) all.push_back(x), x = std::nextafter(x, 1e9);
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<ScalarFunction> environment_functions() {
@@ -19,10 +30,11 @@ std::vector<ScalarFunction> environment_functions() {
       {"portable_math",
        {number(-7, 7,
                {-1, -0.0, 0, 1, 1e-300, 3, 1e-16, 1.5e-16, 3e-16, -1e-16, pi / 2, pi, 1.5 * pi, 2 * pi}),
-        number(-2, 2, {-1, -0.0, 0, 1})},
+        number(-2, 2, {-1, -0.0, 0, 1}), number(-720, 720, exponents()), magnitude(-1022, 100, {1, 0.75, 2})},
        [](const Context&, const double* in, double* out) {
          Results{out} << portable_sin(in[0]) << portable_cos(in[0]) << portable_acos(in[0])
-                      << portable_atan2(in[0], in[1]);
+                      << portable_atan2(in[0], in[1]) << portable_exp(in[2]) << portable_log(in[3])
+                      << portable_pow(in[3], in[2]);
        }},
       {"sphere_map",
        {direction(), unit_number(), unit_number()},

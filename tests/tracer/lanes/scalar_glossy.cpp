@@ -3,6 +3,7 @@
 #include "tests/tracer/lanes/results.h"
 #include "tests/tracer/lanes/scalar_functions.h"
 #include "tracer/bsdf/conductor.h"
+#include "tracer/bsdf/finish.h"
 #include "tracer/bsdf/plastic.h"
 #include "tracer/bsdf/principled.h"
 #include "tracer/simd/quick_math.h"
@@ -56,7 +57,7 @@ void put(const BsdfValue& f, Results& results) { results << f.value.v << f.pdf; 
 
 std::vector<ScalarFunction> glossy_functions() {
   std::vector<Argument> microfacets = facets(), conductor = facets(), plastic = facets(),
-                        principled = reflectances();
+                        principled = reflectances(), finish = reflectances();
   add(microfacets, {direction_above(), direction(), unit_number(), unit_number()});
   add(conductor, std::vector<Argument>(4, float_number(0.05, 4, {0.2, 1})));
   add(conductor, std::vector<Argument>(4, float_number(0, 8, {0.5, 3})));
@@ -70,6 +71,9 @@ std::vector<ScalarFunction> glossy_functions() {
   add(principled, {amount, number(0.4, 2.5, {1, 1.5})});
   add(principled, std::vector<Argument>(10, amount));
   add(principled, {direction(), direction(), unit_number(), unit_number(), unit_number()});
+  add(finish, reflectances());
+  add(finish, {number(0.1, 3, {1, 2}), amount, number(1, 200, {40}), amount, magnitude(-10, 0, {0.05}),
+               direction(), direction(), unit_number(), unit_number(), unit_number()});
   return {
       {"quick_math",
        {number(-720, 700, {-700, 0, -0.0, 1}), magnitude(-100, 100, {1, 0.5, 2, 0x1p-1022}), unit_number()},
@@ -136,6 +140,13 @@ std::vector<ScalarFunction> glossy_functions() {
          Results results{out};
          put(eval(bsdf, vector_of(in + 16), vector_of(in + 19)), results);
          put(sample(bsdf, vector_of(in + 16), static_cast<float>(in[22]), numbers_of(in + 23)), results);
+       }},
+      {"finish", finish,
+       [](const Context&, const double* in, double* out) {
+         const FinishBsdf bsdf{four_of(in), four_of(in + 4), in[8], in[9], in[10], in[11], in[12]};
+         Results results{out};
+         put(eval(bsdf, vector_of(in + 13), vector_of(in + 16)), results);
+         put(sample(bsdf, vector_of(in + 13), static_cast<float>(in[19]), numbers_of(in + 20)), results);
        }},
   };
 }

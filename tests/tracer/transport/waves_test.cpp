@@ -59,6 +59,22 @@ Material plastic(float width) {
   return material(p);
 }
 
+// As POV-Ray's `finish`.
+Material finish(float brilliance, float specular) {
+  FinishMaterial f{reflectance_from_rgb({0.2f, 0.3f, 0.6f}), ConstantSpectrum{0.8f}};
+  f.brilliance = brilliance, f.specular = specular, f.phong = 0.3f;
+  return material(f);
+}
+
+// Lamps as POV-Ray's, one of them without shadows; and direct light alone, as its scenes have without
+// radiosity.
+void add_points(Scene& scene) {
+  scene.lights.push_back(Light{PointLight{{0.3, 0.2, -0.4}, ConstantSpectrum{1}}});
+  scene.lights.push_back(Light{PointLight{{-0.5, 0.6, -0.5}, ConstantSpectrum{0.7f}}});
+  scene.lights.back().casts_shadows = false;
+  scene.settings.direct_only = true;
+}
+
 Material principled(float metallic) {
   PrincipledMaterial p;
   p.base_color = Spectrum{reflectance_from_rgb({0.7f, 0.4f, 0.1f})};
@@ -277,6 +293,39 @@ std::vector<Case> cases() {
          add_ball(s, material(DielectricMaterial{ConstantSpectrum{1.5f}}));
          under({sun_and_sky(1)})(s);
        }},
+      {"finishes", block(finish(1, 0.6f))},
+      {"direct light",
+       [](Scene& s) {
+         add_block(s, plastic(0));
+         add_ball(s, material(ConductorMaterial{gold_index()}));
+         s.settings.direct_only = true;
+       }},
+      {"direct light by glass, before an image",
+       [](Scene& s) {
+         add_block(s, finish(2, 0));
+         add_ball(s, material(DielectricMaterial{ConstantSpectrum{1.5f}}));
+         under({image_around(EnvironmentLight::Projection::latitude_longitude)})(s);
+         s.settings.direct_only = true;
+       }},
+      {"direct light of points alone",
+       [](Scene& s) {
+         add_block(s, finish(1.5f, 0.5f));
+         add_ball(s, plastic(0));
+         s.area_lights[0].sampled = false;
+         add_points(s);
+       }},
+      {"direct light of points and a lamp",
+       [](Scene& s) {
+         add_block(s, finish(1, 0.5f));
+         add_ball(s, material(ConductorMaterial{gold_index()}));
+         add_points(s);
+       }},
+      {"a point without shadows",
+       [](Scene& s) {
+         add_ball(s, finish(1, 0.5f));
+         add_points(s);
+         s.settings.direct_only = false;
+       }},
       {"to the end",
        [](Scene& s) {
          add_block(s, plastic(0.2f));
@@ -327,7 +376,6 @@ class Waves : public ::testing::TestWithParam<Case> {
 };
 
 TEST_P(Waves, GiveTheFilmOfPathsByThemselves) {
-  EXPECT_TRUE(scene_->lanes.is_enabled);
   const std::string alone = trace(nullptr);
   for (const Kernel kernel : available_kernels())
     EXPECT_EQ(trace(&lane_stages(kernel)), alone) << name(kernel);

@@ -240,6 +240,23 @@ VITRAIL_LANES void send_shadow_rays(LaneWork& work, const Group& g, const Intera
   }
 }
 
+template <class Bsdf>
+VITRAIL_LANES BsdfValue<D> eval_towards(const LaneWork&, const Candidate&, const Bsdf& bsdf, Vector<D> out,
+                                        Vector<D> in) {
+  return eval(bsdf, out, in);
+}
+// Lamps without shadows make no highlights.
+VITRAIL_LANES BsdfValue<D> eval_towards(const LaneWork& work, const Candidate& c, Finish<D> bsdf,
+                                        Vector<D> out, Vector<D> in) {
+  const PointEmitter* const emitters = work.tracing.scene.lights.emitters.data();
+  const Mask<D> shadowless =
+      gather_mask<D>(VITRAIL_EACH(is_set(c.arrives, j) && c.ref[j].kind == LightKind::emitter &&
+                                  !emitters[c.ref[j].index].casts_shadows));
+  bsdf.phong = select<D>(shadowless, fill<D>(0), bsdf.phong);
+  bsdf.specular = select<D>(shadowless, fill<D>(0), bsdf.specular);
+  return eval(bsdf, out, in);
+}
+
 // As connect.cpp has it.
 template <class Bsdf>
 VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carried, const Interaction<D>& at,
@@ -257,7 +274,7 @@ VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carrie
     const Vector<D> in = frame.to_local(c.light.to_light);
     // Shading normals let no light leak.
     const Mask<D> same_side = (dot(c.light.to_light, at.geometric) > 0) == (at.cosine * out.z * in.z > 0);
-    const BsdfValue<D> scattered = eval(bsdf, out, in);
+    const BsdfValue<D> scattered = eval_towards(work, c, bsdf, out, in);
     const D beside =
         select<D>(c.is_delta, fill<D>(0), to_doubles(lanes::density_beside(scattered.pdf, count)));
     const F weight = to_floats(1.0 / (c.pdf + beside));

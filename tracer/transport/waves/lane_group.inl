@@ -82,8 +82,12 @@ VITRAIL_LANES void go_on(LaneWork& work, const Group& g, const Carried& carried,
                          Mask<F> connected) {
   const L seed = gather<L>(VITRAIL_EACH(g.path[j]->seed));
   const U depth = carried.depth + 1u;
-  const L stream = (convert<std::uint64_t>(depth) << 3 | static_cast<std::uint64_t>(RayRandom::throughput)) *
-                   stream_factor;
+  // As numbered_depth; with direct light alone a path that was lit goes straight on at most.
+  const Mask<F> only_straight = work.direct_only ? connected : Mask<F>{};
+  const U numbered = select<U>(mask_for<U>(only_straight), depth | Traveller::only_straight_bit, depth);
+  const L stream =
+      (convert<std::uint64_t>(numbered) << 3 | static_cast<std::uint64_t>(RayRandom::throughput)) *
+      stream_factor;
   const Departed<D> ray = depart<D>(seed, stream, origin_of(work, at, direction), direction, throughput);
   const Mask<D> front_side = dot(direction, at.geometric) > 0;
   for (int j = 0; j < g.valid; ++j) {
@@ -95,6 +99,7 @@ VITRAIL_LANES void go_on(LaneWork& work, const Group& g, const Carried& carried,
     path.depth = lane(depth, j);
     path.passed = false;
     path.connected |= is_set(connected, j);
+    path.only_straight = is_set(only_straight, j);
     path.pdf = lane(pdf, j);
     path.travelled = 0;
     path.ray.exclude = path.hit.triangle;

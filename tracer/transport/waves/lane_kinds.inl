@@ -131,3 +131,20 @@ struct ReadPrincipled {
             .microfacets = microfacets_of(work, g)};
   }
 };
+
+struct ReadFinish {
+  static constexpr bool is_specular = false;
+  VITRAIL_LANES static Finish<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
+    const auto number = [&](double FinishBsdf::*of) __attribute__((always_inline)) {
+      return gather<D>(VITRAIL_EACH(work.bsdfs[g.place[j]].finish.*of));
+    };
+    using B = FinishBsdf;
+    return {spectrum_of(work, g, &LaneBsdf::a),
+            spectrum_of(work, g, &LaneBsdf::b),
+            number(&B::brilliance),
+            number(&B::phong),
+            number(&B::phong_size),
+            number(&B::specular),
+            number(&B::roughness)};
+  }
+};

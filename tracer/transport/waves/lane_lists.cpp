@@ -34,9 +34,7 @@ LaneLists::LaneLists(std::size_t most) : surface_(most), next_(most), bsdfs_(mos
   leaving_.reserve(most);
 }
 
-bool LaneLists::apply_to(const Tracing& tracing) {
-  return tracing.stages && tracing.scene.lanes.is_enabled && !tracing.photons;
-}
+bool LaneLists::apply_to(const Tracing& tracing) { return tracing.stages && !tracing.photons; }
 
 std::uint32_t LaneLists::candidates_of(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
                                        bool diffuse) const {
@@ -57,6 +55,7 @@ bool LaneLists::take_leaving(Tracing& tracing, CameraPath& path, std::uint32_t p
 }
 
 bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
+  if (is_too_dark(tracing, path)) return false;
   const bool by_its_pane = path.pane.within && (path.pane.parts || path.pane.owes);
   if (by_its_pane || medium_of(tracing, path)) return false;
   if (!path.meets_surface()) return take_leaving(tracing, path, place);
@@ -91,8 +90,8 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   if (domains_.size() < tracing.resident.size()) domains_.resize(tracing.resident.size());
   domains_[path.hit_domain] = lanes::tables_of(*tracing.resident[path.hit_domain]);
   const bool is_specular = of.kind == LaneKind::mirror || of.kind == LaneKind::glass;
-  const std::uint32_t candidates =
-      is_specular ? 1 : candidates_of(tracing, path, place, of.kind == LaneKind::diffuse);
+  const bool is_diffuse = of.kind == LaneKind::diffuse || of.kind == LaneKind::finish;
+  const std::uint32_t candidates = is_specular ? 1 : candidates_of(tracing, path, place, is_diffuse);
   lists_[static_cast<std::size_t>(of.kind)][is_placed][candidates > 1].push_back(place);
   ++taken_;
   return true;
@@ -110,6 +109,7 @@ void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
                     std::vector<std::uint32_t>& live) {
   if (taken_ == 0) return;
   const Roulette roulette = tracing.scene.sampling.roulette;
+  const bool has_roulette = roulette != Roulette::never && !tracing.settings().direct_only;
   LaneWork work{.tracing = tracing,
                 .scene = tracing.scene.lanes,
                 .paths = paths,
@@ -117,7 +117,9 @@ void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
                 .bsdfs = bsdfs_.data(),
                 .placed = placed_.data(),
                 .domains = domains_.data(),
-                .roulette_worth = roulette == Roulette::never ? 0 : worth_going_on(roulette),
+                .roulette_worth = has_roulette ? worth_going_on(roulette) : 0,
+                .direct_only = tracing.settings().direct_only,
+                .ends_lit = ends_lit(tracing),
                 .groups_lights = tracing.scene.groups.kept_apart,
                 .rounding_of_doubles = rounding_of_doubles(tracing.manifest().scale),
                 .shadows = shadows,

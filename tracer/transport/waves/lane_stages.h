@@ -33,6 +33,8 @@ struct LaneWork {
   const PlacedHit* placed;             // of hits that are in a list of such
   const lanes::DomainTables* domains;  // of hits' domains
   float roulette_worth;                // what a path is worth going on for; 0: no roulette
+  bool direct_only;                    // as RenderSettings
+  bool ends_lit;                       // as shading.h
   bool groups_lights;                  // the film keeps groups of lights
   double rounding_of_doubles;          // as of offset_origin
 

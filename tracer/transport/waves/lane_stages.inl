@@ -43,6 +43,7 @@ void scatter(LaneWork& work, const LaneList& list) {
     const F pdf = select<F>(specular, fill<F>(0), lanes::density_beside(s.pdf, list.candidates));
     Mask<F> lives =
         mask_for<F>(on & s.scatters & (no(leaves) | by_surface)) & (brightest > 0) & (specular | (pdf > 0));
+    if (work.ends_lit) lives = lives & specular;
     if (!Read::is_specular && work.roulette_worth > 0) {
       const F survival =
           to_floats(attainable(to_doubles(brightest * carried.brightness / work.roulette_worth)));
@@ -126,4 +127,4 @@ constexpr LaneStages stages{
     begin,
     leave_scene,
     {nullptr, scatter<ReadLambert>, scatter<ReadMirror>, scatter<ReadMetal>, scatter<ReadPlastic>,
-     scatter<ReadRoughPlastic>, scatter<ReadPrincipled>, scatter_glass}};
+     scatter<ReadRoughPlastic>, scatter<ReadPrincipled>, scatter<ReadFinish>, scatter_glass}};
