@@ -22,14 +22,20 @@ bool is_clear_coat(const pov::Texture& texture) {
   return is_clear && texture.finish && texture.finish->diffuse == 0;
 }
 
-// A surface below a layer that lets all light through: with the mirror and highlights of that. None where the
-// surface has its own.
+bool is_glossy(const pov::Texture& texture) {
+  if (!texture.finish) return false;
+  const Finish& f = *texture.finish;
+  const Numbers& most = f.reflection_max;
+  return f.phong > 0 || f.specular > 0 ||
+         (f.has_reflection && std::max({most.v[0], most.v[1], most.v[2]}) > 0);
+}
+
+// A surface below a layer: with the mirror and highlights of that, which are the same however clear the layer
+// is. None where the surface has its own.
 Shared<pov::Texture> coated(const pov::Texture& below, const pov::Texture& coat) {
-  if (!below.layers.empty() || below.pattern) return nullptr;
+  if (!below.layers.empty() || below.pattern || is_glossy(below) || (below.normal && coat.normal))
+    return nullptr;
   const Finish under = below.finish ? *below.finish : Finish{};
-  const bool mirrors = under.has_reflection && std::max({under.reflection_max.v[0], under.reflection_max.v[1],
-                                                         under.reflection_max.v[2]}) > 0;
-  if (mirrors || under.phong > 0 || under.specular > 0 || (below.normal && coat.normal)) return nullptr;
   auto finish = std::make_shared<Finish>(*coat.finish);
   finish->ambient = under.ambient, finish->emission = under.emission, finish->diffuse = under.diffuse;
   finish->diffuse_back = under.diffuse_back, finish->brilliance = under.brilliance,
@@ -40,7 +46,7 @@ Shared<pov::Texture> coated(const pov::Texture& below, const pov::Texture& coat)
   return both;
 }
 
-// The layers, clear coats in what is below them.
+// The layers, clear coats in what is below them. What else is below something glossy gets its gloss.
 std::vector<Shared<pov::Texture>> without_coats(const std::vector<Shared<pov::Texture>>& layers) {
   std::vector<Shared<pov::Texture>> left;
   for (const Shared<pov::Texture>& layer : layers) {
@@ -49,6 +55,11 @@ std::vector<Shared<pov::Texture>> without_coats(const std::vector<Shared<pov::Te
       left.back() = both;
     else
       left.push_back(layer);
+  }
+  for (std::size_t i = left.size(); i-- > 1;) {
+    const bool is_simple = left[i]->layers.empty() && !left[i]->pattern;
+    if (!is_simple || !is_glossy(*left[i]) || left[i]->normal) continue;
+    if (const auto both = coated(*left[i - 1], *left[i])) left[i - 1] = both;
   }
   return left;
 }

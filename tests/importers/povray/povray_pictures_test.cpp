@@ -353,6 +353,19 @@ TEST_F(PovrayPictures, ClearSurfacesThatShine) {
                  0.03, 256);
 }
 
+// So they are of a layer above others.
+TEST_F(PovrayPictures, LayersThatShine) {
+  for (const char* finish : {"phong .9 phong_size 20", "specular .7 roughness .03 reflection .2"})
+    expect_alike(linear + lamps +
+                     "plane { y, 0 pigment { rgb .5 } }\n"
+                     "sphere { <0, .9, .5>, .9 texture { pigment { rgb <.2, .4, .1> } }"
+                     " texture { pigment { gradient y color_map { [0 rgbt <.9, .8, .2, 1>] [1 rgbt <.9, .8, "
+                     ".2, .2>] } }"
+                     " finish { " +
+                     finish + " } } }",
+                 0.02);
+}
+
 TEST_F(PovrayPictures, NormalsBeginAsTheDefaultOne) {
   expect_alike(linear + lamps +
                    "#default { pigment { rgb .7 } normal { onion .8 scale .4 } finish { phong .5 } }\n"
