@@ -148,21 +148,25 @@ bool read_object_modifier(Reader& reader, Object& object, int& layers) {
       return true;
     case Word::pigment_: {
       auto texture = changed(reader, object);
-      texture->pigment = read_pigment_block(reader);
-      if (object.texture && !object.texture->layers.empty()) texture->layers.clear();
-      texture->pattern.reset();
+      change_top(*texture, [&](Texture& top, const Transform& placed) {
+        top.pigment = unmoved(read_pigment_block(reader), placed);
+        top.pattern.reset();
+      });
       object.texture = texture;
       return true;
     }
     case Word::normal_: {
       auto texture = changed(reader, object);
-      texture->normal = read_normal_block(reader);
+      change_top(*texture, [&](Texture& top, const Transform& placed) {
+        top.normal = unmoved(read_normal_block(reader), placed);
+      });
       object.texture = texture;
       return true;
     }
     case Word::finish_: {
       auto texture = changed(reader, object);
-      texture->finish = read_finish_block(reader, texture->finish);
+      change_top(*texture,
+                 [&](Texture& top, const Transform&) { top.finish = read_finish_block(reader, top.finish); });
       object.texture = texture;
       return true;
     }

@@ -183,6 +183,19 @@ Shared<Pigment> read_pattern_block(Reader& reader);
 Shared<Bump> read_normal_block(Reader& reader);
 Shared<Finish> read_finish_block(Reader& reader, Shared<Finish> from = {});
 Shared<Texture> read_texture_block(Reader& reader);
+
+// A pigment or normal that comes behind the transformations of a texture, which it does not take.
+Shared<Pigment> unmoved(const Shared<Pigment>& pigment, const Transform& texture_to_object);
+Shared<Bump> unmoved(const Shared<Bump>& bump, const Transform& texture_to_object);
+// What comes behind a texture of layers is of the last one: change(that, its transformation).
+template <class Change>
+void change_top(Texture& texture, const Change& change, const Transform& before = {}) {
+  const Transform placed = before * texture.to_object;
+  if (texture.layers.empty()) return change(texture, placed);
+  auto top = std::make_shared<Texture>(*texture.layers.back());
+  change_top(*top, change, placed);
+  texture.layers.back() = std::move(top);
+}
 Shared<Interior> read_interior_block(Reader& reader);
 Shared<MediaBlock> read_media_block(Reader& reader);
 Shared<MaterialParts> read_material_block(Reader& reader);

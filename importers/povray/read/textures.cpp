@@ -138,6 +138,25 @@ Shared<Texture> moved(const Shared<Texture>& texture, const Transform& by) {
   return result;
 }
 
+namespace {
+
+template <class Part>
+Shared<Part> without(const Shared<Part>& part, const Transform& texture_to_object) {
+  if (texture_to_object == Transform{} || !is_invertible(texture_to_object)) return part;
+  auto unmoved = std::make_shared<Part>(*part);
+  unmoved->to_object = inverse(texture_to_object) * part->to_object;
+  return unmoved;
+}
+
+}  // namespace
+
+Shared<Pigment> unmoved(const Shared<Pigment>& pigment, const Transform& texture_to_object) {
+  return without(pigment, texture_to_object);
+}
+Shared<Bump> unmoved(const Shared<Bump>& bump, const Transform& texture_to_object) {
+  return without(bump, texture_to_object);
+}
+
 Shared<Texture> read_texture_block(Reader& reader) {
   if (const auto named = reader.identifier<Shared<Texture>>(); named) return *named;
   const char close = reader.accept('[') ? ']' : '}';
@@ -160,17 +179,24 @@ Shared<Texture> read_texture_block(Reader& reader) {
       const Word word = token.symbol->word;
       if (word == Word::pigment_) {
         reader.next();
-        texture.pigment = read_pigment_block(reader, reader.defaults.texture ? texture.pigment : nullptr);
+        change_top(texture, [&](Texture& top, const Transform& placed) {
+          top.pigment =
+              unmoved(read_pigment_block(reader, reader.defaults.texture ? top.pigment : nullptr), placed);
+        });
         continue;
       }
       if (word == Word::normal_) {
         reader.next();
-        texture.normal = read_normal_block(reader);
+        change_top(texture, [&](Texture& top, const Transform& placed) {
+          top.normal = unmoved(read_normal_block(reader), placed);
+        });
         continue;
       }
       if (word == Word::finish_) {
         reader.next();
-        texture.finish = read_finish_block(reader, texture.finish);
+        change_top(texture, [&](Texture& top, const Transform&) {
+          top.finish = read_finish_block(reader, top.finish);
+        });
         continue;
       }
       if (word == Word::tiles_) {
@@ -211,11 +237,12 @@ Shared<Texture> read_texture_block(Reader& reader) {
       }
     }
     if (const auto named = reader.identifier<Shared<Pigment>>()) {
-      texture.pigment = *named;
+      change_top(texture,
+                 [&](Texture& top, const Transform& placed) { top.pigment = unmoved(*named, placed); });
       continue;
     }
     if (const auto named = reader.identifier<Shared<Finish>>()) {
-      texture.finish = *named;
+      change_top(texture, [&](Texture& top, const Transform&) { top.finish = *named; });
       continue;
     }
     // A transformation moves all that is there by then.
