@@ -10,6 +10,7 @@
 #include "images/image_files.h"
 #include "importers/povray/read/formula.h"
 #include "importers/povray/read/image_values.h"
+#include "importers/povray/read/pattern_field.h"
 #include "importers/povray/read/pattern_kinds.h"
 #include "importers/povray/read/pigment_patterns.h"
 #include "importers/povray/read/reader.h"
@@ -189,6 +190,8 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
     return color_texture(*both, to_world * both->to_object, part, factor, by_uv);
   }
   auto made = pattern_texture(pattern, to_world, pigment.place);
+  if (!made && pattern.kind == Word::function_)
+    return spectrum_of(PatternField(reader_, pigment).mean(), part, factor);
   if (!made) return spectrum_of(pigment.quick_color.value_or(mean_color(pigment)), part, factor);
   std::vector<BlendEntry> entries = pigment.map ? pigment.map->entries : default_entries(pattern.kind);
   if (const std::size_t places = places_of_formula(*made, pattern.kind)) {

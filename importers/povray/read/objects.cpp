@@ -148,8 +148,8 @@ bool read_object_modifier(Reader& reader, Object& object, int& layers) {
       return true;
     case Word::pigment_: {
       auto texture = changed(reader, object);
-      change_top(*texture, [&](Texture& top, const Transform& placed) {
-        top.pigment = unmoved(read_pigment_block(reader), placed);
+      change_top(*texture, [&](Texture& top, const Transform&) {
+        top.pigment = read_pigment_block(reader);
         top.pattern.reset();
       });
       object.texture = texture;
@@ -157,9 +157,8 @@ bool read_object_modifier(Reader& reader, Object& object, int& layers) {
     }
     case Word::normal_: {
       auto texture = changed(reader, object);
-      change_top(*texture, [&](Texture& top, const Transform& placed) {
-        top.normal = unmoved(read_normal_block(reader), placed);
-      });
+      change_top(*texture,
+                 [&](Texture& top, const Transform& placed) { change_normal(reader, top, placed); });
       object.texture = texture;
       return true;
     }

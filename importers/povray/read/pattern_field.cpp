@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "importers/povray/read/formula.h"
 #include "importers/povray/read/function.h"
@@ -132,6 +133,20 @@ Numbers PatternField::blended(Point3d p) const {
   Numbers result = Finish::grey(0);
   for (std::size_t i = 0; i < 5; ++i) result.v[i] = (1 - share) * from.v[i] + share * to.v[i];
   return result;
+}
+
+// By Fibonacci's spiral, which spreads points evenly.
+Numbers PatternField::mean() const {
+  constexpr int points = 4096;
+  Numbers sum = color({0, 0, 1});
+  for (double& v : sum.v) v = 0;
+  for (int i = 0; i < points; ++i) {
+    const double z = 1 - (2 * i + 1.0) / points, r = std::sqrt(1 - z * z);
+    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const Numbers here = color({r * std::cos(angle), r * std::sin(angle), z});
+    for (std::size_t k = 0; k < 5; ++k) sum.v[k] += here.v[k] / points;
+  }
+  return sum;
 }
 
 Numbers PatternField::color(Point3d p) const {

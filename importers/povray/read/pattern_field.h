@@ -21,6 +21,8 @@ class PatternField {
 
   // Red, green, blue, filter, transmit; in the numbers of the scene.
   Numbers color(Point3d p) const;
+  // Over the sphere of radius 1 around the origin, as of a sky.
+  Numbers mean() const;
   // Of the pattern alone: 0 … 1; of checker, brick, hexagon and object the place in their list.
   double value(Point3d p) const;
 

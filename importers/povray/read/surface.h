@@ -184,9 +184,10 @@ Shared<Bump> read_normal_block(Reader& reader);
 Shared<Finish> read_finish_block(Reader& reader, Shared<Finish> from = {});
 Shared<Texture> read_texture_block(Reader& reader);
 
-// A pigment or normal that comes behind the transformations of a texture, which it does not take.
-Shared<Pigment> unmoved(const Shared<Pigment>& pigment, const Transform& texture_to_object);
-Shared<Bump> unmoved(const Shared<Bump>& bump, const Transform& texture_to_object);
+// Reads what comes behind `normal` in or behind a texture that was transformed, as povray shows it: a pigment
+// takes the place of the one that is there, with its transformations, and so does a normal, but the first
+// one.
+void change_normal(Reader& reader, Texture& top, const Transform& placed);
 // What comes behind a texture of layers is of the last one: change(that, its transformation).
 template <class Change>
 void change_top(Texture& texture, const Change& change, const Transform& before = {}) {

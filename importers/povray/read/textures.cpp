@@ -138,23 +138,15 @@ Shared<Texture> moved(const Shared<Texture>& texture, const Transform& by) {
   return result;
 }
 
-namespace {
-
-template <class Part>
-Shared<Part> without(const Shared<Part>& part, const Transform& texture_to_object) {
-  if (texture_to_object == Transform{} || !is_invertible(texture_to_object)) return part;
-  auto unmoved = std::make_shared<Part>(*part);
-  unmoved->to_object = inverse(texture_to_object) * part->to_object;
-  return unmoved;
-}
-
-}  // namespace
-
-Shared<Pigment> unmoved(const Shared<Pigment>& pigment, const Transform& texture_to_object) {
-  return without(pigment, texture_to_object);
-}
-Shared<Bump> unmoved(const Shared<Bump>& bump, const Transform& texture_to_object) {
-  return without(bump, texture_to_object);
+void change_normal(Reader& reader, Texture& top, const Transform& placed) {
+  const Shared<Bump> read = read_normal_block(reader);
+  if (top.normal || placed == Transform{} || !is_invertible(placed)) {
+    top.normal = read;
+    return;
+  }
+  auto unmoved = std::make_shared<Bump>(*read);
+  unmoved->to_object = inverse(placed) * read->to_object;
+  top.normal = unmoved;
 }
 
 Shared<Texture> read_texture_block(Reader& reader) {
@@ -179,17 +171,15 @@ Shared<Texture> read_texture_block(Reader& reader) {
       const Word word = token.symbol->word;
       if (word == Word::pigment_) {
         reader.next();
-        change_top(texture, [&](Texture& top, const Transform& placed) {
-          top.pigment =
-              unmoved(read_pigment_block(reader, reader.defaults.texture ? top.pigment : nullptr), placed);
+        change_top(texture, [&](Texture& top, const Transform&) {
+          top.pigment = read_pigment_block(reader, reader.defaults.texture ? top.pigment : nullptr);
         });
         continue;
       }
       if (word == Word::normal_) {
         reader.next();
-        change_top(texture, [&](Texture& top, const Transform& placed) {
-          top.normal = unmoved(read_normal_block(reader), placed);
-        });
+        change_top(texture,
+                   [&](Texture& top, const Transform& placed) { change_normal(reader, top, placed); });
         continue;
       }
       if (word == Word::finish_) {
@@ -237,8 +227,7 @@ Shared<Texture> read_texture_block(Reader& reader) {
       }
     }
     if (const auto named = reader.identifier<Shared<Pigment>>()) {
-      change_top(texture,
-                 [&](Texture& top, const Transform& placed) { top.pigment = unmoved(*named, placed); });
+      change_top(texture, [&](Texture& top, const Transform&) { top.pigment = *named; });
       continue;
     }
     if (const auto named = reader.identifier<Shared<Finish>>()) {

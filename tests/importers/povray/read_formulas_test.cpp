@@ -228,5 +228,22 @@ TEST_F(ReadFormulas, Slopes) {
     expect_ball(slope + map);
 }
 
+// A formula of an image is not held. Its mean is of what it gives, not of all that its map could give.
+TEST(ReadFormulasOfImages, AreTheMeanOfWhatTheyShow) {
+  const TemporaryFolder folder;
+  folder.write("a.ppm", "P3\n2 2\n255\n255 0 0  0 0 0\n 0 0 0  255 0 0\n");
+  folder.write("scene.pov",
+               "#version 3.7; global_settings { assumed_gamma 1 }\n"
+               "#declare F = function { pigment { image_map { ppm \"a.ppm\" gamma 1.0 } } }\n"
+               "sphere { 0, 1 pigment { function { F(x, y, z).red / 1000 }"
+               " color_map { [0 rgb 0] [1 rgb 4000] } } finish { ambient 0 emission 1 diffuse 0 } }\n");
+  const Scene scene = read_povray(folder / "scene.pov").scene;
+  ASSERT_EQ(scene.area_lights.size(), 1u);
+  const auto* const glow = std::get_if<Spectrum>(&scene.area_lights[0].radiance);
+  ASSERT_TRUE(glow);
+  const double white = evaluate(emission_from_rgb({1, 1, 1}), 550);
+  EXPECT_NEAR(static_cast<double>(scene.area_lights[0].scale) * evaluate(*glow, 550) / white, 4 * .5, .1);
+}
+
 }  // namespace
 }  // namespace vitrail
