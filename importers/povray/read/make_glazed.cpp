@@ -9,6 +9,17 @@
 
 namespace vitrail::pov {
 
+// As at normal incidence; at grazing angles POV-Ray's become white.
+SpectrumParameter Surfaces::highlight_color(const Pigment& pigment, const Finish& finish,
+                                            const Transform& to_world, const Look& look) {
+  const SpectrumParameter white = Spectrum{ConstantSpectrum{1}};
+  if (!(finish.metallic > 0)) return white;
+  approximated("metallic highlights: of one colour at every angle", finish.place);
+  const SpectrumParameter color = color_texture(pigment, to_world, Part::reflectance, 1, look.by_uv);
+  if (finish.metallic >= 1) return color;
+  return add(MixTexture{white, color, static_cast<float>(finish.metallic)}, false, pigment.place);
+}
+
 bool Surfaces::is_glazed(const Finish& finish, const Interior* interior, float opacity) const {
   if (!glazes_ || finish.diffuse_back > 0 || finish.crand > 0) return false;
   const auto is_any = [](const Numbers& n) { return std::max({n.v[0], n.v[1], n.v[2]}) > 0; };

@@ -237,9 +237,6 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
     factors[i] = reader_.linear(finish.ambient.v[i] * ambient_.v[i]) + reader_.linear(finish.emission.v[i]);
   const double factor = std::max({factors[0], factors[1], factors[2]});
   if (factor > 0) {
-    if (factors[0] != factors[1] || factors[1] != factors[2])
-      if (!pigment.color)
-        approximated("a colour of ambient or emission upon a pattern: its greatest component", finish.place);
     const double share = body.solid ? static_cast<double>(*body.solid) : 1;
     if (pigment.color) {
       RGB glow;
@@ -250,6 +247,11 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
       layer.glow_scale = static_cast<float>(std::max({glow.r, glow.g, glow.b}));
     } else {
       layer.glow = color_texture(pigment, placed, Part::radiance, factor, look.by_uv);
+      if (factors[0] != factors[1] || factors[1] != factors[2]) {
+        const Spectrum tint =
+            unbounded_from_rgb({factors[0] / factor, factors[1] / factor, factors[2] / factor});
+        layer.glow = add(ProductTexture{layer.glow, tint}, false, finish.place);
+      }
       layer.glow_scale = static_cast<float>(factor);
     }
   }
@@ -292,17 +294,6 @@ Id<Material> Surfaces::clear_material(const Pigment& pigment, const Finish& fini
   sheet.transmittance_factor = Spectrum{unbounded_from_rgb(through)};
   sheet.reflectance_factor = Spectrum{ConstantSpectrum{0}};
   return add(sheet, pigment.place);
-}
-
-// As at normal incidence; at grazing angles POV-Ray's become white.
-SpectrumParameter Surfaces::highlight_color(const Pigment& pigment, const Finish& finish,
-                                            const Transform& to_world, const Look& look) {
-  const SpectrumParameter white = Spectrum{ConstantSpectrum{1}};
-  if (!(finish.metallic > 0)) return white;
-  approximated("metallic highlights: of one colour at every angle", finish.place);
-  const SpectrumParameter color = color_texture(pigment, to_world, Part::reflectance, 1, look.by_uv);
-  if (finish.metallic >= 1) return color;
-  return add(MixTexture{white, color, static_cast<float>(finish.metallic)}, false, pigment.place);
 }
 
 Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish, const Transform& to_world,

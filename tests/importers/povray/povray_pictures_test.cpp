@@ -382,6 +382,15 @@ TEST_F(PovrayPictures, PartsBehindTextures) {
   }
 }
 
+TEST_F(PovrayPictures, ColoredAmbientUponPatterns) {
+  const std::string floor =
+      "plane { y, 0 pigment { checker rgb <.8, .7, .6>, rgb <.3, .4, .9> } finish { ambient .6 diffuse .3 ";
+  expect_alike("#version 3.7; global_settings { assumed_gamma 1 ambient_light rgb <1, .5, .2> }\n" + camera +
+                   lamps + floor + "} }",
+               0.02);
+  expect_alike(linear + lamps + floor + "emission rgb <.1, .2, .7> } }", 0.02);
+}
+
 TEST_F(PovrayPictures, NormalsBeginAsTheDefaultOne) {
   expect_alike(linear + lamps +
                    "#default { pigment { rgb .7 } normal { onion .8 scale .4 } finish { phong .5 } }\n"
