@@ -19,7 +19,7 @@ struct Ways {
 };
 
 double greatest(const SampledSpectrum& s) {
-  return static_cast<double>(*std::max_element(s.v.begin(), s.v.end()));
+  return std::max(0.0, static_cast<double>(*std::max_element(s.v.begin(), s.v.end())));
 }
 
 // POV-Ray's approximation of the Fresnel equations, by which metals lose their colour at grazing angles: a

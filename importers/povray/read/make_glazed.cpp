@@ -9,6 +9,13 @@
 
 namespace vitrail::pov {
 
+void set_highlights(FinishMaterial& m, const Finish& finish, double share) {
+  m.phong = static_cast<float>(std::max(finish.phong, 0.0) / share);
+  m.phong_size = static_cast<float>(std::max(finish.phong_size, 0.0));
+  m.specular = static_cast<float>(std::max(finish.specular, 0.0) / share);
+  m.roughness = static_cast<float>(std::max(finish.roughness, 1e-6));
+}
+
 // As at normal incidence; at grazing angles POV-Ray's become white.
 SpectrumParameter Surfaces::highlight_color(const Pigment& pigment, const Finish& finish,
                                             const Transform& to_world, const Look& look) {
@@ -43,10 +50,7 @@ Id<Material> Surfaces::glazed(const Body& body) {
                                        reader_.linear(finish.diffuse) * solid, body.look.by_uv);
   m.finish.highlight = highlight_color(body.pigment, finish, body.to_world, body.look);
   m.finish.brilliance = static_cast<float>(std::max(finish.brilliance, 0.0));
-  m.finish.phong = static_cast<float>(std::max(finish.phong, 0.0));
-  m.finish.phong_size = static_cast<float>(std::max(finish.phong_size, 0.0));
-  m.finish.specular = static_cast<float>(std::max(finish.specular, 0.0));
-  m.finish.roughness = static_cast<float>(std::max(finish.roughness, 1e-6));
+  set_highlights(m.finish, finish, 1);
   m.mirror_min = factors(finish.reflection_min);
   m.mirror_max = factors(finish.reflection_max);
   m.metallic = static_cast<float>(std::clamp(finish.reflection_metallic, 0.0, 1.0));

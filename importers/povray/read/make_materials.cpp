@@ -360,10 +360,7 @@ Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish,
   if (as_finish) {
     FinishMaterial m{reflectance, highlight_color(pigment, finish, to_world, look)};
     m.brilliance = static_cast<float>(grainy ? falloff.brilliance : std::max(finish.brilliance, 0.0));
-    m.phong = static_cast<float>(std::max(finish.phong, 0.0) / left);
-    m.phong_size = static_cast<float>(std::max(finish.phong_size, 0.0));
-    m.specular = static_cast<float>(std::max(finish.specular, 0.0) / left);
-    m.roughness = static_cast<float>(std::max(finish.roughness, 1e-6));
+    set_highlights(m, finish, left);
     base = m;
   } else if (fresnel) {
     PlasticMaterial coat;

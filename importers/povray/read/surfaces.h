@@ -35,6 +35,9 @@ struct Surface {
   bool clears = false;  // glass that light passes for the most part: POV-Ray's shadows of it are light
 };
 
+// The highlights of a material that is shown in such a share: all of them.
+void set_highlights(FinishMaterial& material, const Finish& finish, double share);
+
 class Surfaces {
  public:
   // `ambient`: what the light of `ambient` is multiplied by; 0 with radiosity. `glazes`: what mirrors by
