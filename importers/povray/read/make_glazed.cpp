@@ -28,14 +28,16 @@ SpectrumParameter Surfaces::highlight_color(const Pigment& pigment, const Finish
 }
 
 bool Surfaces::is_glazed(const Finish& finish, const Interior* interior, float opacity) const {
-  if (!glazes_ || finish.diffuse_back > 0 || finish.crand > 0) return false;
+  if (!glazes_) return false;
+  if (opacity < 1 && interior && interior->ior > 1.0001) return true;
+  if (finish.diffuse_back > 0 || finish.crand > 0) return false;
   const auto is_any = [](const Numbers& n) { return std::max({n.v[0], n.v[1], n.v[2]}) > 0; };
   const auto differs = [&](std::size_t i) {
     return finish.reflection_min.v[i] != finish.reflection_max.v[i];
   };
   const bool mirrors = is_any(finish.reflection_min) || is_any(finish.reflection_max);
   if (opacity >= 1) return mirrors && (finish.fresnel || differs(0) || differs(1) || differs(2));
-  return mirrors || finish.phong > 0 || finish.specular > 0 || (interior && interior->ior > 1.0001);
+  return mirrors || finish.phong > 0 || finish.specular > 0;
 }
 
 Id<Material> Surfaces::glazed(const Body& body) {
@@ -65,6 +67,8 @@ Id<Material> Surfaces::glazed(const Body& body) {
     const auto part = [&](std::size_t i) { return reader_.linear(color.v[i]) * filter + transmit; };
     m.through = Spectrum{unbounded_from_rgb({part(0), part(1), part(2)})};
   }
+  if (finish.diffuse_back > 0) dropped("diffuse behind glass", finish.place);
+  if (finish.crand > 0) dropped("crand of glass", finish.place);
   if (finish.irid > 0) dropped("irid", finish.place);
   if (finish.subsurface) dropped("subsurface", finish.place);
   return add(std::move(m), body.pigment.place);

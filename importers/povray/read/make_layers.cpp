@@ -73,7 +73,6 @@ Surfaces::Layer Surfaces::mixed(const Layer& first, const Layer& second, const F
     both.material = second.material;
   else if (second.opacity != FloatParameter{0.0f})
     both.material = add(BlendMaterial{first.material, second.material, amount}, place);
-  both.clears = first.clears && second.clears;
   both.glow_scale = std::max(first.glow_scale, second.glow_scale);
   if (both.glow_scale > 0) both.glow = add(MixTexture{first.glow, second.glow, amount}, false, place);
   if (first.opacity == FloatParameter{0.0f} && second.opacity == FloatParameter{1.0f})

@@ -35,16 +35,6 @@ double brightest(const Pigment& pigment) {
   return most;
 }
 
-// The share of light that passes into a body and out of it, on its way to what is behind, without bends.
-double passed_twice(const Numbers& color) {
-  double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double once = std::clamp(color.v[i] * color.v[3] + color.v[4], 0.0, 1.0);
-    sum += once * once / 3;
-  }
-  return sum;
-}
-
 // Lobes beside the diffuse one, with their shares of all light.
 struct Lobe {
   MaterialModel model;
@@ -196,7 +186,7 @@ Surface Surfaces::made(const Look& look) {
   const Transform to_world = look.to_world * texture.to_object;
   const bool alone = texture.layers.empty() && !texture.pattern;
   const Layer result = alone ? layer_of(texture, to_world, look, alone) : layered(texture, to_world, look);
-  Surface surface{result.material, std::nullopt, result.opacity, result.clears};
+  Surface surface{result.material, std::nullopt, result.opacity};
   if (result.glow_scale > 0) {
     AreaLight glow;
     glow.radiance = result.glow;
@@ -228,7 +218,6 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
   body.glazed = opacity && (alone || clear || colored || *opacity >= 1) &&
                 is_glazed(finish, look.interior.get(), *opacity);
   if (clear || colored || (body.glazed && *opacity < 1)) body.solid = *opacity;
-  layer.clears = clear && !body.glazed && passed_twice(mean_color(pigment)) > 0.5;
   const Bump* const bump = texture.normal.get();
   layer.material = bumpy(body, bump, bump ? to_world * bump->to_object : to_world);
   if (body.solid) layer.opacity = 1.0f;

@@ -229,8 +229,7 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
   Surface surface = surfaces_.of_sides(own, object.place);
   const bool has_sides = surface.material != whole.material || surface.glow != whole.glow;
   if (own.no_shadow && reader_.for_export) surface = without_shadow(surface, own.of_lamp, object);
-  const bool passes = surface.clears && !world_.photons;
-  if ((own.no_shadow || passes) && !reader_.for_export) surface.material = shadowless(surface.material);
+  if (own.no_shadow && !reader_.for_export) surface.material = shadowless(surface.material);
   Shape shape;
   shape.mesh = piece.mesh;
   shape.material = surface.material;

@@ -32,7 +32,6 @@ struct Surface {
   Id<Material> material;
   std::optional<Id<AreaLight>> glow;
   FloatParameter opacity = 1.0f;
-  bool clears = false;  // glass that light passes for the most part: POV-Ray's shadows of it are light
 };
 
 // The highlights of a material that is shown in such a share: all of them.
@@ -61,7 +60,6 @@ class Surfaces {
     FloatParameter opacity = 1.0f;
     SpectrumParameter glow = Spectrum{ConstantSpectrum{0}};
     float glow_scale = 0;
-    bool clears = false;
   };
 
   Surface made(const Look& look);
