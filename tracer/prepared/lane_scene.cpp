@@ -19,7 +19,7 @@ const float* width_of(const Roughness& r) {
   return std::holds_alternative<float>(r.alpha_v) ? std::get_if<float>(&r.alpha_u) : nullptr;
 }
 
-void set(const DiffuseMaterial& m, LaneSurface& s) {
+void set(const DiffuseMaterial& m, LaneMaterial& s) {
   if (m.sigma_deg != FloatParameter{0.0f}) return;
   s.kind = LaneKind::diffuse;
   s.is_textured = !is_constant(m.reflectance);
@@ -31,7 +31,7 @@ void set(const DiffuseMaterial& m, LaneSurface& s) {
     s.has_parameters = false, s.constant = constant->value;
 }
 
-void set(const ConductorMaterial& m, LaneSurface& s) {
+void set(const ConductorMaterial& m, LaneMaterial& s) {
   if (!width_of(m.roughness)) return;
   s.kind = is_smooth(m.roughness) ? LaneKind::mirror : LaneKind::metal;
   s.is_textured = !is_constant(m.reflectance_factor);
@@ -41,13 +41,13 @@ void set(const ConductorMaterial& m, LaneSurface& s) {
     s.is_textured = s.is_textured || !is_constant(normal->reflectance);
 }
 
-void set(const PlasticMaterial& m, LaneSurface& s) {
+void set(const PlasticMaterial& m, LaneMaterial& s) {
   if (!width_of(m.roughness)) return;
   s.kind = m.roughness.alpha_u == FloatParameter{0.0f} ? LaneKind::plastic : LaneKind::rough_plastic;
   s.is_textured = !is_constant(m.diffuse_reflectance) || !is_constant(m.specular_reflectance);
 }
 
-void set(const PrincipledMaterial& m, LaneSurface& s) {
+void set(const PrincipledMaterial& m, LaneMaterial& s) {
   if (m.thin || m.spec_trans != FloatParameter{0.0f}) return;
   s.kind = LaneKind::principled;
   const FloatParameter* const numbers[] = {&m.roughness, &m.anisotropic, &m.metallic,
@@ -59,12 +59,12 @@ void set(const PrincipledMaterial& m, LaneSurface& s) {
       });
 }
 
-void set(const FinishMaterial& m, LaneSurface& s) {
+void set(const FinishMaterial& m, LaneMaterial& s) {
   s.kind = LaneKind::finish;
   s.is_textured = !is_constant(m.reflectance) || !is_constant(m.highlight);
 }
 
-void set(const DielectricMaterial& m, LaneSurface& s) {
+void set(const DielectricMaterial& m, LaneMaterial& s) {
   const auto *behind = std::get_if<ConstantSpectrum>(&m.eta),
              *before = std::get_if<ConstantSpectrum>(&m.exterior_eta);
   if (!is_smooth(m.roughness) || !behind || !before || m.priority) return;
@@ -84,14 +84,10 @@ LaneTexture lane_texture(const Manifest& manifest, const Textures& images,
   return {&images.image(*id), id->value, *mapping, image->wrap};
 }
 
-LaneSurface lane_surface(const Manifest& manifest, const Textures& images, const Interiors& interiors,
-                         const Surface& surface) {
-  const Material& material = manifest.materials[surface.material];
-  LaneSurface s;
+LaneMaterial lane_material(const Manifest& manifest, const Textures& images, const Material& material) {
+  LaneMaterial s;
   s.two_sided = material.two_sided;
-  s.emits = surface.area_light >= 0;
-  if (material.bump_shadowing || surface.opacity != FloatParameter{1.0f} || interiors.has_priority(surface))
-    return s;
+  if (material.bump_shadowing) return s;
   if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model)) {
     set(*diffuse, s);
     if (s.kind == LaneKind::diffuse) s.texture = lane_texture(manifest, images, diffuse->reflectance);
@@ -102,11 +98,34 @@ LaneSurface lane_surface(const Manifest& manifest, const Textures& images, const
   if (const auto* principled = std::get_if<PrincipledMaterial>(&material.model)) set(*principled, s);
   if (const auto* finish = std::get_if<FinishMaterial>(&material.model)) set(*finish, s);
   if (const auto* glass = std::get_if<DielectricMaterial>(&material.model)) set(*glass, s);
-  s.is_tilted = material.displacement || material.normal_map;
-  // `shade` lets patterns turn normals of such surfaces away from the ray.
-  const bool takes_any_normal = s.kind == LaneKind::diffuse || s.kind == LaneKind::finish;
-  if (s.is_tilted && (s.kind == LaneKind::glass || (takes_any_normal && material.displacement)))
-    s.kind = LaneKind::none;
+  s.is_raised = material.displacement.has_value();
+  s.is_tilted = s.is_raised || material.normal_map;
+  if (s.is_tilted && s.kind == LaneKind::glass) s.kind = LaneKind::none;
+  return s;
+}
+
+// Glass that is chosen by chance is no interface: connections do not look through it.
+bool may_choose_for_lanes(const Manifest& manifest, const std::vector<LaneMaterial>& materials,
+                          std::uint32_t material) {
+  const std::vector<Id<Material>> parts = parts_of(manifest.materials[material].model);
+  if (parts.empty()) {
+    const LaneKind kind = materials[material].kind;
+    return kind != LaneKind::none && kind != LaneKind::glass;
+  }
+  return std::ranges::any_of(
+      parts, [&](Id<Material> id) { return may_choose_for_lanes(manifest, materials, id.value); });
+}
+
+LaneSurface lane_surface(const Manifest& manifest, const std::vector<LaneMaterial>& lanes,
+                         const Interiors& interiors, const Materials& materials, const Surface& surface) {
+  LaneSurface s;
+  s.emits = surface.area_light >= 0;
+  const MaterialKind& kind = materials.kind(surface.material);
+  if (surface.opacity != FloatParameter{1.0f} || interiors.has_priority(surface)) return s;
+  if (kind.is_interface || kind.is_fibre) return s;
+  s.is_chosen = is_made_of_others(manifest.materials[surface.material]);
+  s.is_for_lanes = s.is_chosen ? may_choose_for_lanes(manifest, lanes, surface.material)
+                               : lanes[surface.material].kind != LaneKind::none;
   return s;
 }
 
@@ -161,10 +180,12 @@ LaneScene::LaneScene(const Manifest& manifest, const Textures& images, const Int
                     (r.refraction && manifest.settings.direct_only) ||
                     !std::ranges::all_of(lights.emitters, &PointEmitter::casts_shadows);
   divides_space = interiors.divide_space();
-  for (const Surface& surface : manifest.surfaces) {
-    surfaces.push_back(lane_surface(manifest, images, interiors, surface));
-    has_textures = has_textures || surfaces.back().texture.image != nullptr;
+  for (const Material& material : manifest.materials) {
+    this->materials.push_back(lane_material(manifest, images, material));
+    has_textures = has_textures || this->materials.back().texture.image != nullptr;
   }
+  for (const Surface& surface : manifest.surfaces)
+    surfaces.push_back(lane_surface(manifest, this->materials, interiors, materials, surface));
   for (const LightSampler::Slot& slot : lights.slots) lamps.push_back(lane_lamp(lights, slot));
 }
 

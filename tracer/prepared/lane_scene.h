@@ -34,12 +34,12 @@ struct LaneTexture {
   Wrap wrap = Wrap::repeat;
 };
 
-struct LaneSurface {
+struct LaneMaterial {
   LaneKind kind = LaneKind::none;
   bool two_sided = false;
-  bool emits = false;
   bool is_textured = false;    // its parameters depend on the point
-  bool is_tilted = false;      // a map turns its normal
+  bool is_tilted = false;      // a map or a height turns its normal
+  bool is_raised = false;      // a height does
   bool has_parameters = true;  // a LaneBsdf; else they are these:
   // Of `diffuse`: the reflectance, constant or, where that is < 0, a sigmoid.
   float constant = -1;
@@ -47,6 +47,15 @@ struct LaneSurface {
   LaneTexture texture;  // or this, where it has an image
   // Of `glass`: the indices on its back and on its front.
   float eta_behind = 1, eta_before = 1;
+
+  bool is_diffuse() const { return kind == LaneKind::diffuse || kind == LaneKind::finish; }
+  bool is_specular() const { return kind == LaneKind::mirror || kind == LaneKind::glass; }
+};
+
+struct LaneSurface {
+  bool is_for_lanes = false;  // its material, or one that may be chosen of it
+  bool is_chosen = false;     // of several, by side, by chance, or nothing: Materials::choose
+  bool emits = false;
 };
 
 // The parameters of a BSDF at a point.
@@ -69,10 +78,11 @@ enum class LaneLamp : std::uint8_t { other, triangle, sphere };
 struct LaneScene {
   // A connection may be no shadow ray: light may pass something straight on, or has nothing in its way.
   bool has_connections = false;
-  bool divides_space = false;         // as Interiors
-  bool has_textures = false;          // some surface has a LaneTexture
-  std::vector<LaneSurface> surfaces;  // of all Manifest::surfaces
-  std::vector<LaneLamp> lamps;        // of each of LightSampler::slots
+  bool divides_space = false;           // as Interiors
+  bool has_textures = false;            // some material has a LaneTexture
+  std::vector<LaneMaterial> materials;  // of all Manifest::materials
+  std::vector<LaneSurface> surfaces;    // of all Manifest::surfaces
+  std::vector<LaneLamp> lamps;          // of each of LightSampler::slots
   // Stand for what a path does not have.
   LightSampler::Slot no_slot;
   LightSampler::Face no_face;

@@ -255,8 +255,11 @@ SampledSpectrum Materials::mirrors(std::uint32_t material, const Interaction& at
   });
 }
 
-Vector3d Materials::shading_normal(const Material& material, const Interaction& at) const {
+Vector3d Materials::shading_normal(const Material& material, const Interaction& at, bool any_normal) const {
   Vector3d n = tilted(material, at, manifest_, textures_);
+  // A pattern may turn the normal away from the ray, as POV-Ray's: what is as bright from all directions
+  // shows it as it is.
+  if (any_normal && bumps_of(material, manifest_)) return n;
   // A normal that the ray sees from the other side than the surface is turned around the smooth one, to face
   // the ray (Schüssler et al., "Microfacet-Based Normal Mapping for Robust Monte Carlo Path Tracing", 2017).
   const auto usable = [&] { return dot(n, n) > 0.5 && (dot(at.out, n) > 0) == at.front; };
@@ -289,11 +292,7 @@ Scattering Materials::scattering_at(const Material& material, const Interaction&
       luminance_[index_of(material)],
       tables_};
   Bsdf bsdf = std::visit(maker, material.model);
-  // A pattern may turn the normal away from the ray, as POV-Ray's: what is as bright from all directions
-  // shows it as it is.
-  const bool as_it_is = takes_any_normal(bsdf) && bumps_of(material, manifest_);
-  const Vector3d normal =
-      as_it_is ? tilted(material, at, manifest_, textures_) : shading_normal(material, at);
+  const Vector3d normal = shading_normal(material, at, takes_any_normal(bsdf));
   return Scattering{std::move(bsdf),
                     frame_around(normal, tangent(material, at), both_sides ? 1.0 : at.side()), both_sides,
                     material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};

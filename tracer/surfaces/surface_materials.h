@@ -59,8 +59,9 @@ class Materials {
   // What scatters at a point of a chosen material that depends on nothing but the point: it is one of those
   // that LaneKind knows.
   Bsdf bsdf_at(const Material& material, const TexturePoint& at, const SampledWavelengths& wavelengths) const;
-  // The normal as bump and normal maps turn it; on the same side as at.geometric.
-  Vector3d shading_normal(const Material& material, const Interaction& at) const;
+  // The normal as bump and normal maps turn it; on the same side as at.geometric. `any_normal`:
+  // takes_any_normal of what scatters there.
+  Vector3d shading_normal(const Material& material, const Interaction& at, bool any_normal = false) const;
   // What the tangent of the frame around it follows. A map turns the frame of the smooth normal, whose
   // tangent is perpendicular to that, as in pbrt and Mitsuba.
   static Vector3d tangent(const Material& material, const Interaction& at);

@@ -57,11 +57,6 @@ bool owed_for_pane(Scatterer& s) {
   return true;
 }
 
-// Null where chance chooses nothing of the surface.
-const Material* chosen_at(const Tracing& tracing, const Scatterer& s, const Event& event) {
-  RandomStream chance(stream_of(s, RayRandom::choice));
-  return tracing.scene.materials.choose(event.surface.material, event.at, chance);
-}
 MetMaterial scattering(const Tracing& tracing, Scatterer& s, const Event& event, const Material& material) {
   const Materials& materials = tracing.scene.materials;
   if (materials.disperses(material, event.at)) s.disperse();
@@ -140,15 +135,25 @@ bool is_spent(const Tracing& tracing, const PhotonPath& photon) {
   return photon.depth + 2 > static_cast<std::uint32_t>(tracing.settings().max_depth);
 }
 
-MetMaterial material_at(const Tracing& tracing, CameraPath& path, const Event& event) {
-  if (const Material* material = chosen_at(tracing, path, event))
-    return scattering(tracing, path, event, *material);
+void pass_nothing(const Tracing& tracing, CameraPath& path, const Surface& surface, const Interaction& at) {
   count_straight(tracing, path);
-  pass_straight(tracing, path, event.at, &event.surface);
+  pass_straight(tracing, path, at, &surface);
+}
+
+const Material* chosen_at(const Tracing& tracing, const Scatterer& s, const Surface& surface,
+                          const Interaction& at) {
+  RandomStream chance(stream_of(s, RayRandom::choice));
+  return tracing.scene.materials.choose(surface.material, at, chance);
+}
+
+MetMaterial material_at(const Tracing& tracing, CameraPath& path, const Event& event) {
+  if (const Material* material = chosen_at(tracing, path, event.surface, event.at))
+    return scattering(tracing, path, event, *material);
+  pass_nothing(tracing, path, event.surface, event.at);
   return {nullptr, true};
 }
 MetMaterial material_at(const Tracing& tracing, PhotonPath& photon, const Event& event) {
-  if (const Material* material = chosen_at(tracing, photon, event))
+  if (const Material* material = chosen_at(tracing, photon, event.surface, event.at))
     return scattering(tracing, photon, event, *material);
   count_straight(tracing, photon);
   if (event.kind.sheet) pass_sheet(photon);

@@ -129,6 +129,11 @@ bool go_on(const Tracing& tracing, PhotonPath& photon, float u, bool specular);
 bool is_spent(const Tracing& tracing, const CameraPath& path);
 bool is_spent(const Tracing& tracing, const PhotonPath& photon);
 
+// The material that chance chooses of a surface; null: nothing.
+const Material* chosen_at(const Tracing& tracing, const Scatterer& s, const Surface& surface,
+                          const Interaction& at);
+// What a path does then.
+void pass_nothing(const Tracing& tracing, CameraPath& path, const Surface& surface, const Interaction& at);
 // The material that it meets where it scatters, and what scatters there. Empty material: it does not;
 // `goes_on` says whether it has passed, or ends.
 struct MetMaterial {

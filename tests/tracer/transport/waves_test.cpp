@@ -326,6 +326,46 @@ std::vector<Case> cases() {
          add_points(s);
          s.settings.direct_only = false;
        }},
+      {"two sides, a blend and masks",
+       [](Scene& s) {
+         const auto of = [&](Material m) {
+           s.materials.push_back(std::move(m));
+           return Id<Material>{static_cast<std::uint32_t>(s.materials.size() - 1)};
+         };
+         pictures(TextureFilter::bilinear)(s);
+         const Id<Material> painted = of(s.materials.back()), shiny = of(plastic(0.2f)),
+                            gold = of(rough_gold(Roughness::Distribution::ggx)),
+                            one_sided = of(principled(0)),
+                            glass = of(material(DielectricMaterial{ConstantSpectrum{1.5f}}));
+         s.materials[one_sided.value].two_sided = false;
+         const Id<Material> blend = of(material(BlendMaterial{painted, shiny, Id<Texture>{0}})),
+                            coat = of(material(BlendMaterial{blend, glass, 0.2f}));
+         s.shapes[0].material = of(material(TwoSidedMaterial{blend, gold}));
+         s.shapes[s.shapes.size() - 2].material = of(material(MaskMaterial{0.6f, one_sided}));
+         s.shapes.back().material = of(material(MaskMaterial{Id<Texture>{1}, coat}));
+         under({sun_and_sky(1)})(s);
+       }},
+      {"a lamp with holes, and what counts its passing",
+       [](Scene& s) {
+         s.materials.push_back(plastic(0.1f));
+         add_ball(
+             s,
+             material(MaskMaterial{0.5f, Id<Material>{static_cast<std::uint32_t>(s.materials.size() - 1)}}),
+             AreaLight{.radiance = ConstantSpectrum{4}, .two_sided = true});
+         s.settings.straight_counts = true;
+       }},
+      {"bumps of patterns",
+       [](Scene& s) {
+         PatternTexture wrinkles;
+         wrinkles.kind = PatternTexture::Kind::wrinkles;
+         wrinkles.map = {{0, ConstantSpectrum{0}}, {1, ConstantSpectrum{0.3f}}};
+         wrinkles.texture_to_world = scale({0.1, 0.1, 0.1});
+         s.textures.push_back({wrinkles, true, "", {}});
+         add_block(s, finish(1.5f, 0.5f));
+         add_ball(s, plastic(0.2f));
+         for (Material& m : s.materials)
+           m.displacement = FloatParameter{Id<Texture>{static_cast<std::uint32_t>(s.textures.size() - 1)}};
+       }},
       {"to the end",
        [](Scene& s) {
          add_block(s, plastic(0.2f));

@@ -4,7 +4,7 @@
 // W paths of a list; behind its end the last one again.
 struct Group {
   CameraPath* path[W];
-  const LaneSurface* surface[W];
+  const LaneMaterial* material[W];
   std::uint32_t place[W];
   int valid;
 };
@@ -15,7 +15,7 @@ VITRAIL_LANES Group group_of(const LaneWork& work, const LaneList& list, std::si
   for (int j = 0; j < W; ++j) {
     g.place[j] = list.places[first + static_cast<std::size_t>(j < g.valid ? j : g.valid - 1)];
     g.path[j] = work.paths + g.place[j];
-    g.surface[j] = work.scene.surfaces.data() + work.surface[g.place[j]];
+    g.material[j] = work.scene.materials.data() + work.material[g.place[j]];
   }
   return g;
 }

@@ -19,11 +19,11 @@ VITRAIL_LANES BsdfSample<D> sample(const Conductor<D>& bsdf, Vector<D> out, F, F
 // Reflectances of those whose surface has an image; other lanes keep what they have. Not inlined into what
 // has no images.
 [[gnu::noinline]] void look_up_images(const Group& g, D u, D v, Four<F>& reflectance) {
-  unsigned left = bits(gather_mask<D>(VITRAIL_EACH(g.surface[j]->texture.image != nullptr)));
+  unsigned left = bits(gather_mask<D>(VITRAIL_EACH(g.material[j]->texture.image != nullptr)));
   while (left != 0) {
-    const LaneTexture& of = g.surface[__builtin_ctz(left)]->texture;
+    const LaneTexture& of = g.material[__builtin_ctz(left)]->texture;
     const Mask<D> those = gather_mask<D>(
-        VITRAIL_EACH(g.surface[j]->texture.image != nullptr && g.surface[j]->texture.id == of.id));
+        VITRAIL_EACH(g.material[j]->texture.image != nullptr && g.material[j]->texture.id == of.id));
     const auto d = [](float x) __attribute__((always_inline)) { return static_cast<double>(x); };
     const UvMapping& m = of.mapping;
     const Four<F> found = bilinear<D>(
@@ -39,17 +39,18 @@ VITRAIL_LANES BsdfSample<D> sample(const Conductor<D>& bsdf, Vector<D> out, F, F
 
 struct ReadLambert {
   static constexpr bool is_specular = false;
+  static constexpr bool takes_any_normal = true;
   VITRAIL_LANES static Lambert<D> read(const LaneWork& work, const Group& g, const Interaction<D>& at) {
     Lambert<D> bsdf;
-    const D c0 = to_doubles(gather<F>(VITRAIL_EACH(g.surface[j]->sigmoid.c0))),
-            c1 = to_doubles(gather<F>(VITRAIL_EACH(g.surface[j]->sigmoid.c1))),
-            c2 = to_doubles(gather<F>(VITRAIL_EACH(g.surface[j]->sigmoid.c2)));
+    const D c0 = to_doubles(gather<F>(VITRAIL_EACH(g.material[j]->sigmoid.c0))),
+            c1 = to_doubles(gather<F>(VITRAIL_EACH(g.material[j]->sigmoid.c1))),
+            c2 = to_doubles(gather<F>(VITRAIL_EACH(g.material[j]->sigmoid.c2)));
     for (int i = 0; i < 4; ++i)
       bsdf.reflectance[i] = sigmoid(c0, c1, c2, gather<F>(VITRAIL_EACH(g.path[j]->wavelengths.lambda_nm[i])));
-    const F constant = gather<F>(VITRAIL_EACH(g.surface[j]->constant));
+    const F constant = gather<F>(VITRAIL_EACH(g.material[j]->constant));
     for (int i = 0; i < 4; ++i) bsdf.reflectance[i] = select<F>(constant >= 0, constant, bsdf.reflectance[i]);
     for (int j = 0; j < W; ++j)
-      if (g.surface[j]->has_parameters)
+      if (g.material[j]->has_parameters)
         for (int i = 0; i < 4; ++i) set_lane(bsdf.reflectance[i], j, work.bsdfs[g.place[j]].a.v[i]);
     if (work.scene.has_textures) look_up_images(g, at.u, at.v, bsdf.reflectance);
     return bsdf;
@@ -69,6 +70,7 @@ VITRAIL_LANES Conductor<D> conductor_of(const LaneWork& work, const Group& g) {
 }
 struct ReadMetal {
   static constexpr bool is_specular = false;
+  static constexpr bool takes_any_normal = false;
   VITRAIL_LANES static Conductor<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
     return conductor_of(work, g);
   }
@@ -82,6 +84,7 @@ VITRAIL_LANES BsdfSample<D> sample(const SmoothConductor& bsdf, Vector<D> out, F
 }
 struct ReadMirror {
   static constexpr bool is_specular = true;
+  static constexpr bool takes_any_normal = false;
   VITRAIL_LANES static SmoothConductor read(const LaneWork& work, const Group& g, const Interaction<D>&) {
     return {conductor_of(work, g)};
   }
@@ -95,12 +98,14 @@ VITRAIL_LANES Plastic<D> plastic_of(const LaneWork& work, const Group& g) {
 }
 struct ReadPlastic {
   static constexpr bool is_specular = false;
+  static constexpr bool takes_any_normal = false;
   VITRAIL_LANES static Plastic<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
     return plastic_of(work, g);
   }
 };
 struct ReadRoughPlastic {
   static constexpr bool is_specular = false;
+  static constexpr bool takes_any_normal = false;
   VITRAIL_LANES static auto read(const LaneWork& work, const Group& g, const Interaction<D>&) {
     const auto table = [&](int j) __attribute__((always_inline)) {
       return work.bsdfs[g.place[j]].external_transmittance;
@@ -111,6 +116,7 @@ struct ReadRoughPlastic {
 
 struct ReadPrincipled {
   static constexpr bool is_specular = false;
+  static constexpr bool takes_any_normal = false;
   VITRAIL_LANES static Principled<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
     const auto number = [&](double PrincipledBsdf::*of) __attribute__((always_inline)) {
       return gather<D>(VITRAIL_EACH(work.bsdfs[g.place[j]].principled.*of));
@@ -134,6 +140,7 @@ struct ReadPrincipled {
 
 struct ReadFinish {
   static constexpr bool is_specular = false;
+  static constexpr bool takes_any_normal = true;
   VITRAIL_LANES static Finish<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
     const auto number = [&](double FinishBsdf::*of) __attribute__((always_inline)) {
       return gather<D>(VITRAIL_EACH(work.bsdfs[g.place[j]].finish.*of));

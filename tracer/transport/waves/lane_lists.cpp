@@ -2,6 +2,7 @@
 #include "tracer/transport/waves/lane_lists.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "tracer/transport/connect.h"
 #include "tracer/transport/first_surface.h"
@@ -13,6 +14,18 @@ namespace {
 
 // Behind so many events mirrors and glass let go of paths by chance.
 constexpr std::uint32_t most_events = 250;
+
+std::uint32_t index_of(const Tracing& tracing, const Material& material) {
+  return static_cast<std::uint32_t>(&material - tracing.manifest().materials.data());
+}
+
+PlacedHit placed_hit(const Materials& materials, const Material& material, const LaneMaterial& of,
+                     const Interaction& at) {
+  const Vector3d shading =
+      of.is_tilted ? materials.shading_normal(material, at, of.is_diffuse()) : at.shading;
+  const Vector3d along = of.is_tilted ? Materials::tangent(material, at) : at.dpdu;
+  return {at.p, at.geometric, shading, along, at.rounding, at.uv};
+}
 
 // Where a path has hit a triangle of a domain itself.
 Point3d hit_point(const DomainView& domain, const Hit& hit) {
@@ -27,7 +40,8 @@ Point3d hit_point(const DomainView& domain, const Hit& hit) {
 
 }  // namespace
 
-LaneLists::LaneLists(std::size_t most) : surface_(most), next_(most), bsdfs_(most), placed_(most) {
+LaneLists::LaneLists(std::size_t most)
+    : surface_(most), material_(most), next_(most), bsdfs_(most), placed_(most) {
   for (auto& kind : lists_)
     for (auto& placing : kind)
       for (auto& list : placing) list.reserve(most);
@@ -37,11 +51,10 @@ LaneLists::LaneLists(std::size_t most) : surface_(most), next_(most), bsdfs_(mos
 bool LaneLists::apply_to(const Tracing& tracing) { return tracing.stages && !tracing.photons; }
 
 std::uint32_t LaneLists::candidates_of(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
-                                       bool diffuse) const {
+                                       bool is_placed, const LaneMaterial& of) const {
   if (path.pdf > 0) return 1;
-  const Point3d p =
-      path.hit.depth > 0 ? placed_[place].p : hit_point(*tracing.resident[path.hit_domain], path.hit);
-  return light_candidates(tracing, path, p, diffuse);
+  const Point3d p = is_placed ? placed_[place].p : hit_point(*tracing.resident[path.hit_domain], path.hit);
+  return light_candidates(tracing, path, p, of.is_diffuse());
 }
 
 bool LaneLists::take_leaving(Tracing& tracing, CameraPath& path, std::uint32_t place) {
@@ -54,6 +67,22 @@ bool LaneLists::take_leaving(Tracing& tracing, CameraPath& path, std::uint32_t p
   return true;
 }
 
+void LaneLists::enlist(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
+                       const LaneMaterial& of, const Interaction* at, bool is_placed) {
+  const Materials& materials = tracing.scene.materials;
+  const Material& material = tracing.manifest().materials[material_[place]];
+  is_placed = is_placed || of.is_tilted;
+  if (is_placed) placed_[place] = placed_hit(materials, material, of, *at);
+  if (of.is_textured)
+    bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, at->texture_point(), path.wavelengths));
+  else if (of.has_parameters)
+    bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, {}, path.wavelengths));
+  if (domains_.size() < tracing.resident.size()) domains_.resize(tracing.resident.size());
+  domains_[path.hit_domain] = lanes::tables_of(*tracing.resident[path.hit_domain]);
+  const std::uint32_t candidates = of.is_specular() ? 1 : candidates_of(tracing, path, place, is_placed, of);
+  lists_[static_cast<std::size_t>(of.kind)][is_placed][candidates > 1].push_back(place);
+}
+
 bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   if (is_too_dark(tracing, path)) return false;
   const bool by_its_pane = path.pane.within && (path.pane.parts || path.pane.owes);
@@ -63,44 +92,43 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   if (at_its_end || path.passed) return false;
   const Surface& surface = surface_at(tracing, path);
   const auto index = static_cast<std::uint32_t>(&surface - tracing.manifest().surfaces.data());
-  const LaneSurface& of = tracing.scene.lanes.surfaces[index];
-  if (of.kind == LaneKind::none || (of.emits && is_hidden(tracing, path))) return false;
+  const LaneSurface& on = tracing.scene.lanes.surfaces[index];
+  if (!on.is_for_lanes || (on.emits && is_hidden(tracing, path))) return false;
+
+  std::optional<Interaction> at;
+  const Material* material = &tracing.manifest().materials[surface.material];
+  if (on.is_chosen) {
+    at = interaction_at(tracing, path, cone_of(tracing, path, sample_of(path)));
+    material = chosen_at(tracing, path, surface, *at);
+  }
+  const std::uint32_t chosen = on.is_chosen && material ? index_of(tracing, *material) : surface.material;
+  const LaneMaterial* const of = material ? tracing.scene.lanes.materials.data() + chosen : nullptr;
+  if (of && (of->kind == LaneKind::none || (on.is_chosen && of->kind == LaneKind::glass))) return false;
 
   find_wavelengths(tracing, path, path.film);
-  if (of.kind != LaneKind::glass) path.pane = {};
-  const bool is_placed = path.hit.depth > 0 || of.is_tilted;
-  const Material& material = tracing.manifest().materials[surface.material];
-  const Materials& materials = tracing.scene.materials;
-  if (is_placed || of.emits || of.is_textured || path.unrecorded) {
-    const Interaction at = interaction_at(tracing, path, cone_of(tracing, path, sample_of(path)));
-    if (path.unrecorded) [[unlikely]]
-      record_first_surface(tracing, path, {surface, materials.kind(surface.material), at, true});
-    if (of.emits) add_emission(tracing, path, at, static_cast<std::uint32_t>(surface.area_light));
-    placed_[place] = {at.p, at.geometric, at.shading, at.dpdu, at.rounding, at.uv};
-    if (of.is_tilted)
-      placed_[place].shading = materials.shading_normal(material, at),
-      placed_[place].dpdu = Materials::tangent(material, at);
-    if (of.is_textured)
-      bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, at.texture_point(), path.wavelengths));
-  }
-  if (of.has_parameters && !of.is_textured)
-    bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, {}, path.wavelengths));
+  if (!of || of->kind != LaneKind::glass) path.pane = {};
+  if (!at && (path.hit.depth > 0 || of->is_tilted || of->is_textured || on.emits || path.unrecorded))
+    at = interaction_at(tracing, path, cone_of(tracing, path, sample_of(path)));
   widen_cone(tracing, path, sample_of(path), path.hit.t);
-  surface_[place] = index;
-  if (domains_.size() < tracing.resident.size()) domains_.resize(tracing.resident.size());
-  domains_[path.hit_domain] = lanes::tables_of(*tracing.resident[path.hit_domain]);
-  const bool is_specular = of.kind == LaneKind::mirror || of.kind == LaneKind::glass;
-  const bool is_diffuse = of.kind == LaneKind::diffuse || of.kind == LaneKind::finish;
-  const std::uint32_t candidates = is_specular ? 1 : candidates_of(tracing, path, place, is_diffuse);
-  lists_[static_cast<std::size_t>(of.kind)][is_placed][candidates > 1].push_back(place);
+  if (on.emits) add_emission(tracing, path, *at, static_cast<std::uint32_t>(surface.area_light));
+  if (path.unrecorded) [[unlikely]]
+    record_first_surface(tracing, path, {surface, tracing.scene.materials.kind(surface.material), *at, true});
   ++taken_;
+  if (of) {
+    surface_[place] = index;
+    material_[place] = chosen;
+    enlist(tracing, path, place, *of, at ? &*at : nullptr, path.hit.depth > 0 || on.is_chosen);
+  } else {
+    pass_nothing(tracing, path, surface, *at);
+    passing_.push_back(place);
+  }
   return true;
 }
 
 // So that paths side by side look up one image.
 void LaneLists::sort_by_texture(const LaneScene& scene) {
   if (!scene.has_textures) return;
-  const auto texture = [&](std::uint32_t place) { return scene.surfaces[surface_[place]].texture.id; };
+  const auto texture = [&](std::uint32_t place) { return scene.materials[material_[place]].texture.id; };
   for (auto& placing : lists_[static_cast<std::size_t>(LaneKind::diffuse)])
     for (auto& list : placing) std::ranges::sort(list, {}, texture);
 }
@@ -114,6 +142,7 @@ void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
                 .scene = tracing.scene.lanes,
                 .paths = paths,
                 .surface = surface_.data(),
+                .material = material_.data(),
                 .bsdfs = bsdfs_.data(),
                 .placed = placed_.data(),
                 .domains = domains_.data(),
@@ -137,8 +166,11 @@ void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
         places.clear();
       }
   tracing.counters.rays_shadow += work.rays_shadow;
-  tracing.counters.rays_indirect += work.next_count;
-  tracing.counters.died += taken_ - work.next_count;
+  live.insert(live.end(), passing_.begin(), passing_.end());
+  const std::size_t going_on = work.next_count + passing_.size();
+  passing_.clear();
+  tracing.counters.rays_indirect += going_on;
+  tracing.counters.died += taken_ - going_on;
   live.insert(live.end(), next_.begin(), next_.begin() + static_cast<std::ptrdiff_t>(work.next_count));
   taken_ = 0;
 }

@@ -24,17 +24,22 @@ class LaneLists {
 
  private:
   bool take_leaving(Tracing& tracing, CameraPath& path, std::uint32_t place);
+  // Into the list of the material that it has met. `at`: null where nothing is asked of it.
+  [[gnu::always_inline]] inline void enlist(const Tracing& tracing, const CameraPath& path,
+                                            std::uint32_t place, const LaneMaterial& of,
+                                            const Interaction* at, bool is_placed);
   void sort_by_texture(const LaneScene& scene);
   std::uint32_t candidates_of(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
-                              bool diffuse) const;
+                              bool is_placed, const LaneMaterial& of) const;
 
   // Places by kind, by whether the hit is placed, by whether there are several candidates for a light.
   std::array<std::array<std::array<std::vector<std::uint32_t>, 2>, 2>, lane_kinds> lists_;
-  std::vector<std::uint32_t> surface_, next_;  // by place; places
-  std::vector<LaneBsdf> bsdfs_;                // by place
-  std::vector<PlacedHit> placed_;              // by place
-  std::vector<lanes::DomainTables> domains_;   // by number; of those where paths in lists have hits
-  std::vector<std::uint32_t> leaving_;         // places
+  std::vector<std::uint32_t> surface_, material_, next_;  // by place, by place; places
+  std::vector<LaneBsdf> bsdfs_;                           // by place
+  std::vector<PlacedHit> placed_;                         // by place
+  std::vector<lanes::DomainTables> domains_;  // by number; of those where paths in lists have hits
+  std::vector<std::uint32_t> leaving_;        // places
+  std::vector<std::uint32_t> passing_;        // places, of those that have come to nothing of their surface
   std::size_t taken_ = 0;
 };
 

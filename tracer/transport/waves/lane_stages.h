@@ -14,8 +14,8 @@
 
 namespace vitrail {
 
-// Of a hit within an instance, of a quadric, or of a surface whose normal a map turns: what of its
-// Interaction the stages read.
+// Of a hit within an instance, of a quadric, or of a surface whose material is chosen or whose normal is
+// turned: what of its Interaction the stages read.
 struct PlacedHit {
   Point3d p;
   Vector3d geometric, shading, dpdu;
@@ -28,7 +28,8 @@ struct LaneWork {
   Tracing& tracing;
   const LaneScene& scene;
   CameraPath* paths;
-  const std::uint32_t* surface;        // of a path's hit, in LaneScene::surfaces
+  const std::uint32_t* surface;        // of a path's hit, in Manifest::surfaces
+  const std::uint32_t* material;       // that it has met there, in LaneScene::materials
   const LaneBsdf* bsdfs;               // of those whose surface has one
   const PlacedHit* placed;             // of hits that are in a list of such
   const lanes::DomainTables* domains;  // of hits' domains

@@ -21,9 +21,12 @@ void scatter(LaneWork& work, const LaneList& list) {
     const Group g = group_of(work, list, first);
     const Interaction<D> at = interaction_of(work, g, list.is_placed);
     const Carried carried(g);
-    const Mask<D> on = at.front | gather_mask<D>(VITRAIL_EACH(g.surface[j]->two_sided));
+    const Mask<D> on = at.front | gather_mask<D>(VITRAIL_EACH(g.material[j]->two_sided));
     const Frame<D> frame = frame_around(at.shading, at.dpdu, at.side());
-    const Vector<D> out = frame.to_local(at.out);
+    Vector<D> out = frame.to_local(at.out);
+    // As local_out (shading.cpp) has it.
+    if constexpr (Read::takes_any_normal)
+      out.z = select<D>(gather_mask<D>(VITRAIL_EACH(g.material[j]->is_raised)), abs(out.z), out.z);
     const auto bsdf = Read::read(work, g, at);
     if constexpr (!Read::is_specular)
       if (can_sample) connect(work, g, carried, at, bsdf, frame, out, on, list.candidates);
@@ -63,8 +66,8 @@ void scatter_glass(LaneWork& work, const LaneList& list) {
     const Interaction<D> at = interaction_of(work, g, list.is_placed);
     const Carried carried(g);
     const Vector<D> normal = at.shading * at.side();
-    const F behind = gather<F>(VITRAIL_EACH(g.surface[j]->eta_behind)),
-            before = gather<F>(VITRAIL_EACH(g.surface[j]->eta_before));
+    const F behind = gather<F>(VITRAIL_EACH(g.material[j]->eta_behind)),
+            before = gather<F>(VITRAIL_EACH(g.material[j]->eta_before));
     const D eta = to_doubles(select<F>(mask_for<F>(at.front), behind / before, before / behind));
     const D cosine = dot(at.out, normal);
     const F reflectance = to_floats(fresnel_dielectric(cosine, eta));
