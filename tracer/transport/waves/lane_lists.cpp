@@ -2,7 +2,6 @@
 #include "tracer/transport/waves/lane_lists.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "tracer/transport/connect.h"
 #include "tracer/transport/first_surface.h"
@@ -95,10 +94,14 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   const LaneSurface& on = tracing.scene.lanes.surfaces[index];
   if (!on.is_for_lanes || (on.emits && is_hidden(tracing, path))) return false;
 
-  std::optional<Interaction> at;
+  const Interaction* at = nullptr;
+  const auto find = [&]() __attribute__((noinline)) {
+    interaction_ = interaction_at(tracing, path, cone_of(tracing, path, sample_of(path)));
+    at = &interaction_;
+  };
   const Material* material = &tracing.manifest().materials[surface.material];
   if (on.is_chosen) {
-    at = interaction_at(tracing, path, cone_of(tracing, path, sample_of(path)));
+    find();
     material = chosen_at(tracing, path, surface, *at);
   }
   const std::uint32_t chosen = on.is_chosen && material ? index_of(tracing, *material) : surface.material;
@@ -107,8 +110,7 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
 
   find_wavelengths(tracing, path, path.film);
   if (!of || of->kind != LaneKind::glass) path.pane = {};
-  if (!at && (path.hit.depth > 0 || of->is_tilted || of->is_textured || on.emits || path.unrecorded))
-    at = interaction_at(tracing, path, cone_of(tracing, path, sample_of(path)));
+  if (!at && (path.hit.depth > 0 || of->is_tilted || of->is_textured || on.emits || path.unrecorded)) find();
   widen_cone(tracing, path, sample_of(path), path.hit.t);
   if (on.emits) add_emission(tracing, path, *at, static_cast<std::uint32_t>(surface.area_light));
   if (path.unrecorded) [[unlikely]]
@@ -117,7 +119,7 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   if (of) {
     surface_[place] = index;
     material_[place] = chosen;
-    enlist(tracing, path, place, *of, at ? &*at : nullptr, path.hit.depth > 0 || on.is_chosen);
+    enlist(tracing, path, place, *of, at, path.hit.depth > 0 || on.is_chosen);
   } else {
     pass_nothing(tracing, path, surface, *at);
     passing_.push_back(place);

@@ -40,6 +40,7 @@ class LaneLists {
   std::vector<lanes::DomainTables> domains_;  // by number; of those where paths in lists have hits
   std::vector<std::uint32_t> leaving_;        // places
   std::vector<std::uint32_t> passing_;        // places, of those that have come to nothing of their surface
+  Interaction interaction_;                   // of the path at hand, where something is asked of it
   std::size_t taken_ = 0;
 };
 
