@@ -15,6 +15,8 @@ namespace vitrail {
 // In [−1, 1], without a mean, of standard deviation 0.117. `which`: of independent ones. 0 where p is not
 // finite, or beyond 2⁵².
 double lattice_noise(Point3d p, std::uint64_t which = 0);
+// Of which = 1, 2 and 3, for less than three of them.
+Vector3d lattice_noises(Point3d p);
 
 // 0 … 1: of `bozo` and all that is as smooth.
 double narrow_noise(Point3d p);

@@ -16,9 +16,7 @@ using Kind = PatternTexture::Kind;
 
 constexpr double deviation = 0.26 / 0.117;  // of POV-Ray's vectors over that of the noise here
 
-Vector3d noises(Point3d p) {
-  return Vector3d{lattice_noise(p, 1), lattice_noise(p, 2), lattice_noise(p, 3)} * deviation;
-}
+Vector3d noises(Point3d p) { return lattice_noises(p) * deviation; }
 
 Vector3d wrinkles(Point3d p) {
   constexpr int octaves = 10;
