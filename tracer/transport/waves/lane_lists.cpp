@@ -2,6 +2,8 @@
 #include "tracer/transport/waves/lane_lists.h"
 
 #include <algorithm>
+#include <new>
+#include <type_traits>
 
 #include "tracer/transport/connect.h"
 #include "tracer/transport/first_surface.h"
@@ -35,6 +37,12 @@ Point3d hit_point(const DomainView& domain, const Hit& hit) {
   };
   const Point3d p0 = corner(0);
   return p0 + (corner(1) - p0) * hit.u + (corner(2) - p0) * hit.v;
+}
+
+// Made in place, as a copy costs much, and not inlined: most paths have hit a triangle of a domain itself.
+static_assert(std::is_trivially_destructible_v<Interaction>);
+[[gnu::noinline]] const Interaction* find(const Tracing& tracing, const CameraPath& path, Interaction& at) {
+  return new (&at) Interaction(interaction_at(tracing, path, cone_of(tracing, path, sample_of(path))));
 }
 
 }  // namespace
@@ -95,22 +103,21 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   if (!on.is_for_lanes || (on.emits && is_hidden(tracing, path))) return false;
 
   const Interaction* at = nullptr;
-  const auto find = [&]() __attribute__((noinline)) {
-    interaction_ = interaction_at(tracing, path, cone_of(tracing, path, sample_of(path)));
-    at = &interaction_;
-  };
-  const Material* material = &tracing.manifest().materials[surface.material];
+  const LaneMaterial* const materials = tracing.scene.lanes.materials.data();
+  std::uint32_t chosen = surface.material;
+  const LaneMaterial* of = materials + chosen;
   if (on.is_chosen) {
-    find();
-    material = chosen_at(tracing, path, surface, *at);
+    at = find(tracing, path, interaction_);
+    const Material* const material = chosen_at(tracing, path, surface, *at);
+    if (material) chosen = index_of(tracing, *material);
+    of = material ? materials + chosen : nullptr;
+    if (of && (of->kind == LaneKind::none || of->kind == LaneKind::glass)) return false;
   }
-  const std::uint32_t chosen = on.is_chosen && material ? index_of(tracing, *material) : surface.material;
-  const LaneMaterial* const of = material ? tracing.scene.lanes.materials.data() + chosen : nullptr;
-  if (of && (of->kind == LaneKind::none || (on.is_chosen && of->kind == LaneKind::glass))) return false;
 
   find_wavelengths(tracing, path, path.film);
   if (!of || of->kind != LaneKind::glass) path.pane = {};
-  if (!at && (path.hit.depth > 0 || of->is_tilted || of->is_textured || on.emits || path.unrecorded)) find();
+  if (!at && (path.hit.depth > 0 || of->is_tilted || of->is_textured || on.emits || path.unrecorded))
+    at = find(tracing, path, interaction_);
   widen_cone(tracing, path, sample_of(path), path.hit.t);
   if (on.emits) add_emission(tracing, path, *at, static_cast<std::uint32_t>(surface.area_light));
   if (path.unrecorded) [[unlikely]]
