@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
+#include "importers/povray/read/noise.h"
 #include "importers/povray/read/number_words.h"
 #include "importers/povray/read/pattern_field.h"
 #include "importers/povray/read/reader.h"
@@ -253,9 +256,7 @@ class Compiler {
   std::size_t operands_ = 0;
 };
 
-}  // namespace
-
-Shared<Function> read_function(Reader& reader) {
+std::shared_ptr<Function> read_braces(Reader& reader) {
   auto function = std::make_shared<Function>();
   if (reader.accept('(')) {
     while (!reader.accept(')')) {
@@ -299,6 +300,39 @@ Shared<Function> read_function(Reader& reader) {
   return function;
 }
 
+// Of a function and of those that it calls, each once.
+void say_notes(Reader& reader, const Function& function, const SourceLocation& place,
+               std::set<const Function*>& said) {
+  if (!function.notable || !said.insert(&function).second) return;
+  for (const Diagnostic& note : function.notes) reader.notes.add(note);
+  if (function.noisy) reader.notes.approximated(noise_elsewhere, place);
+  for (const auto& callee : function.callees) say_notes(reader, *callee, place, said);
+}
+
+void say_notes(Reader& reader, const Function& function, const SourceLocation& place) {
+  if (!function.notable) return;
+  std::set<const Function*> said;
+  say_notes(reader, function, place, said);
+}
+
+}  // namespace
+
+Shared<Function> declare_function(Reader& reader) {
+  Notes others = std::exchange(reader.notes, {});
+  const std::shared_ptr<Function> function = read_braces(reader);
+  function->notes = std::exchange(reader.notes, std::move(others)).take();
+  function->notable |= !function->notes.empty() ||
+                       std::ranges::any_of(function->callees, [](const auto& f) { return f->notable; });
+  return function;
+}
+
+Shared<Function> read_function(Reader& reader) {
+  const SourceLocation place = reader.location(reader.peek().place);
+  const Shared<Function> function = declare_function(reader);
+  say_notes(reader, *function, place);
+  return function;
+}
+
 Value call_function(Reader& reader, const Function& function, const std::vector<double>& arguments,
                     const Token& name) {
   const std::size_t wanted = function.arguments();
@@ -310,6 +344,7 @@ Value call_function(Reader& reader, const Function& function, const std::vector<
     reader.fail(
         fmt::format("function {} takes {} arguments, not {}", name.symbol->name, wanted, arguments.size()),
         name.place);
+  say_notes(reader, function, reader.location(name.place));
   if (function.gives_vector()) return evaluate_vector(function, arguments.data());
   return Numbers(evaluate(function, arguments.data()));
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "importers/povray/read/value.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail::pov {
 
@@ -59,12 +60,16 @@ struct Function {
   std::size_t count = 3;
   int number = 0;         // of `built_in` in functions.inc
   bool unknown = false;   // a formula that is not known here: 0
+  bool noisy = false;     // `built_in` has noise
   std::size_t depth = 0;  // of the stack
   // In place of code:
   std::shared_ptr<const PatternField> pattern, pigment;  // a number or a colour at a point
   Shared<Pigment> source;                                // of `pattern` or `pigment`
   Shared<Placement> placement;                           // a point moved
   std::shared_ptr<const Spline> spline;
+
+  Diagnostics notes;     // said where it is used: a file of functions has many that a scene never calls
+  bool notable = false;  // it or one that it calls has notes or noise
 
   bool gives_vector() const { return pigment || placement || spline; }
   std::size_t arguments() const { return built_in ? count : spline ? 1 : parameters.size(); }
@@ -90,8 +95,10 @@ struct FormulaOfColor {
 };
 std::optional<FormulaOfColor> formula_of_color(const Function& function);
 
-// Behind the word `function`.
+// Behind the word `function`. What a function approximates is said here.
 Shared<Function> read_function(Reader& reader);
+// … and of this one where it is used: by read_function of a caller, or by call_function.
+Shared<Function> declare_function(Reader& reader);
 // A call in an expression: a number, or a colour or a vector.
 Value call_function(Reader& reader, const Function& function, const std::vector<double>& arguments,
                     const Token& name);

@@ -82,6 +82,8 @@ Shared<Function> internal_function(int number) {
   auto function = std::make_shared<Function>();
   function->built_in = found->value;
   function->count = found->count, function->number = number;
+  function->noisy = function->notable =
+      found->value == noise_of || found->value == hetero_mf || found->value == ridged_mf;
   return function;
 }
 

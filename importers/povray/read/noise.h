@@ -7,4 +7,7 @@ namespace vitrail::pov {
 // POV-Ray's has bumps in other places.
 double noise(double x, double y, double z);
 
+inline constexpr const char* noise_elsewhere =
+    "noise: of the same statistics as POV-Ray's, and in other places";
+
 }  // namespace vitrail::pov

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "importers/povray/read/extents.h"
+#include "importers/povray/read/noise.h"
 #include "importers/povray/read/number_words.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/transforms.h"
@@ -140,8 +141,7 @@ std::optional<Numbers> Reader::function_of(const Token& word) {
       result = numbers_of(transform_vector(rotate(degrees * std::numbers::pi / 180, axis), a));
     }
     if (name == Word::vturbulence_) {
-      notes.approximated("noise: of the same statistics as POV-Ray's, and in other places",
-                         location(word.place));
+      notes.approximated(noise_elsewhere, location(word.place));
       const double omega = argument(), octaves = argument();
       const Vector3d p = first_three(vector_argument().promoted(3));
       result = numbers_of(

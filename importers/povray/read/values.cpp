@@ -154,7 +154,7 @@ Value read_value(Reader& reader) {
       return Shared<Placement>(std::make_shared<Placement>(Placement{read_transform_block(reader)}));
     case Word::function_:
       read();
-      return read_function(reader);
+      return declare_function(reader);
     case Word::array_:
       read();
       return read_array(reader);
