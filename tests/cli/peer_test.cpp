@@ -133,5 +133,35 @@ TEST_F(PeerMitsuba, ComparesBoxesWhereFiltersReachDifferently) {
   EXPECT_EQ(result.status, 0) << result.output;
 }
 
+// The scale distorts the image there: one that was taken out made the picture brighter by a third.
+TEST_F(PeerMitsuba, KeepsTheScaleThatDistortsAnEnvironment) {
+  std::ofstream image(folder_ / "sky.pfm", std::ios::binary);
+  image << "PF\n8 4\n-1.0\n";
+  for (int i = 0; i < 32; ++i)
+    for (const float value : {i < 8 ? 4.0f : 0.1f, 0.2f * static_cast<float>(i % 8), 0.5f})
+      image.write(reinterpret_cast<const char*>(&value), sizeof value);
+  image.close();
+  std::string text = scene("path", R"(<emitter type="envmap"><string name="filename" value="sky.pfm"/>
+      <transform name="to_world"><scale value="5"/></transform></emitter><shape type="sphere"/>)");
+  text.erase(text.find("<emitter type=\"constant\"/>"), 26);
+  const auto result = ask(write("in.xml", text), "exec python3 \"$@\"\n");
+  EXPECT_EQ(result.status, 0) << result.output;
+}
+
+// On a machine other than Windows POV-Ray refuses the word `bmp`.
+TEST_F(Peer, WritesBitmapsForPovRayAsAnotherKind) {
+  if (std::system("povray --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no povray on the path";
+  constexpr unsigned char bitmap[]{'B', 'M', 58, 0, 0, 0, 0, 0, 0,  0, 54, 0, 0, 0, 40, 0,  0,   0, 1, 0,
+                                   0,   0,   1,  0, 0, 0, 1, 0, 24, 0, 0,  0, 0, 0, 4,  0,  0,   0, 0, 0,
+                                   0,   0,   0,  0, 0, 0, 0, 0, 0,  0, 0,  0, 0, 0, 40, 80, 160, 0};
+  std::ofstream(folder_ / "colour.bmp", std::ios::binary)
+      .write(reinterpret_cast<const char*>(bitmap), sizeof bitmap);
+  const auto result = ask(write("in.xml", scene("path", R"(<shape type="rectangle"><bsdf type="diffuse">
+      <texture type="bitmap" name="reflectance"><string name="filename" value="colour.bmp"/></texture></bsdf></shape>)")),
+                          "exec povray \"$@\"\n", "out.pov");
+  EXPECT_THAT(result.output, HasSubstr("POV-Ray shows it"));
+  EXPECT_THAT(result.output, ::testing::Not(HasSubstr("refuses")));
+}
+
 }  // namespace
 }  // namespace vitrail

@@ -187,7 +187,8 @@ LightModel environment(Builder& builder, const Object& emitter) {
   const Transform to_world = emitter.transform("to_world", builder.report);
   if (!keeps_lengths(to_world))
     builder.report.approximated(
-        "to_world of an envmap: its turn alone; Mitsuba distorts the image where there is a scale",
+        "to_world of an envmap: its turn alone; Mitsuba distorts the image where there is a scale, which is "
+        "written to Mitsuba as it is",
         place_of(emitter, "to_world"));
   light.light_to_world = to_world * light_to_mitsuba();
   light.projection = EnvironmentLight::Projection::latitude_longitude;

@@ -100,6 +100,13 @@ Transform scale_of_one(const Transform& t) {
   return scale({1 / size, 1 / size, 1 / size});
 }
 
+// The scale that a file of Mitsuba's gives distorts its image, and does so in what is written.
+bool is_distorted_by_mitsuba(const Context& context) {
+  const auto& files = context.scene.files;
+  return context.origin.file < files.size() &&
+         std::filesystem::path(files[context.origin.file]).extension() == ".xml";
+}
+
 bool is_grey(RGB c) { return c.r == c.g && c.g == c.b; }
 
 struct WrittenEnvironment {
@@ -150,7 +157,7 @@ void write(Context& context, Element root, const EnvironmentLight& light) {
     const WrittenEnvironment written = environment(context, light);
     Element element = add(root, "emitter", "envmap");
     const Transform to_world = light.light_to_world * mitsuba_to_light();
-    add_transform(element, to_world * scale_of_one(to_world));
+    add_transform(element, is_distorted_by_mitsuba(context) ? to_world : to_world * scale_of_one(to_world));
     add_string(element, "filename", written.filename);
     add_float(element, "scale", static_cast<float>(written.scale));
   } catch (const Error& error) {

@@ -15,11 +15,12 @@ std::string suffix_of(const std::string& filename) {
   return suffix;
 }
 
+// POV-Ray 3.7 knows no word for .bmp outside of Windows.
 const std::map<std::string, std::string>& kinds() {
-  static const std::map<std::string, std::string> known{
-      {".png", "png"},   {".jpg", "jpeg"}, {".jpeg", "jpeg"}, {".tga", "tga"}, {".tif", "tiff"},
-      {".tiff", "tiff"}, {".gif", "gif"},  {".bmp", "bmp"},   {".ppm", "ppm"}, {".pgm", "pgm"},
-      {".iff", "iff"},   {".exr", "exr"},  {".hdr", "hdr"}};
+  static const std::map<std::string, std::string> known{{".png", "png"}, {".jpg", "jpeg"}, {".jpeg", "jpeg"},
+                                                        {".tga", "tga"}, {".tif", "tiff"}, {".tiff", "tiff"},
+                                                        {".gif", "gif"}, {".ppm", "ppm"},  {".pgm", "pgm"},
+                                                        {".iff", "iff"}, {".exr", "exr"},  {".hdr", "hdr"}};
   return known;
 }
 
