@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bundle/loaded_domain.h"
 
-#include "bundle/watched_files.h"
 #include "scene/system/underway.h"
 
 namespace vitrail {
@@ -41,7 +40,6 @@ std::uint64_t bytes_loaded(const Manifest& manifest, std::uint32_t domain) {
 SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain) {
   const std::filesystem::path file = domain_path(bundle, domain);
   const Underway underway("reading", file);
-  watch(file);
   auto mapped = std::make_shared<const MappedDomain>(file);
   check_domain(manifest, domain, *mapped, file);
   return mapped;
@@ -50,7 +48,6 @@ SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& b
 SharedDomain map_object(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t object) {
   const std::filesystem::path file = object_path(bundle, object);
   const Underway underway("reading", file);
-  watch(file);
   auto mapped = std::make_shared<const MappedDomain>(file);
   check_object(manifest, object, *mapped, file);
   return mapped;

@@ -12,6 +12,7 @@
 #include "bundle/domain_structure.h"
 #include "bundle/features.h"
 #include "bundle/piece_code.h"
+#include "bundle/watched_files.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
 
@@ -32,6 +33,7 @@ std::span<const std::byte> map(const std::filesystem::path& file) {
   const RegularFile in(file);
   if (!in.is_open())
     throw MachineError(fmt::format("cannot open {}: {}", file.string(), std::strerror(in.reason())));
+  watch(file, in.status());
   if (in.size() == 0) reject_domain(file, "it is empty");
   void* const data = ::mmap(nullptr, in.size(), PROT_READ, MAP_PRIVATE, in.descriptor(), 0);
   if (data == MAP_FAILED)

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bundle/watched_files.h"
 
-#include <sys/stat.h>
-
 #include <atomic>
 #include <map>
 #include <mutex>
@@ -56,9 +54,7 @@ bool has_changed(const Watched& w) {
 
 }  // namespace
 
-void watch(const std::filesystem::path& file) {
-  struct stat now;
-  if (::stat(file.c_str(), &now) != 0) return;  // who maps it says so
+void watch(const std::filesystem::path& file, const struct stat& now) {
   const std::lock_guard lock(registry().mutex);
   const auto known = registry().latest.find(file.native());
   if (known != registry().latest.end() && same_file(known->second->status, now)) return;

@@ -2,12 +2,14 @@
 // Files that stay mapped: what was verified once must not change while it is traced.
 #pragma once
 
+#include <sys/stat.h>
+
 #include <filesystem>
 
 namespace vitrail {
 
-// To be called before a file is mapped, each time. Any thread may.
-void watch(const std::filesystem::path& file);
+// To be called before an open file is mapped, each time, with what fstat says of it. Any thread may.
+void watch(const std::filesystem::path& file, const struct stat& now);
 
 // A watched file that has another size or time of modification than when it was first mapped; null: none. A
 // signal handler may ask. One that is gone, or has another in its place, goes on to exist where it is mapped,

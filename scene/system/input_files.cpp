@@ -53,15 +53,13 @@ const char* kind_of(mode_t mode) {
 RegularFile::RegularFile(const std::filesystem::path& file) {
   const Underway underway("opening", file);
   descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  struct stat status = {};
-  if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
+  if (descriptor_ < 0 || ::fstat(descriptor_, &status_) != 0) {
     reason_ = errno;
     return;
   }
-  size_ = static_cast<std::uint64_t>(status.st_size);
-  if (S_ISREG(status.st_mode)) return;
+  if (S_ISREG(status_.st_mode)) return;
   ::close(descriptor_);
-  throw Error(fmt::format("this is {}, not a file", kind_of(status.st_mode)), {file.string()});
+  throw Error(fmt::format("this is {}, not a file", kind_of(status_.st_mode)), {file.string()});
 }
 
 RegularFile::~RegularFile() {

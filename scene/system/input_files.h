@@ -3,6 +3,8 @@
 // it must not write over.
 #pragma once
 
+#include <sys/stat.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -23,13 +25,15 @@ class RegularFile {
   bool is_open() const { return descriptor_ >= 0; }
   int reason() const { return reason_; }
   int descriptor() const { return descriptor_; }
-  std::uint64_t size() const { return size_; }
+  std::uint64_t size() const { return static_cast<std::uint64_t>(status_.st_size); }
+  // As it was when it was opened.
+  const struct stat& status() const { return status_; }
   // False where the file ends before, or cannot be read.
   bool read(std::span<std::byte> to, std::uint64_t offset) const;
 
  private:
   int descriptor_ = -1, reason_ = 0;
-  std::uint64_t size_ = 0;
+  struct stat status_ = {};
 };
 
 // As a stream, which is not open where there is no such file.

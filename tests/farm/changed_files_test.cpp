@@ -9,6 +9,7 @@
 
 #include <fstream>
 #include <functional>
+#include <map>
 
 #include "bundle/watched_files.h"
 #include "farm/files/crashes.h"
@@ -91,6 +92,27 @@ TEST_F(ChangedFiles, CutShortEndsTheJob) {
   EXPECT_FALSE(fs::exists(path("a.film")));
 }
 
+// A file server answers each call that has a name: a load makes one. Whoever looks for changes asks later.
+TEST_F(ChangedFiles, AreOpenedOnceAndNotAskedForBefore) {
+  const std::string strace =
+      fmt::format("strace -f -qq -s 256 -o '{}' -e trace=openat,?stat,newfstatat,statx ", path("calls"));
+  if (run(strace + "true").status != 0) GTEST_SKIP() << "there is no strace, or it may not trace";
+  const CommandResult made = run(strace + fmt::format("{} '{}' -o '{}' --spp 1 --threads 1 --quiet",
+                                                      vitrail("render"), path("box.vit"), path("a.film")));
+  ASSERT_EQ(made.status, 0) << made.output;
+  std::ifstream calls(path("calls"));
+  std::map<std::string, int> opened;  // how often, by domain
+  for (std::string call; std::getline(calls, call);) {
+    const auto at = call.find("domains/0");
+    if (at == std::string::npos) continue;
+    const std::string file = call.substr(at, 18);
+    if (call.find("openat(") < at) ++opened[file];
+    EXPECT_TRUE(opened.contains(file)) << call;
+  }
+  EXPECT_EQ(opened.size(), 4u);
+  for (const auto& [file, times] : opened) EXPECT_EQ(times, 1) << file;
+}
+
 // A grid of 800 triangles, whose tree has nodes under nodes.
 class OverwrittenFiles : public ChangedFiles {
  protected:
@@ -145,7 +167,9 @@ CommandResult touched_after(const fs::path& folder, const std::function<void(con
     const int out = ::open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600),
               in = ::open(file.c_str(), O_RDONLY);
     ::dup2(out, STDERR_FILENO);
-    watch(file);
+    struct stat opened;
+    ::fstat(in, &opened);
+    watch(file, opened);
     const void* mapped = ::mmap(nullptr, 2 * page, PROT_READ, MAP_SHARED, in, 0);
     catch_crashes();
     change(file);
