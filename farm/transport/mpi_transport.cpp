@@ -208,6 +208,10 @@ class MpiTransport final : public Transport {
       MPI_Ireduce(rank_ == 0 ? MPI_IN_PLACE : values.data() + at, values.data() + at, count, type, operation,
                   0, MPI_COMM_WORLD, &request);
       wait(request);
+      // Who sends is done with a part before it is received: the parts of one who is ahead would fill the
+      // memory of one who is not.
+      MPI_Ibarrier(MPI_COMM_WORLD, &request);
+      wait(request);
     }
     // Pages that nothing was written to stay so.
     if (rank_ != 0)
