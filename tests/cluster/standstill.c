@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded: on one rank one call stands still. VITRAIL_STANDSTILL is "RANK CALL NUMBER HOW FILE": the
-// NUMBERth call of CALL (open, pread, mmap, fsync or an MPI function below; of the former those of files with
-// FILE in their name) HOW: "stop" stops the process as SIGSTOP does, a number sleeps so many seconds before
-// each call from there on. `round` is where a rank joins one; round_after_MPI_Ireduce is that alone: where a
-// film that was put together is written. When it begins it makes the file VITRAIL_STANDSTILL_MARK.
+// NUMBERth call of CALL (open, pread, mmap, fsync or an MPI function below, or barrier_of_part; of the former
+// those of files with FILE in their name) HOW: "stop" stops the process as SIGSTOP does, a number sleeps so
+// many seconds before each call from there on. `round` is where a rank joins one; round_after_MPI_Ireduce is
+// that alone: where a film that was put together is written. When it begins it makes the file
+// VITRAIL_STANDSTILL_MARK.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -24,7 +25,7 @@ static struct {
   int rank, number;
   char call[64], how[64], file[256];
 } wanted = {-1, 0, "", "", ""};
-static atomic_int calls, after_reduce;
+static atomic_int calls, after_reduce, within_reduce;
 
 __attribute__((constructor)) static void read_environment(void) {
   const char* text = getenv("VITRAIL_STANDSTILL");
@@ -104,15 +105,16 @@ int MPI_Finalize(void) {
   return PMPI_Finalize();
 }
 
+// A reduction has one behind each MPI_Ireduce of a part; the others are of the end.
 int MPI_Ibarrier(MPI_Comm of, MPI_Request* request) {
-  stand_still("MPI_Ibarrier");
+  stand_still(atomic_exchange(&within_reduce, 0) ? "barrier_of_part" : "MPI_Ibarrier");
   return PMPI_Ibarrier(of, request);
 }
 
 int MPI_Ireduce(const void* from, void* to, int count, MPI_Datatype type, MPI_Op op, int root, MPI_Comm of,
                 MPI_Request* request) {
   stand_still("MPI_Ireduce");
-  after_reduce = 1;
+  after_reduce = within_reduce = 1;
   return PMPI_Ireduce(from, to, count, type, op, root, of, request);
 }
 

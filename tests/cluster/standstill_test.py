@@ -25,7 +25,7 @@ STEPS = {
     "set-up": [("round", 1), ("round", 4), ("MPI_Ibcast", 5)],
     "flow": [("round", 12), ("MPI_Isend", 2), ("MPI_Isend", 9)],
     "checkpoint": [("MPI_Ireduce", 3), ("MPI_Ireduce", 4)],
-    "gather": [("MPI_Ireduce", 5), ("MPI_Ireduce", 6)],
+    "gather": [("MPI_Ireduce", 5), ("MPI_Ireduce", 6), ("barrier_of_part", 5)],
     "write": [("round_after_MPI_Ireduce", 1), ("round_after_MPI_Ireduce", 2)],
     "finalise": [("MPI_Ibarrier", 1), ("MPI_Finalize", 1)],
 }
