@@ -7,6 +7,7 @@
 #include "importers/images/mean_intensity.h"
 #include "importers/images/sky_image.h"
 #include "importers/povray/write/write_environment.h"
+#include "importers/povray/write/write_image_lights.h"
 #include "importers/writing/export_colors.h"
 #include "scene/models/fading.h"
 
@@ -43,9 +44,9 @@ std::string strength(const Context& context, const auto& light) {
                      light.fading->fade_power);
 }
 
-std::string point(Context& context, Point3d position, RGB intensity) {
-  return fmt::format("light_source {{ {} {} {} }}\n", at(context, position),
-                     intensity_color(context, intensity), fading(context));
+std::string point(const Context& context, Point3d position, RGB intensity, const std::string& words) {
+  return fmt::format("light_source {{ {} {} {}{} }}\n", at(context, position),
+                     intensity_color(context, intensity), words, fading(context));
 }
 
 std::string text_of(Context& context, const PointLight& light, const Origin&) {
@@ -73,16 +74,24 @@ std::string text_of(Context& context, const DistantLight& light, const Origin&) 
                      color(signed_emission_rgb(light.irradiance) * (1 / pi)), at(context, target));
 }
 
-std::string text_of(Context& context, const ProjectionLight&, const Origin& origin) {
-  context.dropped("projection light: POV-Ray's light sources have no images", origin);
-  return "";
+std::string text_of(Context& context, const ProjectionLight& light, const Origin& origin) {
+  try {
+    return shaded_light(context, light, point, origin);
+  } catch (const Error& error) {
+    context.dropped(fmt::format("projection light: {}", error.what()), origin);
+    return "";
+  }
 }
 
 std::string text_of(Context& context, const GoniometricLight& light, const Origin& origin) {
-  const EvenLight even = even_light(light);
-  context.approximated(even.note, origin);
-  return point(context, transform_point(light.light_to_world, {0, 0, 0}),
-               signed_emission_rgb(even.intensity));
+  try {
+    return shaded_light(context, light, point, origin);
+  } catch (const Error&) {
+    const EvenLight even = even_light(light);
+    context.approximated(even.note, origin);
+    return point(context, transform_point(light.light_to_world, {0, 0, 0}),
+                 signed_emission_rgb(even.intensity), "");
+  }
 }
 
 std::string text_of(Context&, const InfiniteLight& light, const Origin&) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "importers/images/environment_images.h"
 #include "tests/importers/povray/povray_oracle.h"
 #include "tests/support/png.h"
 
@@ -61,6 +62,74 @@ TEST_F(PovrayAppearance, SkiesHaveTheirIlluminance) {
         scene,
         [](double, double) -> std::array<double, 3> {
           return {.3, .3, .3};
+        },
+        .02);
+  }
+}
+
+// The radiance of the plane of ρ = .5 that a point light of `intensity` lights from `from`.
+template <class Intensity>
+std::array<double, 3> lit_by(Point3d from, double x, double y, Intensity&& intensity) {
+  const Vector3d d = Point3d{x, y, 0} - from;
+  const double d2 = dot(d, d);
+  std::array<double, 3> seen = intensity(normalize(d));
+  for (double& value : seen) value *= .5 / pi * -d.z / std::sqrt(d2) / d2;
+  return seen;
+}
+
+TEST_F(PovrayAppearance, ProjectorsThrowTheirImage) {
+  const Point3d from{.7, -.4, 3};
+  for (const bool irradiance : {false, true}) {
+    Scene scene = plane({.5, .5, .5});
+    ProjectionLight light;
+    const Transform frame =
+        translate({from.x, from.y, from.z}) * rotate(160 * pi / 180, {0, 1, 0}) * rotate(20 * pi / 180, {1, 0, 0});
+    light.light_to_world = frame;
+    scene.textures.push_back({ramp()});
+    light.image = Id<Texture>{0};
+    light.fov_deg = 120;
+    light.irradiance = irradiance;
+    light.scale = emission_from_rgb({2, 2, 2});
+    scene.lights.push_back({light});
+    const double half = std::tan(pi / 3);
+    expect_plane(
+        scene,
+        [&](double x, double y) {
+          return lit_by(from, x, y, [&](Vector3d d) -> std::array<double, 3> {
+            const Vector3d l = normalize(transform_vector(inverse(frame), d));
+            const double s = .5 + .5 * l.x / (l.z * half), t = .5 + .5 * l.y / (l.z * half);
+            const double i = 2 * (irradiance ? pi / (l.z * l.z * l.z) : 1);
+            if (!(l.z > 0 && s > 0 && s < 1 && t > 0 && t < 1)) return {0, 0, 0};
+            return {i * s, i * (irradiance ? 1 - t : t), i * .5};
+          });
+        },
+        .02);
+  }
+}
+
+TEST_F(PovrayAppearance, GoniometricLightsShineAsTheirImage) {
+  using enum EnvironmentLight::Projection;
+  const Point3d from{.7, -.4, 3};
+  for (const bool map : {false, true}) {
+    Scene scene = plane({.5, .5, .5});
+    GoniometricLight light;
+    const Transform frame =
+        translate({from.x, from.y, from.z}) * rotate(205 * pi / 180, {0, 1, 0}) * rotate(-120 * pi / 180, {1, 0, 0});
+    light.light_to_world = frame;
+    light.filename = ramp().filename;
+    light.encoding = Encoding::linear;
+    light.latitude_longitude = map;
+    light.intensity = emission_from_rgb({5, 10, 3});
+    scene.lights.push_back({light});
+    expect_plane(
+        scene,
+        [&](double x, double y) {
+          return lit_by(from, x, y, [&](Vector3d d) -> std::array<double, 3> {
+            const Vector3d l = normalize(transform_vector(inverse(frame), d));
+            const Point2d p = point_of(map ? latitude_longitude : equal_area, {l.x, l.z, l.y});
+            const double i = (p.x + 1 - p.y + .5) / 3;
+            return {5 * i, 10 * i, 3 * i};
+          });
         },
         .02);
   }

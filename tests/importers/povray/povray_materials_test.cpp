@@ -123,7 +123,7 @@ TEST_F(PovrayMaterials, WhatIsNotExactIsSaid) {
   scene.materials[1].origin = {0, 3, 4};
   scene.media.push_back({"fog"});
   scene.lights.push_back({GoniometricLight{}});
-  scene.lights.push_back({ProjectionLight{}});
+  scene.lights.push_back({ProjectionLight{{}, ConstantSpectrum{1}}});
   std::get<PerspectiveCamera>(scene.camera).lens = {.1, 4};
   scene.film.filter = GaussianFilter{};
   text_of(scene);
