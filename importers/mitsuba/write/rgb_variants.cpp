@@ -56,4 +56,9 @@ void report_rgb_variants(Context& context, const Spectrum& emission) {
                   times));
 }
 
+bool is_mitsuba_file(const Scene& scene, const Origin& origin) {
+  return origin.file < scene.files.size() &&
+         std::filesystem::path(scene.files[origin.file]).extension() == ".xml";
+}
+
 }  // namespace vitrail::mitsuba_writer

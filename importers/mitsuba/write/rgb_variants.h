@@ -12,4 +12,7 @@ double luminance_in_rgb_variants(const Spectrum& emission);
 // Says it where it is off by more than 1 %.
 void report_rgb_variants(Context& context, const Spectrum& emission);
 
+// Whether the item comes from a scene file of Mitsuba's.
+bool is_mitsuba_file(const Scene& scene, const Origin& origin);
+
 }  // namespace vitrail::mitsuba_writer

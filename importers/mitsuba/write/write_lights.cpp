@@ -100,13 +100,6 @@ Transform scale_of_one(const Transform& t) {
   return scale({1 / size, 1 / size, 1 / size});
 }
 
-// The scale that a file of Mitsuba's gives distorts its image, and does so in what is written.
-bool is_distorted_by_mitsuba(const Context& context) {
-  const auto& files = context.scene.files;
-  return context.origin.file < files.size() &&
-         std::filesystem::path(files[context.origin.file]).extension() == ".xml";
-}
-
 bool is_grey(RGB c) { return c.r == c.g && c.g == c.b; }
 
 struct WrittenEnvironment {
@@ -157,7 +150,10 @@ void write(Context& context, Element root, const EnvironmentLight& light) {
     const WrittenEnvironment written = environment(context, light);
     Element element = add(root, "emitter", "envmap");
     const Transform to_world = light.light_to_world * mitsuba_to_light();
-    add_transform(element, is_distorted_by_mitsuba(context) ? to_world : to_world * scale_of_one(to_world));
+    // The scale that a file of Mitsuba's gives distorts its image, and does so in what is written.
+    add_transform(element, is_mitsuba_file(context.scene, context.origin)
+                               ? to_world
+                               : to_world * scale_of_one(to_world));
     add_string(element, "filename", written.filename);
     add_float(element, "scale", static_cast<float>(written.scale));
   } catch (const Error& error) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "importers/mitsuba/write/rgb_variants.h"
 #include "importers/writing/medium_grids.h"
 #include "scene/models/measured_media.h"
 #include "scene/models/subsurface_media.h"
@@ -208,11 +209,6 @@ bool is_colored(const VolumeParameter& value) {
   return !is_constant(std::get<Spectrum>(value));
 }
 
-bool is_mitsuba_file(const Context& context, const Origin& origin) {
-  const auto& files = context.scene.files;
-  return origin.file < files.size() && std::filesystem::path(files[origin.file]).extension() == ".xml";
-}
-
 bool is_black(const VolumeParameter& value) {
   const auto* spectrum = std::get_if<Spectrum>(&value);
   if (!spectrum) return false;
@@ -230,7 +226,7 @@ void report_colour(Context& context, const Medium& medium, const ExtinctionAlbed
     context.approximated(
         "the colour of an extinction is outside of sRGB: in Mitsuba's rgb variants its medium does not "
         "scatter");
-  if (greatest > 1 && is_mitsuba_file(context, medium.origin))
+  if (greatest > 1 && is_mitsuba_file(context.scene, medium.origin))
     context.approximated(fmt::format(
         "an extinction up to {:.3g}: Mitsuba's rgb variants cut that of the input at 1; the scale of what is "
         "written keeps it",
