@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // convert --check=peer: what it is that catches a difference.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -149,18 +150,37 @@ TEST_F(PeerMitsuba, KeepsTheScaleThatDistortsAnEnvironment) {
 }
 
 // On a machine other than Windows POV-Ray refuses the word `bmp`.
-TEST_F(Peer, WritesBitmapsForPovRayAsAnotherKind) {
+// One grey pixel of inks: each of the four components is a block without differences.
+std::string jpeg_of_inks() {
+  const auto segment = [](char marker, const std::string& content) {
+    return std::string{'\xff', marker, 0, static_cast<char>(content.size() + 2)} + content;
+  };
+  const std::string one_code = '\1' + std::string(16, '\0');  // a table of one value, 0, which is one bit
+  std::string frame{8, 0, 1, 0, 1, 4}, scan{4};
+  for (char component = 1; component <= 4; ++component)
+    frame += std::string{component, 0x11, 0}, scan += std::string{component, 0};
+  return "\xff\xd8" + segment('\xdb', '\0' + std::string(64, '\1')) + segment('\xc0', frame) +
+         segment('\xc4', '\0' + one_code) + segment('\xc4', '\x10' + one_code) +
+         segment('\xda', scan + std::string{0, 63, 0}) + std::string{0} + "\xff\xd9";
+}
+
+TEST_F(Peer, WritesImagesForPovRayAsAnotherKind) {
   if (std::system("povray --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no povray on the path";
   constexpr unsigned char bitmap[]{'B', 'M', 58, 0, 0, 0, 0, 0, 0,  0, 54, 0, 0, 0, 40, 0,  0,   0, 1, 0,
                                    0,   0,   1,  0, 0, 0, 1, 0, 24, 0, 0,  0, 0, 0, 4,  0,  0,   0, 0, 0,
                                    0,   0,   0,  0, 0, 0, 0, 0, 0,  0, 0,  0, 0, 0, 40, 80, 160, 0};
   std::ofstream(folder_ / "colour.bmp", std::ios::binary)
       .write(reinterpret_cast<const char*>(bitmap), sizeof bitmap);
-  const auto result = ask(write("in.xml", scene("path", R"(<shape type="rectangle"><bsdf type="diffuse">
-      <texture type="bitmap" name="reflectance"><string name="filename" value="colour.bmp"/></texture></bsdf></shape>)")),
-                          "exec povray \"$@\"\n", "out.pov");
-  EXPECT_THAT(result.output, HasSubstr("POV-Ray shows it"));
-  EXPECT_THAT(result.output, ::testing::Not(HasSubstr("refuses")));
+  std::ofstream(folder_ / "inks.jpg", std::ios::binary) << jpeg_of_inks();
+  for (const char* name : {"colour.bmp", "inks.jpg"}) {
+    const auto result =
+        ask(write("in.xml", scene("path", fmt::format(R"(<shape type="rectangle"><bsdf type="diffuse">
+      <texture type="bitmap" name="reflectance"><string name="filename" value="{}"/></texture></bsdf></shape>)",
+                                                      name))),
+            "exec povray \"$@\"\n", "out.pov");
+    EXPECT_THAT(result.output, HasSubstr("POV-Ray shows it")) << name;
+    EXPECT_THAT(result.output, ::testing::Not(HasSubstr("refuses"))) << name;
+  }
 }
 
 }  // namespace

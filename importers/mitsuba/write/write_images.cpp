@@ -6,6 +6,7 @@
 #include <cctype>
 #include <fstream>
 
+#include "importers/writing/jpeg_components.h"
 #include "scene/system/input_files.h"
 
 namespace vitrail::mitsuba_writer {
@@ -28,21 +29,6 @@ bool has_palette(const std::string& filename) {
   std::ifstream file = open_input(filename);
   file.seekg(1);
   return file.get() == 1;
-}
-
-// Of a JPEG file, by its frame header (T.81, B.2.2); 0 where there is none.
-int jpeg_components(const std::string& filename) {
-  std::ifstream file = open_input(filename);
-  std::array<unsigned char, 4> segment{};  // its marker and length
-  file.seekg(2);
-  while (file.read(reinterpret_cast<char*>(segment.data()), segment.size()) && segment[0] == 0xff) {
-    const int marker = segment[1], length = segment[2] << 8 | segment[3];
-    const bool is_frame =
-        marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-    file.seekg(is_frame ? 5 : length - 2, std::ios::cur);
-    if (is_frame) return std::max(0, file.get());
-  }
-  return 0;
 }
 
 }  // namespace

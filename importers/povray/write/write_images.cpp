@@ -3,6 +3,7 @@
 #include <map>
 
 #include "importers/povray/write/write_pigments.h"
+#include "importers/writing/jpeg_components.h"
 #include "importers/writing/mesh_files.h"
 
 namespace vitrail::povray {
@@ -52,9 +53,14 @@ bool is_grey(ImageTexture texture) {
   return true;
 }
 
+bool is_read_by_povray(const std::string& filename) {
+  const auto kind = kinds().find(suffix_of(filename));
+  return kind != kinds().end() && (kind->second != "jpeg" || jpeg_components(filename) != 4);
+}
+
 // POV-Ray sees through pixels by their alpha, and looks at no chromaticities.
 bool is_seen_as_meant(const ImageTexture& texture, ImageUse use) {
-  if (!kinds().contains(suffix_of(texture.filename)) || has_transparent_pixels(texture)) return false;
+  if (!is_read_by_povray(texture.filename) || has_transparent_pixels(texture)) return false;
   ImageTexture taken = texture;
   taken.primaries = Primaries::srgb;
   return have_same_values(texture, taken, use) && (use != ImageUse::number || is_grey(texture));
@@ -82,7 +88,7 @@ std::optional<std::string> image_of(Context& context, const ImageTexture& textur
   } catch (const Error& error) {
     std::error_code ignored;
     const bool is_there = std::filesystem::is_regular_file(texture.filename, ignored);
-    if (is_there && !exchanged && kinds().contains(suffix_of(texture.filename))) {
+    if (is_there && !exchanged && is_read_by_povray(texture.filename)) {
       context.approximated(fmt::format("{}: referred to as it is", error.what()), origin);
       return words_of(context, texture.filename, texture.encoding, texture.gamma);
     }

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace vitrail {
+
+// How many components a JPEG file has, by its frame header (T.81, B.2.2): 4 are inks, which few programs
+// read. 0 where it has no such header. Throws Error where the file cannot be opened.
+int jpeg_components(const std::string& filename);
+
+}  // namespace vitrail
