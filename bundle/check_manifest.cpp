@@ -243,10 +243,29 @@ void check_lights(const Checker& c, const Manifest& m) {
       c.require(std::abs(length(sky->to_sun) - 1) < 1e-6 && sky->sun_diameter_deg > 0, "a sky has no sun");
 }
 
+constexpr std::uint64_t most_bytes = std::uint64_t{1} << 47;
+
+void check_packs(const Checker& c, const Manifest& m) {
+  std::vector<std::pair<PackPlace, std::uint64_t>> parts;  // with their bytes
+  for (const DomainInfo& d : m.domains) {
+    if (!d.pack) continue;
+    c.require(d.pack->offset % pack_page == 0, "a domain does not begin at a page of its pack");
+    c.require(d.bytes > 0 && d.bytes <= most_bytes && d.pack->offset <= most_bytes - d.bytes,
+              "a pack is larger than files can be");
+    parts.emplace_back(*d.pack, d.bytes);
+  }
+  std::ranges::sort(parts);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const auto& [before, bytes] = parts[i - 1];
+    const PackPlace& here = parts[i].first;
+    c.require(here.pack != before.pack || here.offset >= before.offset + bytes,
+              "two domains overlap in their pack");
+  }
+}
+
 // Images are files of the bundle, as others are not checked; and no file has more bytes than all together
 // could be counted in.
 void check_files(const Checker& c, const Manifest& m) {
-  constexpr std::uint64_t most_bytes = std::uint64_t{1} << 47;
   std::set<std::string_view> images;
   for (const TextureFileEntry& t : m.texture_files) {
     c.require(t.name.starts_with("textures/") && t.name.find("..") == std::string::npos,
@@ -258,6 +277,7 @@ void check_files(const Checker& c, const Manifest& m) {
     c.require(d.bytes <= most_bytes, "a file is larger than files can be");
   for (const ObjectInfo& o : m.objects)
     c.require(o.bytes <= most_bytes, "a file is larger than files can be");
+  check_packs(c, m);
   const auto check_image = [&](const auto& model) {
     if constexpr (requires { model.filename; })
       c.require(images.contains(model.filename), "an image is no file of it");

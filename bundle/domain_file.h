@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,7 @@
 namespace vitrail {
 
 class Motion;
+class RegularFile;
 
 namespace layout {  // domain_layout.h
 struct DomainHeader;
@@ -138,12 +140,24 @@ float reach_of(const DomainView& view);
 std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content,
                                 std::uint64_t* hash = nullptr);
 
+// Where a domain or an object is: a file, or a part of a pack (packs.h).
+struct Stored {
+  std::filesystem::path file;
+  std::uint64_t offset = 0;                           // a multiple of pack_page
+  std::optional<std::uint64_t> bytes = std::nullopt;  // none: all of the file
+  // For messages: "domains/pack-0000 at byte 4096"; of a whole file its own.
+  std::filesystem::path name() const;
+};
+
 // A domain file mapped read-only. Unmapped by the destructor.
 class MappedDomain {
  public:
   // Maps the file and verifies header, sizes, checksums of the traced sections and every reference in them.
   // Anything wrong throws Error with the file's name; a file that cannot be opened throws MachineError.
-  explicit MappedDomain(const std::filesystem::path& file);
+  explicit MappedDomain(const std::filesystem::path& file) : MappedDomain(Stored{file}) {}
+  explicit MappedDomain(const Stored& stored);
+  // Of a file that is open already.
+  MappedDomain(const RegularFile& open, const Stored& stored);
   ~MappedDomain();
   MappedDomain(const MappedDomain&) = delete;
   MappedDomain& operator=(const MappedDomain&) = delete;
@@ -169,6 +183,6 @@ class MappedDomain {
 };
 
 // The instances of a domain file, without reading the rest of it.
-std::vector<InstanceRef> read_instances(const std::filesystem::path& file);
+std::vector<InstanceRef> read_instances(const Stored& stored);
 
 }  // namespace vitrail

@@ -39,7 +39,7 @@ nlohmann::json listed(const nlohmann::json& manifest, const std::string& folder)
 // 0 where the file is damaged, which is found later.
 std::uint32_t referred_to(const fs::path& file) try {
   std::uint32_t objects = 0;
-  for (const InstanceRef& ref : read_instances(file)) objects = std::max(objects, ref.object + 1);
+  for (const InstanceRef& ref : read_instances({file})) objects = std::max(objects, ref.object + 1);
   return objects;
 } catch (const std::exception&) {
   return 0;
@@ -67,6 +67,9 @@ std::set<fs::path> expected_files(const fs::path& bundle, const std::set<fs::pat
     for (std::uint32_t i = 0; i < counts[folder]; ++i)
       files.insert(bundle / folder /
                    fmt::format("{:06}.{}", i, std::string(folder) == "textures" ? "tex" : "dom"));
+  const auto domains = listed(manifest, "domains");
+  for (std::uint32_t i = 0; i < domains.size(); ++i)
+    if (domains[i].is_object() && domains[i].contains("pack")) files.erase(domain_path(bundle, i));
   const auto objects = listed(manifest, "objects");
   for (std::uint32_t i = 0; i < objects.size(); ++i)
     if (objects[i].is_object() && objects[i].contains("quadric")) files.erase(object_path(bundle, i));

@@ -37,10 +37,14 @@ std::uint64_t bytes_loaded(const Manifest& manifest, std::uint32_t domain) {
   return d.bytes + tables;
 }
 
-SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain) {
-  const std::filesystem::path file = domain_path(bundle, domain);
+SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain,
+                        OpenPacks* packs) {
+  const Stored stored = stored_domain(manifest, bundle, domain);
+  const std::filesystem::path file = stored.name();
   const Underway underway("reading", file);
-  auto mapped = std::make_shared<const MappedDomain>(file);
+  auto mapped = stored.bytes && packs
+                    ? std::make_shared<const MappedDomain>(*packs->open(stored.file), stored)
+                    : std::make_shared<const MappedDomain>(stored);
   check_domain(manifest, domain, *mapped, file);
   return mapped;
 }

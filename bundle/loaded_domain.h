@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bundle/manifest.h"
+#include "bundle/packs.h"
 
 namespace vitrail {
 
@@ -35,8 +36,10 @@ class LoadedDomain {
 // up to the greatest.
 std::uint64_t bytes_loaded(const Manifest& manifest, std::uint32_t domain);
 
-// Maps and checks a file of a bundle.
-SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain);
+// Maps and checks a file of a bundle. A domain in a pack is mapped from one that stays open in
+// `packs`, if given.
+SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain,
+                        OpenPacks* packs = nullptr);
 SharedDomain map_object(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t object);
 
 // A domain with objects of its own.

@@ -105,6 +105,16 @@ std::filesystem::path domain_path(const std::filesystem::path& bundle, std::uint
   return bundle / "domains" / fmt::format("{:06}.dom", domain);
 }
 
+std::filesystem::path pack_path(const std::filesystem::path& bundle, std::uint32_t pack) {
+  return bundle / "domains" / fmt::format("pack-{:04}", pack);
+}
+
+Stored stored_domain(const Manifest& m, const std::filesystem::path& bundle, std::uint32_t domain) {
+  const DomainInfo& d = m.domains.at(domain);
+  if (!d.pack) return {domain_path(bundle, domain)};
+  return {pack_path(bundle, d.pack->pack), d.pack->offset, d.bytes};
+}
+
 std::filesystem::path object_path(const std::filesystem::path& bundle, std::uint32_t object) {
   return bundle / "objects" / fmt::format("{:06}.dom", object);
 }
@@ -197,6 +207,8 @@ Features features_of(const Manifest& m) {
   require(has_shadowless_materials(m) || !std::ranges::all_of(m.lights, &Light::casts_shadows),
           required_feature::shadowless);
   require(m.film.working_gamma != 1, required_feature::working_gamma);
+  require(std::ranges::any_of(m.domains, [](const DomainInfo& d) { return d.pack.has_value(); }),
+          required_feature::packs);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }

@@ -30,6 +30,13 @@ struct KdNode {
   bool operator==(const KdNode&) const = default;
 };
 
+// Where in the packs (packs.h) a domain is.
+struct PackPlace {
+  std::uint32_t pack = 0;
+  std::uint64_t offset = 0;  // bytes
+  auto operator<=>(const PackPlace&) const = default;
+};
+
 // What the manifest knows of a domain's file.
 struct DomainInfo {
   std::uint64_t triangles = 0;  // whole triangles and pieces in it
@@ -40,6 +47,7 @@ struct DomainInfo {
   Occupancy occupancy;    // which cells of the tight bounds hold any of these parts, padded
   std::uint64_t instances = 0;         // that reach into it
   std::vector<std::uint32_t> objects;  // that tracing it needs, ascending: its instances' and what they need
+  std::optional<PackPlace> pack;       // none: it is a file of its own
   bool operator==(const DomainInfo&) const = default;
 };
 
@@ -174,9 +182,16 @@ inline double cell_margin(const Manifest& m) { return 0x1p-40 * double{m.scale} 
 // Most planes on the way from the root of a kd-tree to a domain.
 inline constexpr int max_kd_depth = 62;
 
-// The file of a domain, of an object.
+// Domains begin at multiples of this in a pack.
+inline constexpr std::uint64_t pack_page = 4096;
+
+// The file of a domain, of an object, of a pack of domains.
 std::filesystem::path domain_path(const std::filesystem::path& bundle, std::uint32_t domain);
 std::filesystem::path object_path(const std::filesystem::path& bundle, std::uint32_t object);
+std::filesystem::path pack_path(const std::filesystem::path& bundle, std::uint32_t pack);
+
+// Where a domain is: its file, or its part of a pack.
+Stored stored_domain(const Manifest& m, const std::filesystem::path& bundle, std::uint32_t domain);
 
 // Whether a surface has one.
 bool has_vertex_doubts(const Manifest& m);

@@ -247,6 +247,7 @@ Json domain_to_json(const DomainInfo& d) {
          {"tight_bounds", box(d.tight_bounds)}};
   for (const std::uint64_t slice : d.occupancy.slice) j["occupancy"].push_back(hash(slice));
   if (d.instances > 0) j.update({{"instances", d.instances}, {"objects", d.objects}});
+  if (d.pack) j["pack"] = {d.pack->pack, d.pack->offset};
   return j;
 }
 
@@ -255,6 +256,7 @@ DomainInfo domain_from_json(const Json& j) {
                number<std::uint64_t>(j, "bytes"), hash_from(j.at("hash")), box_from(j.at("tight_bounds"))};
   for (std::size_t z = 0; z < d.occupancy.slice.size(); ++z)
     d.occupancy.slice[z] = hash_from(j.at("occupancy").at(z));
+  if (j.contains("pack")) d.pack = {number<std::uint32_t>(j["pack"], 0), number<std::uint64_t>(j["pack"], 1)};
   if (!j.contains("instances")) return d;
   d.instances = number<std::uint64_t>(j, "instances");
   d.objects = ids_from(j.at("objects"));

@@ -29,16 +29,30 @@ constexpr std::array<std::size_t, 7> traced_sections{
 constexpr std::array<std::size_t, 3> piece_sections{layout::pieces, layout::piece_corners,
                                                     layout::cut_vertices};
 
-std::span<const std::byte> map(const std::filesystem::path& file) {
-  const RegularFile in(file);
+// Bytes from the begin of the system's page, which is where a mapping begins.
+std::size_t in_page(std::uint64_t place) { return place % static_cast<std::size_t>(::getpagesize()); }
+std::size_t in_page(const std::byte* data) { return in_page(reinterpret_cast<std::uintptr_t>(data)); }
+
+std::span<const std::byte> map(const RegularFile& in, const Stored& stored) {
   if (!in.is_open())
-    throw MachineError(fmt::format("cannot open {}: {}", file.string(), std::strerror(in.reason())));
-  watch(file, in.status());
-  if (in.size() == 0) reject_domain(file, "it is empty");
-  void* const data = ::mmap(nullptr, in.size(), PROT_READ, MAP_PRIVATE, in.descriptor(), 0);
+    throw MachineError(fmt::format("cannot open {}: {}", stored.file.string(), std::strerror(in.reason())));
+  watch(stored.file, in.status());
+  if (in.size() == 0) reject_domain(stored.file, "it is empty");
+  const std::uint64_t bytes = stored.bytes.value_or(in.size());
+  if (stored.offset > in.size() || bytes > in.size() - stored.offset)
+    reject_domain(stored.name(),
+                  fmt::format("it has {} bytes, and its pack ends at byte {}", bytes, in.size()));
+  const std::size_t lead = in_page(stored.offset);
+  void* const data = ::mmap(nullptr, bytes + lead, PROT_READ, MAP_PRIVATE, in.descriptor(),
+                            static_cast<off_t>(stored.offset - lead));
   if (data == MAP_FAILED)
-    throw MachineError(fmt::format("cannot map {}: {}", file.string(), std::strerror(errno)));
-  return {static_cast<const std::byte*>(data), in.size()};
+    throw MachineError(fmt::format("cannot map {}: {}", stored.name().string(), std::strerror(errno)));
+  return {static_cast<const std::byte*>(data) + lead, bytes};
+}
+
+void unmap(const std::byte* data, std::uint64_t bytes) {
+  const std::size_t lead = in_page(data);
+  ::munmap(const_cast<std::byte*>(data) - lead, bytes + lead);
 }
 
 const layout::DomainHeader& header_of(const std::byte* data) {
@@ -59,12 +73,12 @@ std::span<const T> elements(const std::byte* data, layout::SectionIndex index) {
 // Reads what is mapped there: where the disk fails, touching it would be a signal.
 void fault_in(const std::filesystem::path& file, std::span<const std::byte> bytes) {
   if (bytes.empty()) return;
-  const auto in_page =
-      reinterpret_cast<std::uintptr_t>(bytes.data()) % static_cast<std::size_t>(::getpagesize());
-  if (::madvise(const_cast<std::byte*>(bytes.data()) - in_page, bytes.size() + in_page, MADV_POPULATE_READ) !=
-          0 &&
-      (errno == EFAULT || errno == EHWPOISON))
-    throw MachineError(fmt::format("cannot read {}: {}", file.string(), std::strerror(EIO)));
+  const std::size_t lead = in_page(bytes.data());
+  if (::madvise(const_cast<std::byte*>(bytes.data()) - lead, bytes.size() + lead, MADV_POPULATE_READ) == 0 ||
+      (errno != EFAULT && errno != EHWPOISON))
+    return;
+  require_unchanged_files();  // it may have been cut since it was opened
+  throw MachineError(fmt::format("cannot read {}: {}", file.string(), std::strerror(EIO)));
 }
 
 // The sections known here come first and in order, others of ascending kinds may follow; none leaves a gap.
@@ -130,13 +144,21 @@ void check_sections(const std::filesystem::path& file, const std::byte* data,
 
 }  // namespace
 
-MappedDomain::MappedDomain(const std::filesystem::path& file) : file_(file) {
-  const std::span<const std::byte> bytes = map(file);
+std::filesystem::path Stored::name() const {
+  if (!bytes) return file;
+  std::filesystem::path part = file;
+  return part += fmt::format(" at byte {}", offset);
+}
+
+MappedDomain::MappedDomain(const Stored& stored) : MappedDomain(RegularFile(stored.file), stored) {}
+
+MappedDomain::MappedDomain(const RegularFile& open, const Stored& stored) : file_(stored.name()) {
+  const std::span<const std::byte> bytes = map(open, stored);
   data_ = bytes.data();
   bytes_ = bytes.size();
   try {
-    check_header(file, bytes);
-    check_sections(file, data_, traced_sections);
+    check_header(file_, bytes);
+    check_sections(file_, data_, traced_sections);
     view_ = {elements<BvhNode>(data_, layout::nodes),
              elements<Cluster>(data_, layout::clusters),
              elements<ClusterNormals>(data_, layout::normals),
@@ -145,15 +167,15 @@ MappedDomain::MappedDomain(const std::filesystem::path& file) : file_(file) {
              elements<InstanceRef>(data_, layout::instances),
              elements<BvhNode>(data_, layout::instance_nodes),
              {}};
-    check_structure(view_, file);
+    check_structure(view_, file_);
     view_.reach = reach_of(view_);
   } catch (...) {
-    ::munmap(const_cast<std::byte*>(data_), bytes_);
+    unmap(data_, bytes_);
     throw;
   }
 }
 
-MappedDomain::~MappedDomain() { ::munmap(const_cast<std::byte*>(data_), bytes_); }
+MappedDomain::~MappedDomain() { unmap(data_, bytes_); }
 
 const layout::DomainHeader& MappedDomain::header() const { return header_of(data_); }
 std::span<const layout::Section> MappedDomain::sections() const { return table_of(data_); }
@@ -172,10 +194,11 @@ PieceList MappedDomain::pieces() const {
                        elements<Point3d>(data_, layout::cut_vertices), file_);
 }
 
-std::vector<InstanceRef> read_instances(const std::filesystem::path& file) {
-  const std::span<const std::byte> bytes = map(file);
-  const auto unmap = [&](const std::byte* data) { ::munmap(const_cast<std::byte*>(data), bytes.size()); };
-  const std::unique_ptr<const std::byte, decltype(unmap)> mapped(bytes.data(), unmap);
+std::vector<InstanceRef> read_instances(const Stored& stored) {
+  const std::filesystem::path file = stored.name();
+  const std::span<const std::byte> bytes = map(RegularFile(stored.file), stored);
+  const auto release = [&](const std::byte* data) { unmap(data, bytes.size()); };
+  const std::unique_ptr<const std::byte, decltype(release)> mapped(bytes.data(), release);
   check_header(file, bytes);
   check_sections(file, bytes.data(), std::array{std::size_t{layout::instances}});
   const auto instances = elements<InstanceRef>(bytes.data(), layout::instances);

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <map>
 #include <set>
 #include <thread>
 
@@ -16,6 +17,7 @@
 #include "bundle/manifest.h"
 #include "bundle/matte_names.h"
 #include "bundle/origin_file.h"
+#include "bundle/packs.h"
 #include "bundle/texture_file.h"
 #include "scene/system/diagnostics.h"
 
@@ -85,14 +87,16 @@ class Verifier {
   }
 
   // The same, and counts the file.
-  bool read(const fs::path& file, const std::function<void()>& check) {
+  bool read(const Stored& stored, const std::function<void()>& check) {
     std::error_code missing;
-    const std::uint64_t bytes = fs::file_size(file, missing);
+    const fs::path file = stored.name();
+    const std::uint64_t all = fs::file_size(stored.file, missing);
+    const std::uint64_t bytes = stored.bytes.value_or(all);
     if (missing) note(file, "it cannot be read: " + missing.message());
     const bool good = !missing && attempt(file, check);
     const std::lock_guard lock(mutex_);
     if (missing) return false;
-    ++result_.files;
+    if (stored.offset == 0) ++result_.files;
     result_.bytes += bytes;
     if (options_.progress)
       options_.progress(static_cast<double>(result_.bytes) / static_cast<double>(bytes_to_read_));
@@ -116,7 +120,7 @@ class Verifier {
     }
     for (const fs::path& file : files) {
       expect(file);
-      read(file, [&] {
+      read({file}, [&] {
         if (!manifest_ && file != blamed && file != files[0]) check_records_file(file);
       });
     }
@@ -127,7 +131,7 @@ class Verifier {
     const fs::path file = glazing_path(bundle_);
     if (!present_.contains(file) && !(manifest_ && manifest_->switching_glazings > 0)) return;
     expect(file);
-    read(file, [&] {
+    read({file}, [&] {
       if (manifest_) read_glazings(bundle_, *manifest_);
     });
   }
@@ -136,17 +140,18 @@ class Verifier {
     const fs::path file = shape_names_path(bundle_);
     if (!present_.contains(file) && !(manifest_ && tells_shapes(manifest_->film.layers))) return;
     expect(file);
-    read(file, [&] {
+    read({file}, [&] {
       if (manifest_) read_shape_names(bundle_, *manifest_);
     });
   }
 
-  void plan(HeldIds& ids, const fs::path& file, const std::function<void(const MappedDomain&)>& check) {
-    expect(file);
+  void plan(HeldIds& ids, const Stored& stored, const std::function<void(const MappedDomain&)>& check) {
+    expect(stored.file);
     const std::uint32_t part = ids.add_part();
-    jobs_.push_back([this, &ids, file, part, check] {
-      read(file, [&] {
-        const MappedDomain mapped(file);
+    jobs_.push_back([this, &ids, stored, part, check] {
+      read(stored, [&] {
+        const MappedDomain mapped(stored);
+        const fs::path file = stored.name();
         const bool fits = attempt(file, [&] { check(mapped); });
         if (attempt(file, [&] { mapped.check_cold(), mapped.pieces(); }) && fits) ids.count(part, mapped);
       });
@@ -154,9 +159,9 @@ class Verifier {
   }
 
   // Files that are damaged are found later.
-  std::vector<HeldInstance> instances_in(const fs::path& file) const try {
+  std::vector<HeldInstance> instances_in(const Stored& stored) const try {
     std::vector<HeldInstance> held;
-    for (const InstanceRef& ref : read_instances(file)) held.push_back({ref.first_triangle, ref.object});
+    for (const InstanceRef& ref : read_instances(stored)) held.push_back({ref.first_triangle, ref.object});
     return held;
   } catch (const std::exception&) {
     return {};
@@ -167,15 +172,19 @@ class Verifier {
     std::vector<HeldInstance> instances;
     for (std::uint32_t i = 0; i < m.domains.size(); ++i)
       if (m.domains[i].instances > 0)
-        std::ranges::copy(instances_in(domain_path(bundle_, i)), std::back_inserter(instances));
+        std::ranges::copy(instances_in(stored_domain(m, bundle_, i)), std::back_inserter(instances));
     HeldIds& ids = held_.emplace_back("domains", m, m.triangles, m.cut_triangles, std::move(instances));
+    std::map<fs::path, std::vector<Stored>> packs;
     for (std::uint32_t i = 0; i < m.domains.size(); ++i) {
-      const fs::path file = domain_path(bundle_, i);
-      plan(ids, file, [&m, i, file](const MappedDomain& mapped) {
+      const Stored stored = stored_domain(m, bundle_, i);
+      plan(ids, stored, [&m, i, file = stored.name()](const MappedDomain& mapped) {
         check_domain(m, i, mapped, file);
         check_counts(m, i, mapped, file);
       });
+      if (stored.bytes) packs[stored.file].push_back(stored);
     }
+    for (const auto& [file, domains] : packs)
+      jobs_.push_back([this, file, domains] { attempt(file, [&] { check_pack(file, domains); }); });
   }
 
   void plan_objects() {
@@ -187,10 +196,10 @@ class Verifier {
       }
       const std::uint32_t end = end_of_prototype(m, i);
       const fs::path first = object_path(bundle_, i);
-      HeldIds& ids = held_.emplace_back(relative(first), m, m.objects[i].triangles, 0, instances_in(first));
+      HeldIds& ids = held_.emplace_back(relative(first), m, m.objects[i].triangles, 0, instances_in({first}));
       for (; i < end; ++i) {
         const fs::path file = object_path(bundle_, i);
-        plan(ids, file, [&m, i, file](const MappedDomain& mapped) { check_object(m, i, mapped, file); });
+        plan(ids, {file}, [&m, i, file](const MappedDomain& mapped) { check_object(m, i, mapped, file); });
       }
     }
   }
@@ -198,7 +207,7 @@ class Verifier {
   void plan_texture(const fs::path& file, const TextureFileEntry* entry = nullptr) {
     expect(file);
     jobs_.push_back([this, file, entry] {
-      read(file, [&] {
+      read({file}, [&] {
         const TextureFile texture(file);
         if (entry) attempt(file, [&] { check_texture(*entry, texture, file); });
         texture.check_tiles();
@@ -210,9 +219,12 @@ class Verifier {
     HeldIds& nothing = held_.emplace_back();
     for (const fs::path& file : expected_files(bundle_, present_))
       if (file.extension() == ".dom")
-        plan(nothing, file, [](const MappedDomain&) {});
+        plan(nothing, {file}, [](const MappedDomain&) {});
       else
         plan_texture(file);
+    for (const fs::path& file : present_)
+      if (is_pack(file))
+        for (const Stored& stored : domains_of_pack(file)) plan(nothing, stored, [](const MappedDomain&) {});
   }
 
   void work() {

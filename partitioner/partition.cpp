@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "bundle/matte_names.h"
+#include "bundle/packs.h"
 #include "images/image_files.h"
 #include "partitioner/caching/bundle_cache.h"
 #include "partitioner/caching/world_key.h"
@@ -148,9 +149,10 @@ class Partitioner {
       return finish(placed->census);
     }
     const CensusResult found = place();
-    PartitionStats stats = finish(found);
-    if (key.holds()) cache.keep(key.text(), bundle_, {std::move(manifest_), std::move(block_hashes_), found});
-    return stats;
+    PlacedScene placed{std::move(manifest_), std::move(block_hashes_), found};
+    if (key.holds()) cache.keep(key.text(), bundle_, placed);
+    manifest_ = std::move(placed.manifest);
+    return finish(found);
   }
 
  private:
@@ -225,6 +227,7 @@ class Partitioner {
 
   PartitionStats finish(const CensusResult& found) {
     manifest_.switching_glazings = static_cast<std::uint32_t>(glazings_.size());
+    if (options_.pack_bytes > 0) write_packs(bundle_, manifest_, options_.pack_bytes);
     write_manifest(bundle_, manifest_);
     if (tells_shapes(manifest_.film.layers)) write_shape_names(bundle_, shape_names_);
     write_glazings(bundle_, manifest_.scene_hash, glazings_);

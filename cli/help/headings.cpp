@@ -41,7 +41,7 @@ const std::vector<Heading> of_render{
 const std::vector<Heading> of_partition{
     {"What to cut, and into how many", "input=SCENE domains domain-bytes=SIZE profile=FILE flatten"},
     {"With what", "memory=SIZE threads"},
-    {"What to write", "output=BUNDLE aov=LAYERS stats=FILE no-sync force progress quiet"},
+    {"What to write", "output=BUNDLE aov=LAYERS pack=SIZE stats=FILE no-sync force progress quiet"},
     scene,
     meshes,
     {"To measure what partitioning saves", "require-everything median-cuts"},

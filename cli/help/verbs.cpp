@@ -37,7 +37,7 @@ std::span<const Verb> verbs() {
         {"vitrail compare room.exr reference.exr --fail-above 0.01", "exit status 1 where it is greater"},
         {"vitrail compare room.exr reference.exr --html page.html", "both and their errors in a browser"}}},
       {"partition",
-       "cut a scene into sub-domains, one file each: a bundle",
+       "cut a scene into sub-domains: a bundle",
        {{"vitrail partition city.pbrt -o city.vit", "sub-domains of 64 MiB"},
         {"vitrail partition city.pbrt -o city.vit --domains 64 --memory 4G",
          "64 sub-domains; the scene may be larger than memory"},

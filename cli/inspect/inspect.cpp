@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "bundle/packs.h"
 #include "cli/common/import_arguments.h"
 #include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
@@ -23,7 +24,8 @@ bool begins_with(const std::filesystem::path& file, std::string_view magic) {
 Report inspect(const std::filesystem::path& file, const ImportOptions& options) {
   if (!std::filesystem::exists(file)) throw Error("no such file", {file.string()});
   if (std::filesystem::is_directory(file)) return inspect_bundle(file);
-  if (file.extension() == ".dom" || begins_with(file, "VITRDOM\n")) return inspect_domain(file);
+  if (is_pack(file) && begins_with(file, "VITRDOM\n")) return inspect_pack(file);
+  if (file.extension() == ".dom" || begins_with(file, "VITRDOM\n")) return inspect_domain({file});
   if (file.extension() == ".tex" || begins_with(file, "VITRTEX\n")) return inspect_texture(file);
   // A checkpoint is a film too.
   if (file.extension() == ".film" || file.extension() == ".partial" || file.extension() == ".work")

@@ -16,7 +16,8 @@ using Report = nlohmann::ordered_json;
 // Each reads and verifies everything of its file, and throws Error where something is wrong.
 Report inspect_scene(const std::filesystem::path& file, const ImportOptions& options = {});
 Report inspect_bundle(const std::filesystem::path& bundle);
-Report inspect_domain(const std::filesystem::path& file);
+Report inspect_domain(const Stored& stored);
+Report inspect_pack(const std::filesystem::path& file);
 Report inspect_texture(const std::filesystem::path& file);
 Report inspect_film(const std::filesystem::path& file);
 

@@ -14,11 +14,13 @@ namespace {
 
 Report domain_line(std::uint32_t index, const DomainInfo& d) {
   const Vector3f size = extent(d.tight_bounds);
-  return {{"domain", index},
-          {"triangles", d.triangles},
-          {"pieces", d.pieces},
-          {"bytes", d.bytes},
-          {"extent", {size.x, size.y, size.z}}};
+  Report line{{"domain", index},
+              {"triangles", d.triangles},
+              {"pieces", d.pieces},
+              {"bytes", d.bytes},
+              {"extent", {size.x, size.y, size.z}}};
+  if (d.pack) line["pack"] = d.pack->pack, line["offset"] = d.pack->offset;
+  return line;
 }
 
 // Glass that can be set.

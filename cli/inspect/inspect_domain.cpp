@@ -5,6 +5,7 @@
 #include <set>
 
 #include "bundle/domain_layout.h"
+#include "bundle/packs.h"
 #include "bundle/texture_file.h"
 #include "cli/inspect/inspect.h"
 
@@ -45,8 +46,18 @@ Report to_json(const Bounds3f& box) {
 
 }  // namespace
 
-Report inspect_domain(const std::filesystem::path& file) {
-  const MappedDomain mapped(file);
+Report inspect_pack(const std::filesystem::path& file) {
+  Report domains = Report::array();
+  for (const Stored& stored : domains_of_pack(file)) domains.push_back(inspect_domain(stored));
+  return {{"file", file.string()},
+          {"kind", "pack of sub-domains"},
+          {"bytes", std::filesystem::file_size(file)},
+          {"domains", std::move(domains)}};
+}
+
+Report inspect_domain(const Stored& stored) {
+  const std::filesystem::path file = stored.name();
+  const MappedDomain mapped(stored);
   mapped.check_cold();
   const DomainView& view = mapped.view();
   const auto [pieces, piece_vertices] = mapped.pieces();

@@ -101,6 +101,10 @@ void interpret(PartitionArguments& a) {
     a.options.domain_bytes = parse_bytes(a.domain_bytes);
     if (a.options.domain_bytes == 0) throw UsageError("--domain-bytes has to be more than 0");
   }
+  if (!a.pack.empty()) {
+    a.options.pack_bytes = parse_bytes(a.pack);
+    if (a.options.pack_bytes == 0) throw UsageError("--pack has to be more than 0");
+  }
   require_input(a.input, {InputKind::scene});
   note_input(a.input);
   const std::filesystem::path bundle = a.output.has_filename() ? a.output : a.output.parent_path();

@@ -27,6 +27,8 @@ void declare(CLI::App& app, PartitionArguments& a) {
                "copy the triangles of instances instead of keeping instances");
   app.add_option("--domain-bytes", a.domain_bytes, "size of a sub-domain, e.g. 256M; default: 64M")
       ->excludes(domains);
+  app.add_option("--pack", a.pack,
+                 "put the sub-domains into few files of at most this size, e.g. 1G; default: a file each");
   app.add_option("--memory", a.memory,
                  "most memory to use, e.g. 512M; default: three quarters of the machine's. A larger scene "
                  "goes through files beside the bundle");
@@ -55,6 +57,7 @@ BundleOrigin origin_of(const PartitionArguments& a) {
   std::vector<std::string> words = arguments_of(a.meshes);
   if (a.options.domains > 0) words.push_back(fmt::format("--domains {}", a.options.domains));
   if (!a.domain_bytes.empty()) words.push_back("--domain-bytes " + a.domain_bytes);
+  if (!a.pack.empty()) words.push_back("--pack " + a.pack);
   if (a.options.flatten) words.push_back("--flatten");
   if (a.options.median) words.push_back("--median-cuts");
   if (a.options.everything) words.push_back("--require-everything");

@@ -13,7 +13,7 @@ namespace vitrail {
 
 struct PartitionArguments {
   std::filesystem::path input, output, stats, profile;
-  std::string domain_bytes, memory, aov, progress = "auto";
+  std::string domain_bytes, pack, memory, aov, progress = "auto";
   bool force = false, strict = false, quiet = false, summary = true, cached = true, keeps_domains = false;
   bool view_only = false;
   ImportArguments imports;

@@ -54,7 +54,8 @@ std::shared_ptr<const LoadedDomain> ResidentDomains::load(const Reservation& res
     return mapped;
   };
   const std::uint32_t domain = reservation.load.domain;
-  SharedDomain mapped = counted(map_domain(manifest_, bundle_, domain), bytes_loaded(manifest_, domain));
+  SharedDomain mapped =
+      counted(map_domain(manifest_, bundle_, domain, &packs_), bytes_loaded(manifest_, domain));
   return std::make_shared<const LoadedDomain>(manifest_, domain, std::move(mapped), object);
 }
 

@@ -47,6 +47,7 @@ class ResidentDomains {
 
   const Manifest& manifest_;
   std::filesystem::path bundle_;
+  OpenPacks packs_;
   std::vector<bool> touched_;
   std::vector<std::weak_ptr<const MappedDomain>> objects_;  // by number
   std::shared_ptr<std::atomic<std::uint64_t>> released_;    // bytes

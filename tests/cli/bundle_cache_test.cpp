@@ -171,6 +171,19 @@ TEST_F(BundleCacheCli, GivesRenderTheSameFilm) {
   EXPECT_EQ(links(only_entry() / "domains" / "000000.dom"), 1u);
 }
 
+// What is kept are files, whichever form the bundle has that they came from.
+TEST_F(BundleCacheCli, ServesFilesAndPacks) {
+  const auto pack = directory_ / "kept.vit" / "domains" / "pack-0000";
+  for (const bool packed_first : {false, true}) {
+    fs::remove_all(cache_);
+    for (const bool packed : {packed_first, !packed_first}) {
+      expect_right_bundle(packed ? "--domains 3 --pack 1G" : "--domains 3");
+      EXPECT_EQ(fs::exists(pack), packed);
+      EXPECT_EQ(links(only_entry() / "domains" / "000000.dom"), packed ? 1u : 2u);
+    }
+  }
+}
+
 TEST_F(BundleCacheCli, MakesDamagedEntriesAnew) {
   expect_right_bundle();
   const fs::path entry = only_entry();

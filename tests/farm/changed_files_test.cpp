@@ -51,6 +51,26 @@ class ChangedFiles : public PartitionedBox {
     result.output.assign(std::istreambuf_iterator<char>(said), {});
     return result;
   }
+  // How often a render opens each file of domains. A file server answers each call that has a name: a load
+  // makes one. Whoever looks for changes asks later. Empty where there is no strace.
+  std::map<std::string, int> opens() const {
+    std::map<std::string, int> opened;
+    const std::string strace =
+        fmt::format("strace -f -qq -s 256 -o '{}' -e trace=openat,?stat,newfstatat,statx ", path("calls"));
+    if (run(strace + "true").status != 0) return opened;
+    const CommandResult made = run(strace + fmt::format("{} '{}' -o '{}' --spp 1 --threads 1 --quiet",
+                                                        vitrail("render"), path("box.vit"), path("a.film")));
+    EXPECT_EQ(made.status, 0) << made.output;
+    std::ifstream calls(path("calls"));
+    for (std::string call; std::getline(calls, call);) {
+      const auto at = call.find("domains/");
+      if (at == std::string::npos) continue;
+      const std::string file = call.substr(at, call.find('"', at) - at);
+      if (call.find("openat(") < at) ++opened[file];
+      EXPECT_TRUE(opened.contains(file)) << call;
+    }
+    return opened;
+  }
 };
 
 TEST_F(ChangedFiles, ChangedInPlaceEndsTheJob) {
@@ -92,25 +112,48 @@ TEST_F(ChangedFiles, CutShortEndsTheJob) {
   EXPECT_FALSE(fs::exists(path("a.film")));
 }
 
-// A file server answers each call that has a name: a load makes one. Whoever looks for changes asks later.
 TEST_F(ChangedFiles, AreOpenedOnceAndNotAskedForBefore) {
-  const std::string strace =
-      fmt::format("strace -f -qq -s 256 -o '{}' -e trace=openat,?stat,newfstatat,statx ", path("calls"));
-  if (run(strace + "true").status != 0) GTEST_SKIP() << "there is no strace, or it may not trace";
-  const CommandResult made = run(strace + fmt::format("{} '{}' -o '{}' --spp 1 --threads 1 --quiet",
-                                                      vitrail("render"), path("box.vit"), path("a.film")));
-  ASSERT_EQ(made.status, 0) << made.output;
-  std::ifstream calls(path("calls"));
-  std::map<std::string, int> opened;  // how often, by domain
-  for (std::string call; std::getline(calls, call);) {
-    const auto at = call.find("domains/0");
-    if (at == std::string::npos) continue;
-    const std::string file = call.substr(at, 18);
-    if (call.find("openat(") < at) ++opened[file];
-    EXPECT_TRUE(opened.contains(file)) << call;
-  }
+  const std::map<std::string, int> opened = opens();
+  if (opened.empty()) GTEST_SKIP() << "there is no strace, or it may not trace";
   EXPECT_EQ(opened.size(), 4u);
   for (const auto& [file, times] : opened) EXPECT_EQ(times, 1) << file;
+}
+
+// The same box, its four domains in one pack.
+class PackedFiles : public ChangedFiles {
+ protected:
+  void SetUp() override {
+    ChangedFiles::SetUp();
+    fs::rename(path("box.vit"), path("files.vit"));
+    const CommandResult made =
+        run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 4 --pack 1G --quiet",
+                        vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit")));
+    ASSERT_EQ(made.status, 0) << made.output;
+  }
+  CommandResult rendered(const std::string& bundle, const std::string& film) const {
+    return run(fmt::format("{} '{}' -o '{}' --spp 1 --threads 1 --quiet --domain-memory 1",
+                           mpi_vitrail("render", 2), path(bundle), path(film)));
+  }
+};
+
+TEST_F(PackedFiles, MakeTheSameFilmOnTwoRanksInLittleMemory) {
+  ASSERT_EQ(rendered("files.vit", "files.film").status, 0);
+  const CommandResult packed = rendered("box.vit", "packed.film");
+  ASSERT_EQ(packed.status, 0) << packed.output;
+  EXPECT_EQ(read_film(path("packed.film"), nullptr).hash(), read_film(path("files.film"), nullptr).hash());
+}
+
+TEST_F(PackedFiles, AreOpenedOnce) {
+  const std::map<std::string, int> opened = opens();
+  if (opened.empty()) GTEST_SKIP() << "there is no strace, or it may not trace";
+  EXPECT_EQ(opened, (std::map<std::string, int>{{"domains/pack-0000", 1}}));
+}
+
+TEST_F(PackedFiles, CutShortEndsTheJob) {
+  const CommandResult ended = rendered_while([](const fs::path& file) { fs::resize_file(file, 1); });
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_THAT(ended.output, HasSubstr("pack-0000: this file changed during the render"));
+  EXPECT_FALSE(fs::exists(path("a.film")));
 }
 
 // A grid of 800 triangles, whose tree has nodes under nodes.
