@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -247,7 +249,9 @@ class SimulatedRank {
   }
 
   void read(const LoadStep::Load& load, std::uint64_t bytes) {
-    const double files = 1 + static_cast<double>(load.missing.size());
+    const std::optional<PackPlace>& at = world_.workload.manifest.domains[load.domain].pack;
+    const bool opens = !at || packs_.insert(at->pack).second;
+    const double files = static_cast<double>(load.missing.size() + (opens ? 1 : 0));
     const double until_s = world_.machine.read(number_, files, bytes);
     busy_.loading_s += until_s - world_.machine.now_s();
     world_.result.loaded_bytes += bytes;
@@ -284,6 +288,7 @@ class SimulatedRank {
   SimulatedQueues<SpillType> queues_;
   std::map<std::uint32_t, std::uint64_t> outgoing_;  // rays, by domain
   std::vector<Worker> workers_;
+  std::set<std::uint32_t> packs_;       // that it has opened
   std::vector<SimulatedMessage> came_;  // since the rank looked
   bool will_look_ = false;
   double moved_s_ = 0;         // when messages moved last, or a round began

@@ -38,6 +38,7 @@ Workload workload_of(const Manifest& manifest, const RayProfile& profile, double
   for (std::size_t i = 0; i < manifest.domains.size(); ++i) {
     w.manifest.domains[i].bytes = manifest.domains[i].bytes;
     w.manifest.domains[i].objects = manifest.domains[i].objects;
+    w.manifest.domains[i].pack = manifest.domains[i].pack;
     // Where few rays were, none may have been timed.
     const RayProfile::Domain& seen = profile.domains[i];
     w.domains[i].seconds = seen.seconds > 0 ? seen.seconds / static_cast<double>(seen.rays) : mean;

@@ -23,9 +23,9 @@ class Plan : public ::testing::Test {
     ASSERT_EQ(make("box.vit", 8), 0);
     ASSERT_EQ(render("box.json", "", 1).status, 0);
   }
-  int make(const std::string& bundle, int domains) const {
-    return run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains {}",
-                           vitrail("partition"), VITRAIL_SOURCE_DIR, path(bundle), domains))
+  int make(const std::string& bundle, int domains, const std::string& options = "") const {
+    return run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains {} {}",
+                           vitrail("partition"), VITRAIL_SOURCE_DIR, path(bundle), domains, options))
         .status;
   }
   CommandResult render(const std::string& profile, const std::string& options, int ranks) const {
@@ -116,6 +116,18 @@ TEST_F(Plan, ReckonsTenMillionPictures) {
     return nlohmann::json::parse(planned.output)["plan"][0]["seconds"].get<double>();
   };
   EXPECT_NEAR(seconds("1e7") / seconds("1e6"), 10, .1);
+}
+
+// Eight domains in one pack: a server that takes 10 s to open a file is asked once, not eight times.
+TEST_F(Plan, OpensAPackOnce) {
+  ASSERT_EQ(make("packed.vit", 8, "--pack 1G"), 0);
+  const auto seconds = [&](const char* bundle) {
+    const CommandResult planned = plan(bundle, "--threads 1 --ranks 1 --times 50 --files-a-second .1 --json");
+    EXPECT_EQ(planned.status, 0) << planned.output;
+    return nlohmann::json::parse(planned.output)["plan"][0]["seconds"].get<double>();
+  };
+  EXPECT_NEAR(seconds("box.vit"), 80, 8);
+  EXPECT_NEAR(seconds("packed.vit"), 10, 4);
 }
 
 TEST_F(Plan, RefusesTheProfileOfAnotherBundle) {

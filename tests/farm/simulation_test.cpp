@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <set>
 #include <string>
 
 #include "farm/simulator/simulated_job.h"
@@ -222,6 +223,26 @@ TEST(Simulation, RanksWaitForTheServerOfFiles) {
   const double files = 4. * static_cast<double>(8 + workload.manifest.objects.size());
   const double expected_s = files / machine.files_s;
   EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds, expected_s, .1 * expected_s);
+}
+
+// A pack is opened once on each rank, however many of its domains are read.
+TEST(Simulation, PacksAreOpenedOnce) {
+  std::mt19937_64 random(1);
+  Machine machine;
+  machine.ranks = 4;
+  machine.rays_allowed = 1'000'000;
+  machine.distribution = Distribution::replicate;
+  Workload workload = random_workload(random, 8, 40, 100);
+  std::set<std::uint32_t> objects;  // that domains need
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    DomainInfo& d = workload.manifest.domains[i];
+    d.pack = PackPlace{i / 4, 0};
+    objects.insert(d.objects.begin(), d.objects.end());
+  }
+  machine.domain_bytes = bytes_of_all(workload.manifest);
+  machine.files_s = 1;
+  const double expected_s = 4. * static_cast<double>(2 + objects.size()) / machine.files_s;
+  EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds, expected_s, .01 * expected_s);
 }
 
 // The same job, begun later, and ended when the films are one.
