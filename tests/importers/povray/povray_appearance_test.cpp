@@ -82,8 +82,8 @@ TEST_F(PovrayAppearance, ProjectorsThrowTheirImage) {
   for (const bool irradiance : {false, true}) {
     Scene scene = plane({.5, .5, .5});
     ProjectionLight light;
-    const Transform frame =
-        translate({from.x, from.y, from.z}) * rotate(160 * pi / 180, {0, 1, 0}) * rotate(20 * pi / 180, {1, 0, 0});
+    const Transform frame = translate({from.x, from.y, from.z}) * rotate(160 * pi / 180, {0, 1, 0}) *
+                            rotate(20 * pi / 180, {1, 0, 0});
     light.light_to_world = frame;
     scene.textures.push_back({ramp()});
     light.image = Id<Texture>{0};
@@ -113,8 +113,8 @@ TEST_F(PovrayAppearance, GoniometricLightsShineAsTheirImage) {
   for (const bool map : {false, true}) {
     Scene scene = plane({.5, .5, .5});
     GoniometricLight light;
-    const Transform frame =
-        translate({from.x, from.y, from.z}) * rotate(205 * pi / 180, {0, 1, 0}) * rotate(-120 * pi / 180, {1, 0, 0});
+    const Transform frame = translate({from.x, from.y, from.z}) * rotate(205 * pi / 180, {0, 1, 0}) *
+                            rotate(-120 * pi / 180, {1, 0, 0});
     light.light_to_world = frame;
     light.filename = ramp().filename;
     light.encoding = Encoding::linear;
