@@ -95,9 +95,9 @@ struct FormulaOfColor {
 };
 std::optional<FormulaOfColor> formula_of_color(const Function& function);
 
-// Behind the word `function`. What a function approximates is said here.
+// Behind the word `function`. Says what the function and those that it calls approximate.
 Shared<Function> read_function(Reader& reader);
-// … and of this one where it is used: by read_function of a caller, or by call_function.
+// The same, but that is said where it is used: by read_function of a caller, or by call_function.
 Shared<Function> declare_function(Reader& reader);
 // A call in an expression: a number, or a colour or a vector.
 Value call_function(Reader& reader, const Function& function, const std::vector<double>& arguments,
