@@ -12,7 +12,9 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "film/array_checksum.h"
 #include "film/film_planes.h"
 #include "film/picture_fields.h"
 #include "scene/records/film_extent.h"
@@ -68,8 +70,13 @@ std::uint64_t film_bytes(const FilmSettings& settings, const FilmKey& key) {
                                 matte_planes(settings.layers) * sizeof(MattePixel));
 }
 
-Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent, int length_exponent)
-    : settings_(settings), key_(key), exponent_(exponent), length_exponent_(length_exponent) {
+Film::Film(std::shared_ptr<FilmScratch> scratch)
+    : scratch_(std::move(scratch)), sums_(scratch_), counts_(scratch_), ids_(scratch_), mattes_(scratch_) {}
+
+Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent, int length_exponent,
+           std::shared_ptr<FilmScratch> scratch)
+    : Film(std::move(scratch)) {
+  settings_ = settings, key_ = key, exponent_ = exponent, length_exponent_ = length_exponent;
   const std::size_t size = pixels_of(settings);
   if (settings_.spectrum.count < 0 || settings_.spectrum.count > max_spectral_bins ||
       !(settings_.spectrum.min_nm < settings_.spectrum.max_nm))
@@ -79,6 +86,14 @@ Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent, int l
   counts_.resize(sample_groups * size);
   ids_.resize(id_planes(settings_.layers) * size);
   mattes_.resize(matte_planes(settings_.layers) * size);
+}
+
+void Film::written_in_scratch(const void* at, std::size_t bytes) { scratch_->writes(at, bytes); }
+
+// One of those beside the planes.
+void Film::add_single(std::size_t sum, const WideSum& quanta) {
+  add_shared(sums_[sum], quanta);
+  written(sums_[sum]);
 }
 
 // The seeds of films that are to be merged follow on each other as a rule: so the first samples of each,
@@ -107,10 +122,11 @@ std::uint32_t Film::place(std::uint32_t pixel) const {
 void Film::add(std::size_t plane, std::uint32_t pixel, const WideSum& quanta, const Footprint* spread) {
   assert((spread != nullptr) == key_.splats);
   WideSum* const sums = sums_.data() + plane * pixels();
-  if (!spread) return add_shared(sums[pixel], quanta);
+  if (!spread) return add_shared(sums[pixel], quanta), written(sums[pixel]);
   const Int128 value = value_of(quanta);
   for_each_pixel(*spread, pixel, width(), height(), [&](std::size_t at, std::int32_t weight) {
     add_shared(sums[at], wide_sum(value * weight));
+    written(sums[at]);
   });
 }
 
@@ -128,7 +144,7 @@ bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value, 
   add(y_planes + group(sample), pixel, light, spread);
   if (!parts.empty()) [[unlikely]]
     add_to_groups(pixel, sample, {in_x, light, in_z}, parts, spread);
-  if (key_.photons.photons > 0) add_shared(sums_[first_batch() + batch_of(sample)], light);
+  if (key_.photons.photons > 0) add_single(first_batch() + batch_of(sample), light);
   return true;
 }
 
@@ -156,8 +172,8 @@ double Film::clamp(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) 
   if (!(largest > key_.clamp) || !std::isfinite(largest)) return 1;
   const double left = key_.clamp / largest, taken = (1 - left) * value.y;
   if (accepts(taken, std::abs(taken)))
-    add_shared(sums_.back(), rounded(power_of_two((key_.splats ? weight_bits : 0) - exponent_) * taken,
-                                     dice(place(pixel), sample, taken)));
+    add_single(sums_.size() - 1, rounded(power_of_two((key_.splats ? weight_bits : 0) - exponent_) * taken,
+                                         dice(place(pixel), sample, taken)));
   return left;
 }
 
@@ -205,6 +221,7 @@ void Film::deposit_layer(std::uint32_t pixel, std::uint32_t sample, Layer layer,
 // The greater, the earlier the sample; of one sample, the lesser the id.
 void Film::put_id(std::uint32_t pixel, std::uint32_t sample, Layer layer, std::uint32_t id) {
   const std::int64_t code = static_cast<std::int64_t>(0x7fffffffu - sample) << 32 | (0xffffffffu - id);
+  reading(ids_[place_of_id(pixel, layer)]);
   std::atomic_ref held(ids_[place_of_id(pixel, layer)]);
   std::int64_t before = held.load(std::memory_order_relaxed);
   while (before < code && !held.compare_exchange_weak(before, code, std::memory_order_relaxed)) {
@@ -212,22 +229,23 @@ void Film::put_id(std::uint32_t pixel, std::uint32_t sample, Layer layer, std::u
 }
 
 std::uint32_t Film::id(std::uint32_t pixel, Layer layer) const {
-  const std::int64_t code = ids_[place_of_id(pixel, layer)];
+  const std::int64_t code = reading(ids_[place_of_id(pixel, layer)]);
   return code == 0 ? 0 : 0u - static_cast<std::uint32_t>(code);
 }
 
 double Film::mean_of_layer(std::uint32_t pixel, Layer layer, std::size_t plane) const {
   const double n = weight(pixel);
   if (!(n > 0)) return 0;
-  const WideSum& sum = sums_[(first_plane(layer) + plane) * pixels() + pixel];
+  const WideSum& sum = reading(sums_[(first_plane(layer) + plane) * pixels() + pixel]);
   return power_of_two(exponent_of(layer)) * static_cast<double>(value_of(sum)) / n;
 }
 
 void Film::count_sample(std::uint32_t pixel, std::uint32_t sample, const Footprint* spread) {
-  std::atomic_ref(counts_[group(sample) * pixels() + pixel]).fetch_add(1, std::memory_order_relaxed);
+  std::uint32_t& count = counts_[group(sample) * pixels() + pixel];
+  std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed);
   if (key_.splats) add(first_weights() + group(sample), pixel, wide_sum_of(1), spread);
-  if (key_.photons.photons > 0)
-    add_shared(sums_[first_batch() + photon_batches + batch_of(sample)], wide_sum_of(1));
+  if (key_.photons.photons > 0) add_single(first_batch() + photon_batches + batch_of(sample), wide_sum_of(1));
+  written(count);
 }
 
 float rounded_threshold(double threshold) {
@@ -258,19 +276,18 @@ void Film::merge(const Film& other) {
   for (std::uint32_t p = 0; p < pixels(); ++p)
     if (samples(p) + other.samples(p) > std::numeric_limits<std::uint32_t>::max())
       throw Error("the films hold more than 2³² − 1 samples a pixel together");
-  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
-  for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
-  for (std::size_t i = 0; i < ids_.size(); ++i) ids_[i] = std::max(ids_[i], other.ids_[i]);
-  for (std::size_t i = 0; i < mattes_.size(); ++i) mattes_[i] += other.mattes_[i];
+  for (std::size_t i = 0; i < sums_.size(); ++i) writing(sums_[i]) += other.reading(other.sums_[i]);
+  for (std::size_t i = 0; i < counts_.size(); ++i) writing(counts_[i]) += other.reading(other.counts_[i]);
+  for (std::size_t i = 0; i < ids_.size(); ++i)
+    writing(ids_[i]) = std::max(ids_[i], other.reading(other.ids_[i]));
+  for (std::size_t i = 0; i < mattes_.size(); ++i) writing(mattes_[i]) += other.reading(other.mattes_[i]);
   refused_.nonfinite += other.refused_.nonfinite;
   refused_.too_large += other.refused_.too_large;
 }
 
 std::uint64_t Film::hash() const {
-  const std::array<std::uint64_t, 4> parts{XXH3_64bits(sums_.data(), sums_.size() * sizeof sums_[0]),
-                                           XXH3_64bits(counts_.data(), counts_.size() * sizeof counts_[0]),
-                                           XXH3_64bits(ids_.data(), ids_.size() * sizeof ids_[0]),
-                                           XXH3_64bits(mattes_.data(), mattes_.size() * sizeof mattes_[0])};
+  const auto of = [&](const auto& array) { return checksum_of(std::span(array), scratch_.get()); };
+  const std::array<std::uint64_t, 4> parts{of(sums_), of(counts_), of(ids_), of(mattes_)};
   const std::size_t used = !mattes_.empty() ? 4 : !ids_.empty() ? 3 : 2;
   return XXH3_64bits(parts.data(), used * sizeof parts[0]);
 }

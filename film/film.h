@@ -5,11 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "film/film_key.h"
+#include "film/film_scratch.h"
 #include "film/footprint.h"
 #include "film/light_groups.h"
 #include "film/mattes.h"
@@ -62,8 +64,9 @@ class Film {
  public:
   Film() = default;
   // `length_exponent`: of what layers keep of lengths, see tracer/prepared/film_exponent.h.
+  // `scratch`: where its sums lie if not in memory.
   Film(const FilmSettings& settings, const FilmKey& key, int exponent = default_exponent,
-       int length_exponent = default_exponent);
+       int length_exponent = default_exponent, std::shared_ptr<FilmScratch> scratch = nullptr);
 
   // What it is of. Its filter is not kept.
   const FilmSettings& settings() const { return settings_; }
@@ -143,6 +146,9 @@ class Film {
   // Of the Y of all deposits, the part that the clamp took: how much darker the picture is on the average.
   double clamped_share() const;
 
+  // Null where all of it is in memory. Who reads or writes the planes themselves does so by in_parts.
+  const std::shared_ptr<FilmScratch>& scratch() const { return scratch_; }
+
   // Deposits that it did not take.
   const Refused& refused() const { return refused_; }
   // True when a deposit was too large: the picture is then not to be trusted.
@@ -166,9 +172,32 @@ class Film {
   std::span<MattePixel> mattes() { return mattes_; }
 
  private:
-  friend Film read_film(const std::filesystem::path& file, struct FilmProgress* progress);
+  friend Film read_film(const std::filesystem::path& file, struct FilmProgress* progress,
+                        std::shared_ptr<FilmScratch> scratch);
   friend void write_film(const std::filesystem::path& file, const Film& film,
                          const struct FilmProgress& progress);
+  explicit Film(std::shared_ptr<FilmScratch> scratch);
+  // What is read or written, once there is room for its page.
+  template <class T>
+  const T& reading(const T& at) const {
+    if (scratch_) [[unlikely]]
+      scratch_->reads(&at, sizeof at);
+    return at;
+  }
+  // What was written: its page is then in memory. After, so that films in memory pay least.
+  template <class T>
+  void written(const T& at) {
+    if (scratch_) [[unlikely]]
+      written_in_scratch(&at, sizeof at);
+  }
+  [[gnu::cold, gnu::noinline]] void written_in_scratch(const void* at, std::size_t bytes);
+  // To be written to at once.
+  template <class T>
+  T& writing(T& at) {
+    written(at);
+    return at;
+  }
+  void add_single(std::size_t sum, const WideSum& quanta);
   std::size_t group(std::uint32_t sample) const;
   std::uint32_t place(std::uint32_t pixel) const;
   bool accepts(double size, double largest);
@@ -189,6 +218,7 @@ class Film {
   FilmSettings settings_{.width = 0, .height = 0, .crop = {}};
   FilmKey key_{};
   int exponent_ = default_exponent, length_exponent_ = default_exponent;
+  std::shared_ptr<FilmScratch> scratch_;
   UntouchedVector<WideSum> sums_;
   UntouchedVector<std::uint32_t> counts_;
   UntouchedVector<std::int64_t> ids_;

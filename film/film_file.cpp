@@ -6,9 +6,6 @@
 // docs/why/color-and-film.md has the header byte by byte.
 #include <fmt/format.h>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -16,7 +13,9 @@
 #include <cstddef>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
+#include "film/array_checksum.h"
 #include "film/film_layout.h"
 #include "film/film_progress.h"
 #include "scene/records/film_extent.h"
@@ -36,10 +35,9 @@ namespace {
 bool in_range(std::int32_t exponent) { return least_exponent <= exponent && exponent <= greatest_exponent; }
 
 template <class T>
-void write_array(AtomicFile& out, const T& array) {
-  const auto bytes = std::as_bytes(std::span(array));
-  const std::uint64_t sum = XXH3_64bits(bytes.data(), bytes.size());
-  out.write(bytes);
+void write_array(AtomicFile& out, const T& array, FilmScratch* scratch = nullptr) {
+  const std::uint64_t sum = checksum_of(std::span<const typename T::value_type>(array), scratch,
+                                        [&](auto part) { out.write(std::as_bytes(part)); });
   out.write(std::as_bytes(std::span(&sum, 1)));
 }
 
@@ -61,14 +59,13 @@ class Reader {
   }
 
   template <class Array>
-  void read_array(Array& array, std::uint64_t count, const char* what) {
+  void read_array(Array& array, std::uint64_t count, const char* what, FilmScratch* scratch = nullptr) {
     array.resize(count);
-    const std::uint64_t bytes = count * sizeof(typename Array::value_type);
-    read(array.data(), bytes);
+    const std::uint64_t sum =
+        checksum_of(std::span(array), scratch, [&](auto part) { read(part.data(), part.size_bytes()); });
     std::uint64_t expected;
     read(&expected, sizeof expected);
-    if (XXH3_64bits(array.data(), bytes) != expected)
-      fail(fmt::format("the film file is corrupt: the checksum of its {} is wrong", what));
+    if (sum != expected) fail(fmt::format("the film file is corrupt: the checksum of its {} is wrong", what));
   }
 
  private:
@@ -263,15 +260,17 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   write_array(out, progress.earlier_ends);
   write_array(out, progress.about);
   write_array(out, progress.done);
-  write_array(out, film.sums_);
-  write_array(out, film.counts_);
-  write_array(out, film.ids_);
-  if (!film.mattes_.empty()) write_array(out, film.mattes_);
+  FilmScratch* const scratch = film.scratch_.get();
+  write_array(out, film.sums_, scratch);
+  write_array(out, film.counts_, scratch);
+  write_array(out, film.ids_, scratch);
+  if (!film.mattes_.empty()) write_array(out, film.mattes_, scratch);
   if (!progress.more.empty()) write_array(out, progress.more);
   out.commit();
 }
 
-Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
+Film read_film(const std::filesystem::path& file, FilmProgress* progress,
+               std::shared_ptr<FilmScratch> scratch) {
   Reader in(file);
   const Header h = read_header(in);
   const LightGroups groups = read_groups(in, h);
@@ -280,7 +279,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   const PhotonKey photons = read_photons(in, h);
   const double working_gamma = read_working_gamma(in, h);
   FilmProgress read = read_progress(in, h, arrays);
-  Film film;
+  Film film(std::move(scratch));
   film.settings_.crop = {h.x0, h.x1, h.y0, h.y1};
   film.settings_.width = h.full_width, film.settings_.height = h.full_height;
   film.settings_.imaging_ratio = h.imaging_ratio;
@@ -290,12 +289,14 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   film.key_ = key_of(h, photons, groups);
   film.exponent_ = h.exponent, film.length_exponent_ = h.length_exponent;
   film.refused_ = {h.nonfinite, h.too_large};
-  in.read_array(film.sums_, arrays.sums, "sums");
-  in.read_array(film.counts_, arrays.counts, "counts");
-  in.read_array(film.ids_, arrays.ids, "ids");
-  if (arrays.mattes > 0) in.read_array(film.mattes_, arrays.mattes, "mattes");
-  if (!std::ranges::all_of(film.mattes_, makes_sense))
-    in.fail("the film file is corrupt: its mattes make no sense");
+  in.read_array(film.sums_, arrays.sums, "sums", film.scratch_.get());
+  in.read_array(film.counts_, arrays.counts, "counts", film.scratch_.get());
+  in.read_array(film.ids_, arrays.ids, "ids", film.scratch_.get());
+  if (arrays.mattes > 0) in.read_array(film.mattes_, arrays.mattes, "mattes", film.scratch_.get());
+  in_parts(std::span(std::as_const(film.mattes_)), film.scratch_.get(), [&](auto part) {
+    if (!std::ranges::all_of(part, makes_sense))
+      in.fail("the film file is corrupt: its mattes make no sense");
+  });
   if (arrays.more > 0) in.read_array(read.more, arrays.more, "open round");
   if (progress) *progress = std::move(read);
   return film;

@@ -20,15 +20,18 @@ std::size_t Film::place_of_matte(std::uint32_t pixel, Layer layer) const {
 void Film::put_matte(std::uint32_t pixel, Layer layer, std::uint32_t id, double weight,
                      const Footprint* spread) {
   assert((spread != nullptr) == key_.splats);
+  // They are read before they are written.
+  const auto filling = [&](MattePixel& at) -> MattePixel& { return reading(at), at; };
   MattePixel* const plane = mattes_.data() + place_of_matte(0, layer);
   if (!spread)
-    return add_shared(plane[pixel], id, static_cast<std::int64_t>(std::llround(quanta_of_a_sample * weight)));
+    return add_shared(filling(plane[pixel]), id,
+                      static_cast<std::int64_t>(std::llround(quanta_of_a_sample * weight)));
   for_each_pixel(*spread, pixel, width(), height(),
-                 [&](std::size_t at, std::int32_t landed) { add_shared(plane[at], id, landed); });
+                 [&](std::size_t at, std::int32_t landed) { add_shared(filling(plane[at]), id, landed); });
 }
 
 const MattePixel& Film::matte(std::uint32_t pixel, Layer layer) const {
-  return mattes_[place_of_matte(pixel, layer)];
+  return reading(mattes_[place_of_matte(pixel, layer)]);
 }
 
 // Weights of samples that splat are in the same quanta as the sums.

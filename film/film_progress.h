@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,9 @@ struct FilmProgress {
 
 // Writes under a temporary name, syncs and renames. Throws MachineError.
 void write_film(const std::filesystem::path& file, const Film& film, const FilmProgress& progress);
-// Throws Error for anything but a whole, checksummed film of this version. `progress` may be null.
-Film read_film(const std::filesystem::path& file, FilmProgress* progress);
+// Throws Error for anything but a whole, checksummed film of this version. `progress` may be null. `scratch`:
+// where its sums are to lie if not in memory.
+Film read_film(const std::filesystem::path& file, FilmProgress* progress,
+               std::shared_ptr<FilmScratch> scratch = nullptr);
 
 }  // namespace vitrail

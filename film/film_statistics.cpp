@@ -12,7 +12,7 @@
 namespace vitrail {
 
 double Film::value(std::size_t plane, std::uint32_t pixel) const {
-  return power_of_two(exponent_) * static_cast<double>(value_of(sums_[plane * pixels() + pixel]));
+  return power_of_two(exponent_) * static_cast<double>(value_of(reading(sums_[plane * pixels() + pixel])));
 }
 
 XYZ Film::mean(std::uint32_t pixel) const {
@@ -20,7 +20,7 @@ XYZ Film::mean(std::uint32_t pixel) const {
   if (!(n > 0)) return {};
   const double each = settings_.imaging_ratio / n;
   WideSum y;
-  for (std::size_t g = 0; g < sample_groups; ++g) y += sums_[(y_planes + g) * pixels() + pixel];
+  for (std::size_t g = 0; g < sample_groups; ++g) y += reading(sums_[(y_planes + g) * pixels() + pixel]);
   return {each * value(x_plane, pixel), each * (power_of_two(exponent_) * static_cast<double>(value_of(y))),
           each * value(z_plane, pixel)};
 }
@@ -35,10 +35,10 @@ XYZ Film::mean_of_group(std::uint32_t pixel, std::size_t group) const {
 
 double Film::clamped_share() const {
   if (!(key_.clamp > 0)) return 0;
-  WideSum all = sums_.back();
+  WideSum all = reading(sums_.back());
   const double taken = static_cast<double>(value_of(all));
   const auto y = std::span(sums_).subspan(y_planes * pixels(), sample_groups * pixels());
-  for (const WideSum& sum : y) all += sum;
+  for (const WideSum& sum : y) all += reading(sum);
   return taken == 0 ? 0 : taken / static_cast<double>(value_of(all));
 }
 
@@ -48,8 +48,8 @@ double Film::mean_of_bin(std::uint32_t pixel, std::size_t bin) const {
 }
 
 double Film::weight(std::size_t group, std::uint32_t pixel) const {
-  if (!key_.splats) return counts_[group * pixels() + pixel];
-  return static_cast<double>(value_of(sums_[(first_weights() + group) * pixels() + pixel]));
+  if (!key_.splats) return reading(counts_[group * pixels() + pixel]);
+  return static_cast<double>(value_of(reading(sums_[(first_weights() + group) * pixels() + pixel])));
 }
 
 double Film::weight(std::uint32_t pixel) const {
@@ -76,7 +76,9 @@ double Film::variance_of_mean(std::uint32_t pixel) const {
 double Film::shared_error() const {
   if (key_.photons.photons == 0) return 0;
   double light = 0, count = 0, squares = 0, batches = 0;
-  const auto sum = [&](std::size_t i) { return static_cast<double>(value_of(sums_[first_batch() + i])); };
+  const auto sum = [&](std::size_t i) {
+    return static_cast<double>(value_of(reading(sums_[first_batch() + i])));
+  };
   for (std::size_t b = 0; b < photon_batches; ++b) {
     light += sum(b), count += sum(photon_batches + b);
     batches += sum(photon_batches + b) > 0;
@@ -91,12 +93,16 @@ double Film::shared_error() const {
 
 std::uint64_t Film::samples(std::uint32_t pixel) const {
   std::uint64_t sum = 0;
-  for (std::size_t g = 0; g < sample_groups; ++g) sum += counts_[g * pixels() + pixel];
+  for (std::size_t g = 0; g < sample_groups; ++g) sum += reading(counts_[g * pixels() + pixel]);
   return sum;
 }
 
 std::uint64_t Film::samples() const {
-  return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
+  std::uint64_t sum = 0;
+  in_parts(std::span(counts_), scratch_.get(), [&](std::span<const std::uint32_t> part) {
+    sum = std::accumulate(part.begin(), part.end(), sum);
+  });
+  return sum;
 }
 
 }  // namespace vitrail

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render/picture_output.h"
 
+#include <memory>
+#include <utility>
+
 #include "cli/common/run_program.h"
 #include "farm/run/checkpoint.h"
 #include "film/alpha.h"
@@ -33,9 +36,12 @@ void require_own_picture(const fs::path& picture, bool force) {
 // Other formats than PNG, and denoising, need libraries that take time and memory to load: another program
 // writes them.
 void develop_film(const RenderArguments& a, const fs::path& file, const fs::path& picture,
-                  int spectral_bins) {
+                  const RenderStats& stats) {
   if (is_png(picture) && !a.denoised) {
-    const Film film = read_film(file, nullptr);
+    // One that was too large for memory still is.
+    std::shared_ptr<FilmScratch> scratch;
+    if (stats.film_window_bytes > 0) scratch = std::make_shared<FilmScratch>(FilmScratch::least_window_bytes);
+    const Film film = read_film(file, nullptr, std::move(scratch));
     require_samples(film, file);
     Picture developed = develop_colors(film);
     if (const double ev = fitting_exposure_ev(developed.rgb); ev != 0) {
@@ -52,7 +58,7 @@ void develop_film(const RenderArguments& a, const fs::path& file, const fs::path
   std::vector<std::string> arguments{file.string(), "-o", picture.string(), "--quiet"};
   if (picture.extension() != ".exr" && picture.extension() != ".hdr")
     arguments.insert(arguments.end(), {"--exposure", "fit"});
-  if (spectral_bins > 0 && picture.extension() == ".exr") arguments.push_back("--spectral");
+  if (stats.spectral_bins > 0 && picture.extension() == ".exr") arguments.push_back("--spectral");
   if (a.denoised) arguments.push_back("--denoise");
   run_program("vitrail-develop", arguments);
 }
@@ -90,7 +96,7 @@ void write_picture_of_film(const RenderArguments& a, const RenderStats& stats) {
   const JobOutputs& o = a.options.outputs;
   if (o.picture.empty() || o.dry_run) return;
   if (!(o.keeps_film && stats.finished_before && !o.force && is_newer(o.picture, o.film)))
-    develop_film(a, o.film, o.picture, stats.spectral_bins);
+    develop_film(a, o.film, o.picture, stats);
   else if (a.denoised && !a.quiet)
     say("vitrail: {} is newer than its film and stays; vitrail develop {} -o {} --denoise replaces it\n",
         o.picture.string(), o.film.string(), o.picture.string());
@@ -102,7 +108,7 @@ fs::path write_picture_so_far(const RenderArguments& a, const RenderStats& stats
   const fs::path& picture = a.preview.empty() ? o.picture : a.preview;
   if (picture.empty() || o.dry_run || stats.samples == 0) return {};
   if (a.preview.empty() && fs::exists(picture)) return {};
-  develop_film(a, checkpoint_path(o.film), picture, stats.spectral_bins);
+  develop_film(a, checkpoint_path(o.film), picture, stats);
   return picture;
 }
 

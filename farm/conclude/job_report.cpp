@@ -79,7 +79,8 @@ void add_plan(RenderStats& stats, const Job& job, const RenderOptions& options, 
   stats.adaptive = job.plan.goal.adaptive;
   stats.domains_total = manifest.domains.size();
   stats.memory_budget_bytes = options.resources.memory_bytes;
-  stats.base_rss_bytes = job.plan.base_bytes;
+  stats.base_rss_bytes = job.plan.base_bytes + job.plan.film.resident();
+  stats.film_window_bytes = job.plan.film.window;
   stats.setup_peak_rss_bytes = job.plan.scene.peak;
 }
 

@@ -17,8 +17,10 @@ Job set_up(const RenderOptions& options, const Place& place) {
   job.scene->replaced_camera = read.replaced_camera;
   const Manifest& m = job.scene->manifest;
   job.plan = plan_job(m, options, place, {resident_bytes(), peak_resident_bytes(), textures});
+  std::shared_ptr<FilmScratch> scratch;
+  if (job.plan.film.window > 0) scratch = std::make_shared<FilmScratch>(job.plan.film.window);
   job.film = Film(m.film, job.plan.key, film_exponent(*job.scene),
-                  m.film.layers.any() ? length_exponent(*job.scene) : default_exponent);
+                  m.film.layers.any() ? length_exponent(*job.scene) : default_exponent, std::move(scratch));
   if (place.rank == 0 && !options.outputs.dry_run)
     job.keeper = std::make_unique<FilmKeeper>(options.outputs.film, film_file_bytes(m.film, job.plan.key));
   return job;

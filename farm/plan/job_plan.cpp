@@ -27,25 +27,27 @@ std::uint64_t map_bytes(const PixelRect& crop) {
 
 std::uint64_t base_bytes(const Manifest& m, const RenderOptions& options, const JobPlan& plan, int ranks) {
   const WorkPlan work = make_work_plan(m.film.crop, plan.goal.samples, {}, plan.goal.one_by_one);
-  return plan.scene.resident + film_bytes(m.film, plan.key) +
-         (plan.goal.adaptive ? map_bytes(m.film.crop) : 0) + list_bytes(work, ranks) +
+  return plan.scene.resident + (plan.goal.adaptive ? map_bytes(m.film.crop) : 0) + list_bytes(work, ranks) +
          table_bytes(m.domains.size(), plan.threads) + connection_bytes(ranks) +
          (options.outputs.profile.empty() ? 0 : profile_bytes(m.domains.size(), plan.threads)) +
          (options.outputs.trace.empty() ? 0 : Timeline::most_bytes(ranks));
 }
 
-// Of rank 0 while it makes the picture, for which the film is read again. A PNG it makes itself: the colours
-// as numbers, and as bytes. For others and for what is denoised it runs vitrail-develop, which was measured
-// to take five eighths of the film beside it, and 8 MiB for its libraries; what denoises is not counted.
+// Of rank 0 while it makes the picture, for which the film is read again: beside what of the film is in
+// memory. A PNG it makes itself: the colours as numbers, and as bytes. For others and for what is denoised it
+// runs vitrail-develop, which was measured to take five eighths of the film beside it, and 8 MiB for its
+// libraries; what denoises is not counted.
 std::uint64_t picture_bytes(const Manifest& m, const RenderOptions& options, const JobPlan& plan) {
   const std::filesystem::path& picture = options.outputs.picture;
   if (picture.empty() || options.outputs.dry_run) return 0;
   constexpr std::uint64_t a_pixel = 24, encoder = 2 << 20, libraries = 10 << 20;
-  const std::uint64_t film = film_bytes(m.film, plan.key);
+  const std::uint64_t window = plan.film.window == 0 ? 0 : FilmScratch::least_window_bytes;
   const PixelRect& c = m.film.crop;
   const auto pixels = static_cast<std::uint64_t>(c.x1 - c.x0) * static_cast<std::uint64_t>(c.y1 - c.y0);
-  return plan.scene.resident + film +
-         (picture.extension() == ".png" ? a_pixel * pixels + encoder : film / 8 * 5 + libraries);
+  return plan.scene.resident +
+         (picture.extension() == ".png"
+              ? a_pixel * pixels + encoder + FilmMemory{plan.film.bytes, window}.resident()
+              : plan.film.bytes + plan.film.bytes / 8 * 5 + libraries);
 }
 
 std::uint64_t largest_domain(const Manifest& manifest) {
@@ -61,13 +63,20 @@ std::size_t least_room(const PhotonKey& key, std::uint64_t memory_bytes) {
   return memory_bytes == 0 ? 0 : static_cast<std::size_t>(3 * key.photons);
 }
 
-// `picture`: while that is made.
-void share_out(JobPlan& plan, const RenderOptions& options, std::uint64_t largest, std::uint64_t picture) {
-  plan.most_photons = least_room(plan.key.photons, options.resources.memory_bytes);
+// On rank 0 a picture is made in the end.
+void share_out(JobPlan& plan, const Manifest& m, const RenderOptions& options, int rank) {
+  const std::uint64_t budget = options.resources.memory_bytes, largest = largest_domain(m);
+  plan.most_photons = least_room(plan.key.photons, budget);
   const std::uint64_t base =
       plan.base_bytes + plan.scene.textures + PhotonMap::photon_bytes * plan.most_photons;
-  plan.memory = plan_memory(options.resources.memory_bytes, base, std::max(plan.scene.peak, picture),
-                            plan.threads, largest, plan.all_domains);
+  plan.film = {film_bytes(m.film, plan.key), 0};
+  const auto peak = [&] {
+    return std::max(plan.scene.peak, rank == 0 ? picture_bytes(m, options, plan) : 0);
+  };
+  plan.film = place_film(plan.film.bytes, budget, base, peak(), plan.threads, largest, plan.all_domains);
+  plan.memory =
+      plan_memory(budget, base + plan.film.resident(), peak(), plan.threads, largest, plan.all_domains);
+  widen_window(plan.film, plan.memory, largest, plan.all_domains);
   if (options.resources.domain_memory_bytes > 0)
     plan.memory = {
         std::max(largest, std::min(plan.memory.domains_bytes, options.resources.domain_memory_bytes)),
@@ -108,7 +117,7 @@ JobPlan plan_job(const Manifest& m, const RenderOptions& options, const Place& p
   plan.scene = scene;
   plan.base_bytes = base_bytes(m, options, plan, place.ranks);
   plan.all_domains = bytes_of_all(m);
-  share_out(plan, options, largest_domain(m), place.rank == 0 ? picture_bytes(m, options, plan) : 0);
+  share_out(plan, m, options, place.rank);
   plan.homes = homes_of(m, options, place.ranks);
   plan.queues = plan.key.photons.photons > 0 ? queue_bounds_with_photons(plan.memory, place.ranks)
                                              : queue_bounds(plan.memory, place.ranks);

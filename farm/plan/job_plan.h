@@ -28,7 +28,8 @@ struct JobPlan {
   Goal goal;
   FilmKey key;
   SceneMemory scene;
-  std::uint64_t base_bytes = 0;  // resident once film and tables are there, domains and rays aside
+  std::uint64_t base_bytes = 0;  // resident once tables are there: film, domains and rays aside
+  FilmMemory film;
   MemoryPlan memory;
   std::uint64_t all_domains = 0;  // bytes
   std::size_t most_photons = 0;   // that land here in an iteration; 0: no limit

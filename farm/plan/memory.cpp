@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "farm/scheduler/residency.h"
+#include "film/film_scratch.h"
 #include "scene/system/diagnostics.h"
 #include "tracer/rays/ray_records.h"
 
@@ -18,23 +19,60 @@ constexpr std::uint64_t mib = 1 << 20;
 constexpr std::uint64_t slack_bytes = 4 * mib, slack_a_thread = mib + mib / 2, slack_a_loader = mib / 16;
 constexpr std::uint64_t least_queue_bytes = 2 * mib, most_queue_bytes = 512 * mib;
 
+std::uint64_t fixed_bytes(std::uint64_t base, int threads) {
+  return base + slack_bytes + slack_a_thread * static_cast<std::uint64_t>(threads) +
+         slack_a_loader * loaders_of_a_rank;
+}
+
 }  // namespace
+
+std::uint64_t least_memory(std::uint64_t base, std::uint64_t peak, int threads,
+                           std::uint64_t largest_domain) {
+  return std::max(peak, fixed_bytes(base, threads) + least_queue_bytes + largest_domain);
+}
+
+std::uint64_t FilmMemory::resident() const {
+  return window == 0 ? bytes : window + FilmScratch::table_bytes(window, bytes);
+}
+
+FilmMemory place_film(std::uint64_t film_bytes, std::uint64_t budget, std::uint64_t base, std::uint64_t peak,
+                      int threads, std::uint64_t largest_domain, std::uint64_t all_domains) {
+  constexpr std::uint64_t least_window = FilmScratch::least_window_bytes;
+  const auto fits = [&](std::uint64_t domains) {
+    return budget >= least_memory(base + film_bytes, peak, threads, domains);
+  };
+  if (budget == 0 || film_bytes <= 2 * least_window || fits(all_domains) ||
+      (film_bytes <= budget / 2 && fits(largest_domain)))
+    return {film_bytes, 0};
+  return {film_bytes, least_window};
+}
+
+void widen_window(FilmMemory& film, MemoryPlan& plan, std::uint64_t largest_domain,
+                  std::uint64_t all_domains) {
+  if (film.window == 0) return;
+  const std::uint64_t have = plan.domains_bytes, unused = have > all_domains ? have - all_domains : 0;
+  const std::uint64_t spare = std::max(unused, (have - largest_domain) / 2);
+  // Beside the window its tables take a hundredth of it.
+  const std::uint64_t more = std::min(spare / 64 * 63, film.bytes);
+  film.window += more;
+  plan.domains_bytes -= more + more / 64;
+}
 
 MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t peak, int threads,
                        std::uint64_t largest_domain, std::uint64_t all_domains) {
   if (budget == 0) return {all_domains, most_queue_bytes};
-  const std::uint64_t fixed = base + slack_bytes + slack_a_thread * static_cast<std::uint64_t>(threads) +
-                              slack_a_loader * loaders_of_a_rank;
-  const std::uint64_t least = std::max(peak, fixed + least_queue_bytes + largest_domain);
+  const std::uint64_t fixed = fixed_bytes(base, threads);
+  const std::uint64_t least = least_memory(base, peak, threads, largest_domain);
   if (budget < least)
     throw MachineError(fmt::format(
         "--memory {:.0f}M is too little. Give at least {:.0f}M, or cut the scene into more domains. The "
         "program "
         "and the film take {:.0f}M, the largest domain and its objects {:.0f}M; reading the scene and making "
-        "the picture take {:.0f}M",
+        "the picture take {:.0f}M{}",
         static_cast<double>(budget) / mib, static_cast<double>(least + mib - 1) / mib,
         static_cast<double>(fixed) / mib, static_cast<double>(largest_domain) / mib,
-        static_cast<double>(peak) / mib));
+        static_cast<double>(peak) / mib,
+        peak < least ? "" : "; -o NAME.film needs less, and vitrail develop makes the picture elsewhere"));
   const std::uint64_t free = budget - fixed;
   const std::uint64_t queues =
       std::clamp(free / 5, least_queue_bytes, std::min(most_queue_bytes, free - largest_domain));

@@ -6,16 +6,36 @@
 
 namespace vitrail {
 
+// --memory is a promise about the pages that are resident in a rank (VmHWM), those of mapped files included.
+// What the system caches of files beyond that is its own: it gives it back when others need memory.
 struct MemoryPlan {
   std::uint64_t domains_bytes = 0;  // for mapped domains
   std::uint64_t queue_bytes = 0;    // for rays that wait or travel
 };
+
+// What has to be the budget at least, as below.
+std::uint64_t least_memory(std::uint64_t base, std::uint64_t peak, int threads, std::uint64_t largest_domain);
 
 // `budget` for the whole rank, 0: no limit. `base`: resident already, film and manifest included; `peak`: at
 // the highest so far, or later while the picture is made. `largest_domain` has to fit. Throws MachineError
 // with the least budget that would do.
 MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t peak, int threads,
                        std::uint64_t largest_domain, std::uint64_t all_domains);
+
+// Of a rank's film, whose sums take `bytes`: in memory, or in files of which a window is.
+struct FilmMemory {
+  std::uint64_t bytes = 0;
+  std::uint64_t window = 0;  // bytes; 0: all of it is in memory
+  std::uint64_t resident() const;
+};
+
+// In memory where there is no budget, where all domains have room beside it, or where it takes half the
+// budget at most and the largest domain has room; else in files. `base`, `peak`: without the film.
+FilmMemory place_film(std::uint64_t film_bytes, std::uint64_t budget, std::uint64_t base, std::uint64_t peak,
+                      int threads, std::uint64_t largest_domain, std::uint64_t all_domains);
+// Gives the window what no domain needs, or half of what the largest domain leaves if that is more.
+void widen_window(FilmMemory& film, MemoryPlan& plan, std::uint64_t largest_domain,
+                  std::uint64_t all_domains);
 
 // For rays, where tests say how much there is for domains: they go to the disk.
 inline constexpr std::uint64_t few_rays_bytes = 1 << 18;

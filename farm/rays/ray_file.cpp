@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/rays/ray_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <system_error>
 
 #include "scene/system/diagnostics.h"
+#include "scene/system/scratch_file.h"
 #include "scene/system/underway.h"
 
 namespace vitrail {
@@ -30,23 +29,13 @@ std::uint32_t units_of(std::size_t bytes) {
 
 }  // namespace
 
-std::filesystem::path scratch_directory() {
-  const char* chosen = std::getenv("TMPDIR");
-  return chosen && *chosen ? chosen : "/var/tmp";
-}
-
 RayFile::~RayFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void RayFile::open() {
-  descriptor_ = ::open(scratch_directory().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  if (descriptor_ >= 0) return;
-  // Not every file system has files without names.
-  std::string name = scratch_directory() / "vitrail-rays-XXXXXX";
-  descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
+  descriptor_ = open_scratch_file();
   if (descriptor_ < 0) fail("kept");
-  ::unlink(name.c_str());
 }
 
 RayFile::Place RayFile::write(const RayBatch& batch) {

@@ -3,8 +3,6 @@
 // however that ends.
 #pragma once
 
-#include <filesystem>
-
 #include "farm/rays/batch.h"
 #include "farm/rays/file_room.h"
 
@@ -34,8 +32,5 @@ class RayFile {
   FileRoom room_;
   std::uint64_t written_ = 0;
 };
-
-// $TMPDIR, else /var/tmp, which is on a disk where /tmp may be in memory.
-std::filesystem::path scratch_directory();
 
 }  // namespace vitrail

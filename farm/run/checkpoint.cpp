@@ -42,10 +42,13 @@ FilmProgress progress_of(const WorkPlan& plan, const std::vector<std::uint64_t>&
 }
 
 void gather_film(Transport& transport, Film& film, std::vector<std::uint64_t>& done) {
-  transport.sum_to_root(film.sums());
-  transport.sum_to_root(film.counts());
-  transport.max_to_root(film.ids());
-  transport.sum_to_root(film.mattes());
+  // By parts of the size that the transport's own have, so that ranks whose films lie elsewhere go along.
+  FilmScratch* const scratch = film.scratch().get();
+  const auto sum = [&](auto part) { transport.sum_to_root(part); };
+  in_parts(film.sums(), scratch, sum);
+  in_parts(film.counts(), scratch, sum);
+  in_parts(film.ids(), scratch, [&](auto part) { transport.max_to_root(part); });
+  in_parts(film.mattes(), scratch, sum);
   Refused& refused = film.refused();
   std::array<std::int64_t, 2> counts{static_cast<std::int64_t>(refused.nonfinite),
                                      static_cast<std::int64_t>(refused.too_large)};
@@ -139,7 +142,7 @@ std::optional<Held> held_by(const std::filesystem::path& file, const char* kind,
   constexpr const char* ways_out = "; --force replaces it, and another name for the output keeps it";
   Held held{file, {}, {}};
   try {
-    held.film = read_film(file, &held.progress);
+    held.film = read_film(file, &held.progress, asked.film.scratch());
   } catch (const Error& e) {
     throw Error(std::string(e.what()) + ways_out, e.location);
   }

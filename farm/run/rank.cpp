@@ -150,7 +150,8 @@ std::optional<Ending> Rank::act_on(Decision decision, const RoundSums& sums) {
     ending = *end;
   }
   if (options_.outputs.dry_run)
-    transport_.sum_to_root(state_.film.counts());
+    in_parts(state_.film.counts(), state_.film.scratch().get(),
+             [&](auto part) { transport_.sum_to_root(part); });
   else
     checkpointing_.write_last(/*as_film=*/writes_film(ending));
   progress_.finish();

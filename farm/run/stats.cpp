@@ -114,6 +114,7 @@ std::string to_json(const RenderStats& s) {
                                  {"peak_rss_bytes", s.peak_rss_bytes},
                                  {"base_rss_bytes", s.base_rss_bytes},
                                  {"setup_peak_rss_bytes", s.setup_peak_rss_bytes},
+                                 {"film_window_bytes", s.film_window_bytes},
                                  {"nonfinite_samples", s.refused.nonfinite},
                                  {"saturated_samples", s.refused.too_large},
                                  {"clamped_share", s.clamped_share},

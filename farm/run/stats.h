@@ -43,8 +43,9 @@ struct RenderStats {
   std::uint64_t memory_budget_bytes = 0, peak_rss_bytes = 0, base_rss_bytes = 0, setup_peak_rss_bytes = 0;
   std::uint64_t film_hash = 0;
   Ending ending = Ending::none;
-  std::uint64_t pixels = 0;  // of the film
-  std::string command;       // that was typed; empty: unknown
+  std::uint64_t pixels = 0;             // of the film
+  std::uint64_t film_window_bytes = 0;  // of rank 0: what of a film in files is in memory; 0: all of it is
+  std::string command;                  // that was typed; empty: unknown
   std::vector<RankStats> by_rank;
   bool finished_before = false;  // nothing was left to do
 };

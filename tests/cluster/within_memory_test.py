@@ -15,6 +15,7 @@ import tempfile
 
 programs, source = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
 MIB = 1 << 20
+LARGE = 640, 480  # pixels of 824 bytes: several times what a rank has
 INTO_GROUP = 'echo $$ > {0}.${{OMPI_COMM_WORLD_RANK:-0}}/cgroup.procs; exec "$@"'
 
 INTEGRATORS = {
@@ -31,6 +32,7 @@ WRITERS = {
     "picture.exr": [],
     "layers.exr": ["--aov", "albedo,position,normal,depth,crypto_object,crypto_material", "--alpha"],
     "spectral": ["--spectral", 16],
+    "large.film": ["--spectral", 47],
     "groups": ["--light-groups"],
     "profile": ["--profile", "profile.json"],
     "trace": ["--trace", "trace.json"],
@@ -85,7 +87,8 @@ def run(folder, ranks, words, limit=None):
 
 def measure(folder, ranks, name, options):
     output = name if "." in name else "out.film"
-    words = [programs / "vitrail-render", "city.vit", "-o", output, "--width", 200, "--height", 150, "--spp", 4, "--threads", 2, "--quiet",
+    size = LARGE if name == "large.film" else (200, 150)
+    words = [programs / "vitrail-render", "city.vit", "-o", output, "--width", size[0], "--height", size[1], "--spp", 4, "--threads", 2, "--quiet",
              "--force", "--stats", "stats.json", *options]
     done = run(folder, ranks, words)
     assert done.returncode == 0, done.stderr
@@ -105,6 +108,8 @@ def measure(folder, ranks, name, options):
           f"{everything['peak_rss_bytes'] / MIB:.1f}; {little['evictions']} evictions", flush=True)
     if little["film_hash"] != everything["film_hash"]:
         return "another film"
+    if name == "large.film" and not (0 < little["film_window_bytes"] and budget < size[0] * size[1] * 824 / 3):
+        return f"the film is in memory, or is not large for {budget / MIB:.0f}M"
     return f"{little['peak_rss_bytes']} bytes of {budget}" if little["peak_rss_bytes"] > budget else None
 
 

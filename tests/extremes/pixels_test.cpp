@@ -158,9 +158,9 @@ TEST(Pixels, WhatDoesNotFitIsRefused) {
   const std::string render = "ulimit -v 4000000; " + vitrail("render") + " '" +
                              (directory / "large.pbrt").string() + "' --spp 1 -o '" +
                              (directory / "large.film").string() + "'";
-  const CommandResult budget = run(render + " --memory 200M");
-  expect_exactly("32768² pixels in --memory 200M: exit status", 4, budget.status);
-  EXPECT_NE(budget.output.find("--memory 200M is too little"), std::string::npos) << budget.output;
+  const CommandResult budget = run(render + " --memory 100M");
+  expect_exactly("32768² pixels in --memory 100M: exit status", 4, budget.status);
+  EXPECT_NE(budget.output.find("--memory 100M is too little"), std::string::npos) << budget.output;
   const CommandResult whole = run(render), crop = run(render + " --crop 32704,32768,32704,32768");
   expect_exactly("32768² pixels in 4 GB: exit status", 4, whole.status);
   EXPECT_NE(whole.output.find("out of memory; a large picture is rendered in parts with --crop"),

@@ -115,6 +115,27 @@ TEST_F(SmallDisk, WhatOthersWriteDoesNotTakeTheFilmsRoom) {
   EXPECT_TRUE(std::filesystem::exists(path("kept/a.film")));
 }
 
+TEST_F(SmallDisk, AFilmInFilesHasItsRoomOrIsRefused) {
+  const auto large = [&](const std::string& film, const std::string& more) {
+    std::string text = vitrail("render ") + path("box.vit") + " -o " + path(film) +
+                       " --width 400 --height 300 --spectral 47 --spp 1 --threads 2 --quiet " + more;
+    std::erase(text, '\'');
+    return text;
+  };
+  constexpr std::uint64_t film_bytes = 400 * 300 * 824, mib = 1 << 20;
+  const std::string in_files = "TMPDIR=$D " + large("kept/files.film", "--memory 64M --stats " + path("s"));
+  const CommandResult refused = run(on_small_disk(path("disk"), film_bytes - mib, in_files));
+  EXPECT_EQ(refused.status, 4) << refused.output;
+  EXPECT_THAT(refused.output, HasSubstr("have no room in " + path("disk") + ": No space left"));
+  EXPECT_THAT(refused.output, HasSubstr("TMPDIR names another place"));
+  EXPECT_FALSE(std::filesystem::exists(path("kept/files.film")));
+  const CommandResult made = run(on_small_disk(path("disk"), film_bytes + mib, in_files));
+  ASSERT_EQ(made.status, 0) << made.output;
+  EXPECT_GT(read_json(path("s"))["film_window_bytes"], 0);
+  ASSERT_EQ(run(large("kept/memory.film", "")).status, 0);
+  EXPECT_EQ(hash("kept/files.film"), hash("kept/memory.film"));
+}
+
 // A limit to the size of files is no death by SIGXFSZ, and holds in every folder.
 TEST_F(FailingMachine, WhatFitsNowhereIsSaid) {
   const CommandResult failed =

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "scene/system/diagnostics.h"
+#include "scene/system/scratch_file.h"
 #include "tests/farm/machine_limits.h"
 #include "tests/support/temporary_directory.h"
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The xxh3 of an array of a film, which may lie in its scratch.
+#pragma once
+
+#ifndef XXH_INLINE_ALL
+#define XXH_INLINE_ALL
+#endif
+#include <xxhash.h>
+
+#include <cstdint>
+#include <span>
+
+#include "film/film_scratch.h"
+
+namespace vitrail {
+
+// Of all bytes of an array that is visited part by part: `visit` sees each part before it is counted.
+template <class T, class Visit>
+std::uint64_t checksum_of(std::span<T> array, FilmScratch* scratch, Visit&& visit) {
+  XXH3_state_t state;
+  XXH3_64bits_reset(&state);
+  in_parts(array, scratch, [&](std::span<T> part) {
+    visit(part);
+    XXH3_64bits_update(&state, part.data(), part.size_bytes());
+  });
+  return XXH3_64bits_digest(&state);
+}
+template <class T>
+std::uint64_t checksum_of(std::span<T> array, FilmScratch* scratch) {
+  return checksum_of(array, scratch, [](std::span<T>) {});
+}
+
+}  // namespace vitrail
