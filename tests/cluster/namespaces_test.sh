@@ -27,11 +27,12 @@ fail() { echo "failed: $*"; cat "$folder"/log 2> /dev/null; exit 1; }
 
 # Namespace 0 is the switch; in it, h$h is the cable of host $h.
 ip -n $id-0 link add bridge type bridge && ip -n $id-0 link set bridge up || fail bridge
-# TCP gives a host up that does not answer after some 10 s in place of a quarter of an hour: mpirun ends no sooner.
+# TCP gives a host up that does not answer after some 40 s in place of a quarter of an hour: mpirun ends no sooner, and Open MPI itself
+# would end the job without a name if that were before the end of our patience.
 for h in $(seq $hosts); do
   ip netns add $id-$h && ip -n $id-0 link add h$h type veth peer name eth0 netns $id-$h &&
     ip -n $id-0 link set h$h master bridge up && ip -n $id-$h address add 10.77.0.$h/24 dev eth0 &&
-    ip netns exec $id-$h sysctl -qw net.ipv4.tcp_retries2=5 &&
+    ip netns exec $id-$h sysctl -qw net.ipv4.tcp_retries2=6 &&
     ip -n $id-$h link set eth0 up && ip -n $id-$h link set lo up || fail "host $h"
   echo "10.77.0.$h slots=$((ranks / hosts))"
 done > "$folder/hosts"
