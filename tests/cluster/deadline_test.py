@@ -42,10 +42,11 @@ def main():
                 right = status == 0 and took_s <= LATE * limit_s
                 print(f"{'kept' if right else 'LATE'}: --time {limit_s}, opens take {1000 * delay_s:.0f} ms: {took_s:.1f} s, status {status}", flush=True)
                 kept, jobs = kept + right, jobs + 1
-                (folder / "job.film.partial").unlink(missing_ok=True)
+                checkpoint = folder / "job.film.partial"
+                checkpoint.unlink(missing_ok=True)
                 end = int(time.time()) + limit_s
                 status, took_s = render("job.film", delay_s, SLURM_JOB_ID="7", SLURM_JOB_END_TIME=str(end), SLURM_MEM_PER_NODE="4000")
-                right = (folder / "job.film.partial").exists() and time.time() <= end
+                right = checkpoint.exists() and checkpoint.stat().st_ctime <= end
                 print(f"{'kept' if right else 'LATE'}: a job that ends in {limit_s} s, opens take {1000 * delay_s:.0f} ms: {took_s:.1f} s, status {status}",
                       flush=True)
                 kept, jobs = kept + right, jobs + 1
