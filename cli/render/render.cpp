@@ -309,6 +309,7 @@ int supervise_job(RenderArguments& a, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace vitrail;
+  catch_checkpoint_signal();
   CLI::App app("renders a bundle or a scene, alone or as the ranks of an MPI job", "vitrail render");
   RenderArguments arguments;
   arguments.options.outputs.command = typed_command(argc, argv);

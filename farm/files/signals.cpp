@@ -26,11 +26,19 @@ void catch_signals() {
   struct sigaction action {};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;
-  for (int number : {SIGTERM, SIGINT, SIGUSR1}) ::sigaction(number, &action, nullptr);
+  for (int number : {SIGTERM, SIGINT}) ::sigaction(number, &action, nullptr);
+  catch_checkpoint_signal();
   // A reader of messages that goes away, or a limit to the size of files, does not end the work: what cannot
   // be written says so.
   action.sa_handler = SIG_IGN;
   for (int number : {SIGPIPE, SIGXFSZ}) ::sigaction(number, &action, nullptr);
+}
+
+void catch_checkpoint_signal() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGUSR1, &action, nullptr);
 }
 
 int stop_signal() { return stop_number; }

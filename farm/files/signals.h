@@ -5,6 +5,9 @@
 namespace vitrail {
 
 void catch_signals();
+// USR1 alone, which would end a program that does not know it: for its first moment. The checkpoint is
+// written once there is a job.
+void catch_checkpoint_signal();
 // The first of TERM and INT that came; 0: none did.
 int stop_signal();
 // As a TERM that came.

@@ -175,6 +175,19 @@ class Matrix:
         job.process.terminate()
         job.end(60)
 
+    def checkpoint_asked_for_in_set_up(self):
+        """USR1 ends no rank, however early it comes."""
+        self.clear()
+        job = Job(self.folder, 2, "shared memory", "0 open 1 1 manifest.json")
+        assert job.stands_still_since() is not None
+        job.process.send_signal(signal.SIGUSR1)
+        status = job.end(120)
+        self.all += 1
+        right = status == 0 and json.loads((self.folder / "a.json").read_text())["film_hash"] == self.expected
+        self.right += right
+        print(f"{'right' if right else 'WRONG'}          USR1 while the scene is read: status {status}" + ("" if right else "\n" + job.said()),
+              flush=True)
+
     def damaged_while_disk_hangs(self):
         """Rank 0 finds a damaged domain while rank 1's loader hangs: both are told, and the job ends."""
         self.clear()
@@ -234,6 +247,7 @@ def main():
             matrix.disk(2, rank, call, number, file, 1000)
         matrix.disk(2, 1, "open", 1, "domains/", .05)
         matrix.damaged_while_disk_hangs()
+        matrix.checkpoint_asked_for_in_set_up()
         matrix.suspend(3, 2.5 * PATIENCE_S)
         print(f"{matrix.right} of {matrix.all} named rightly; the longest took {matrix.longest_s:.1f} s with --patience {PATIENCE_S}")
         return matrix.right != matrix.all
