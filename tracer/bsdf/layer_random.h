@@ -60,10 +60,4 @@ inline Vector3d sample_henyey_greenstein(double g, Vector3d w, Point2f u) {
   return normalize(Frame(w).to_world({sine * sin_pi(phi + 0.5), sine * sin_pi(phi), cosine}));
 }
 
-// (a/(a + b)) with squares (Veach 1997, Eq. 9.13); a > 0.
-inline double power_heuristic(double a, double b) {
-  const double r = b / a;
-  return 1 / (1 + r * r);
-}
-
 }  // namespace vitrail

@@ -9,6 +9,7 @@
 #include "tracer/bsdf/layer_random.h"
 #include "tracer/bsdf/layered.h"
 #include "tracer/bsdf/layered_base.h"
+#include "tracer/sampling/power_heuristic.h"
 
 namespace vitrail {
 

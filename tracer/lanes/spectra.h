@@ -31,6 +31,14 @@ VITRAIL_LANES FloatsLike<D> sigmoid(D c0, D c1, D c2, std::type_identity_t<Float
   return select<F>(constant, select<F>(x > 0, fill<F>(1), fill<F>(0)), value);
 }
 
+// Of the camera's numbers, as vitrail::camera_numbers has it.
+template <class F>
+VITRAIL_LANES void place_hero(Four<F>& u) {
+  const F quarter = convert<float>(convert<std::int32_t>(4.0f * u[3]));
+  u[2] = lanes::min((u[2] + quarter) / 4.0f, fill<F>(0x1.fffffep-1f));
+  u[3] = 4.0f * u[3] - quarter;
+}
+
 // vitrail::sample_wavelengths by its tables (wavelength_tables()).
 template <class F>
 VITRAIL_LANES Wavelengths<F> sample_wavelengths(const WavelengthTables& tables, F u) {

@@ -34,13 +34,11 @@ inline SampleKey photon_key(std::uint64_t seed, std::uint32_t iteration, std::ui
   constexpr std::uint64_t apart_from_paths = 0x9c5d1ab7f20e4c61u;
   return {mix(seed ^ apart_from_paths), iteration, number};
 }
-// Which wavelengths an iteration has, for sample_wavelengths. All four are shared by the whole picture, so
-// they are stratified over the iterations together: one number places them in their quarters, another says
-// whose is the hero.
+// Which wavelengths an iteration has, for sample_wavelengths: all four are shared by the whole picture.
 inline float wavelength_number(std::uint64_t seed, std::uint32_t iteration) {
   constexpr std::uint64_t apart = 0x51a7e5d0c3b92f87u;
   const std::array<float, 4> u = sample_4d({mix(seed ^ apart), 0, iteration}, sample_set::camera);
-  return std::min(u[0] / 4 + std::floor(4 * u[1]) / 4, 0x1.fffffep-1f);
+  return number_of_hero(u[0], std::floor(4 * u[1]));
 }
 // When it sees the scene, in parts of the time that the shutter is open.
 inline float time_number(std::uint64_t seed, std::uint32_t iteration) {

@@ -21,8 +21,7 @@ inline std::uint16_t pdf_code(float pdf) {
 inline float pdf_value(std::uint16_t code) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(code) << 16);
 }
-// Of scattering, as it counts beside that of one of several samples of the lights (the balance heuristic,
-// Veach 1997, eq. 9.8).
+// Of scattering, as it counts beside that of one of several samples of the lights (Veach 1997, eq. 9.8).
 inline float density_beside(double pdf, std::uint32_t light_samples) {
   return pdf_value(pdf_code(static_cast<float>(light_samples == 1 ? pdf : pdf / light_samples)));
 }

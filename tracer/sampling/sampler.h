@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 namespace vitrail {
 
@@ -66,15 +67,33 @@ constexpr std::uint64_t stream_seed(const SampleKey& key, std::uint64_t a, std::
 
 // Which set is for what: one for the camera, one for its lens and one for its time, two a bounce.
 namespace sample_set {
-inline constexpr std::uint32_t camera = 0;  // film x, film y, wavelength, choice of a light
+inline constexpr std::uint32_t camera =
+    0;  // film x, film y, wavelengths, whose is the hero and choice of a light
 constexpr std::uint32_t scatter(std::uint32_t depth) {
   return 1 + 2 * depth;
 }  // direction u, v, lobe, roulette
 constexpr std::uint32_t light(std::uint32_t depth) {
   return 2 + 2 * depth;
 }  // point u, v, which light, which kind
-inline constexpr std::uint32_t lens = 0xffffffffu;  // point u, v; point u, v of the sun's disc
-inline constexpr std::uint32_t time = 0xfffffffeu;  // of the shutter, where anything moves
+inline constexpr std::uint32_t lens = 0xffffffffu;      // point u, v; point u, v of the sun's disc
+inline constexpr std::uint32_t time = 0xfffffffeu;      // of the shutter, where anything moves
+inline constexpr std::uint32_t material = 0xfffffffdu;  // which of a blend, at the first surface
 }  // namespace sample_set
+
+// Numbers in [0,1) for the choice of a material: the first is stratified over the samples of a pixel, for a
+// path's first surface, or of a stream as all others are.
+class MaterialNumbers {
+ public:
+  explicit MaterialNumbers(std::uint64_t stream) : stream_(stream) {}
+  MaterialNumbers(std::uint64_t stream, const SampleKey& first) : stream_(stream), first_(&first) {}
+  double next() {
+    const SampleKey* const key = std::exchange(first_, nullptr);
+    return key ? static_cast<double>(sample_4d(*key, sample_set::material, Wanted::two)[0]) : stream_.next();
+  }
+
+ private:
+  RandomStream stream_;
+  const SampleKey* first_ = nullptr;
+};
 
 }  // namespace vitrail

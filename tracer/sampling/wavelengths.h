@@ -2,6 +2,7 @@
 // Hero wavelengths and what the sensor makes of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -16,8 +17,12 @@ namespace vitrail {
 // Radziszewski et al. 2009 for the density). u in [0,1).
 SampledWavelengths sample_wavelengths(float u);
 
-// What it reads: of each nanometre its density and the sum of those before, and where the search for u·cells
-// begins.
+// A number for that: `u` in [0,1) places the four in their quarters, where its strata are four times as fine
+// as they are in the whole; `quarter`, 0 … 3, says which of them is the hero.
+inline float number_of_hero(float u, float quarter) { return std::min((u + quarter) / 4, 0x1.fffffep-1f); }
+
+// What sample_wavelengths reads: of each nanometre its density and the sum of those before, and where the
+// search for u·cells begins.
 struct WavelengthTables {
   const double *pdf, *cumulative;
   const std::uint32_t* first;

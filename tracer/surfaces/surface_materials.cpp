@@ -171,16 +171,17 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
   }
 }
 
-const Material* Materials::choose(std::uint32_t material, const Interaction& at, RandomStream& chance) const {
+const Material* Materials::choose(std::uint32_t material, const Interaction& at,
+                                  MaterialNumbers& numbers) const {
   for (;;) {
     const Material& m = manifest_.materials[material];
     if (const auto* sided = std::get_if<TwoSidedMaterial>(&m.model)) {
       material = (at.front ? sided->front : sided->back).value;
     } else if (const auto* blend = std::get_if<BlendMaterial>(&m.model)) {
       const double amount = textures_.number(blend->amount, at.texture_point());
-      material = (chance.next() < amount ? blend->second : blend->first).value;
+      material = (numbers.next() < amount ? blend->second : blend->first).value;
     } else if (const auto* mask = std::get_if<MaskMaterial>(&m.model)) {
-      if (chance.next() >= textures_.number(mask->opacity, at.texture_point())) return nullptr;
+      if (numbers.next() >= textures_.number(mask->opacity, at.texture_point())) return nullptr;
       material = mask->material.value;
     } else {
       return is_nothing(m, at.front) ? nullptr : &m;

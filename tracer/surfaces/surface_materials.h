@@ -37,7 +37,7 @@ class Materials {
 
   // The material that a path meets: of two sides the one it sees, of a blend one by chance, of a mask the
   // material or, null, nothing: light goes straight through.
-  const Material* choose(std::uint32_t material, const Interaction& at, RandomStream& chance) const;
+  const Material* choose(std::uint32_t material, const Interaction& at, MaterialNumbers& numbers) const;
   // The share of the light that goes straight through, by no chance.
   SampledSpectrum passes_straight(std::uint32_t material, const Interaction& at,
                                   const SampledWavelengths& wavelengths) const;

@@ -9,6 +9,7 @@
 #include "tracer/media/phase.h"
 #include "tracer/rays/connection_code.h"
 #include "tracer/sampling/candidate_numbers.h"
+#include "tracer/sampling/power_heuristic.h"
 #include "tracer/transport/connection.h"
 
 namespace vitrail {
@@ -104,7 +105,7 @@ void connect(Tracing& tracing, const CameraPath& path, Point3d p, std::uint32_t 
     if (!candidate) continue;
     const BsdfValue scattered = scatter(*candidate);
     const double beside = candidate->is_delta ? 0 : static_cast<double>(density_beside(scattered.pdf, count));
-    const double weight = 1 / (candidate->pdf + beside);
+    const double weight = power_heuristic(candidate->pdf, beside) / candidate->pdf;
     const SampledSpectrum brought =
         path.throughput * scattered.value * candidate->radiance * static_cast<float>(weight);
     const double target = sum_of(brought);

@@ -93,8 +93,7 @@ void record_first_medium(Tracing& tracing, CameraPath& path) {
 
 void record_first_surface(Tracing& tracing, CameraPath& path, const Event& event) {
   const auto& [surface, kind, at, is_there] = event;
-  RandomStream chance(stream_of(path, RayRandom::choice));
-  const Material* material = tracing.scene.materials.choose(surface.material, at, chance);
+  const Material* material = chosen_at(tracing, path, surface, at);
   if (!material) return;
   path.unrecorded = false;
 

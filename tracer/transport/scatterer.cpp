@@ -142,8 +142,11 @@ void pass_nothing(const Tracing& tracing, CameraPath& path, const Surface& surfa
 
 const Material* chosen_at(const Tracing& tracing, const Scatterer& s, const Surface& surface,
                           const Interaction& at) {
-  RandomStream chance(stream_of(s, RayRandom::choice));
-  return tracing.scene.materials.choose(surface.material, at, chance);
+  // A ray from the camera excludes no triangle. One that has gone straight on does, and needs another number.
+  const bool is_first = s.depth == 0 && s.ray.exclude == no_triangle;
+  const std::uint64_t stream = stream_of(s, RayRandom::choice);
+  MaterialNumbers numbers = is_first ? MaterialNumbers(stream, s.key) : MaterialNumbers(stream);
+  return tracing.scene.materials.choose(surface.material, at, numbers);
 }
 
 MetMaterial material_at(const Tracing& tracing, CameraPath& path, const Event& event) {

@@ -2,6 +2,7 @@
 #include "tracer/transport/shading.h"
 
 #include "tracer/media/phase.h"
+#include "tracer/sampling/power_heuristic.h"
 #include "tracer/surfaces/scattered_direction.h"
 #include "tracer/transport/connect.h"
 #include "tracer/transport/connection.h"
@@ -16,8 +17,7 @@ namespace {
 
 // Beside a light sample of density light_pdf: the weight of a path that has found the light by itself.
 double weight_of_finding(const CameraPath& path, double light_pdf) {
-  const auto pdf = static_cast<double>(path.pdf);
-  return pdf / (pdf + light_pdf);
+  return power_heuristic(static_cast<double>(path.pdf), light_pdf);
 }
 
 // The discs of suns that are connected to as distant lights are seen as well, but where connections were made

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/tracing.h"
 
+#include <cmath>
+
 #include "tracer/transport/group_lights.h"
 
 namespace vitrail {
@@ -30,9 +32,10 @@ SampleKey key_of(const Tracing& tracing, std::uint32_t pixel, std::uint32_t samp
 }
 
 std::array<float, 4> camera_numbers(const Tracing& tracing, const SampleKey& key) {
-  std::array<float, 4> numbers = sample_4d(key, sample_set::camera);
-  if (tracing.photons) numbers[2] = tracing.photons->wavelength_number;
-  return numbers;
+  const std::array<float, 4> u = sample_4d(key, sample_set::camera);
+  const float quarter = std::floor(4 * u[3]);
+  return {u[0], u[1], tracing.photons ? tracing.photons->wavelength_number : number_of_hero(u[2], quarter),
+          4 * u[3] - quarter};
 }
 
 double time_of(const Tracing& tracing, const SampleKey& key) {

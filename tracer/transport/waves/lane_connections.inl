@@ -277,7 +277,7 @@ VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carrie
     const BsdfValue<D> scattered = eval_towards(work, c, bsdf, out, in);
     const D beside =
         select<D>(c.is_delta, fill<D>(0), to_doubles(lanes::density_beside(scattered.pdf, count)));
-    const F weight = to_floats(1.0 / (c.pdf + beside));
+    const F weight = to_floats(lanes::power_heuristic(c.pdf, beside) / c.pdf);
     Four<F> brought;
     D target = fill<D>(0);
     for (int i = 0; i < 4; ++i) {

@@ -56,7 +56,7 @@ void leave_scene(LaneWork& work, const LaneList& list) {
         });
     // Beside a light sample: the weight of a path that has found the light by itself.
     const D pdf = to_doubles(gather<F>(VITRAIL_EACH(path[j]->pdf)));
-    const F weight = to_floats(select<D>(pdf > 0, pdf / (pdf + seen.pdf), fill<D>(1)));
+    const F weight = to_floats(select<D>(pdf > 0, lanes::power_heuristic(pdf, seen.pdf), fill<D>(1)));
     const Mask<F> shines = greatest(seen.radiance) > 0;
     Four<F> brought;
     for (int i = 0; i < 4; ++i)

@@ -106,7 +106,8 @@ void begin(const Tracing& tracing, CameraPath* paths, const std::uint32_t* place
     const U pixel = gather<U>(VITRAIL_EACH(path[j]->key.pixel)),
             sample = gather<U>(VITRAIL_EACH(path[j]->key.sample));
     const L seed = sample_seed(tracing.scene.seed.value, pixel, sample);
-    const Four<F> u = lanes::sample_4d(tracing.scene.seed, pixel, sample, pixel * 0u + sample_set::camera);
+    Four<F> u = lanes::sample_4d(tracing.scene.seed, pixel, sample, pixel * 0u + sample_set::camera);
+    lanes::place_hero(u);
     const Wavelengths<F> wavelengths = lanes::sample_wavelengths(tables, u[2]);
     const D weight =
         gather<D>(VITRAIL_EACH(lane_by_lane::filter_weight(tracing, lane(u[0], j), lane(u[1], j))));
