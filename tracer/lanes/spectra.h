@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tracer/lanes/sampling.h"
+#include "tracer/sampling/flat_spectrum.h"
 #include "tracer/sampling/wavelengths.h"
 #include "tracer/simd/spectral_tables.h"
 
@@ -37,6 +38,27 @@ VITRAIL_LANES void place_hero(Four<F>& u) {
   const F quarter = convert<float>(convert<std::int32_t>(4.0f * u[3]));
   u[2] = lanes::min((u[2] + quarter) / 4.0f, fill<F>(0x1.fffffep-1f));
   u[3] = 4.0f * u[3] - quarter;
+}
+
+// of(j): the FlatSpectrum of lane j, which has no `other`. lambda_nm(i): the wavelengths i of all lanes.
+template <class D, class SpectrumOf, class LambdaOf>
+VITRAIL_LANES Four<FloatsLike<D>> flat_values(const SpectrumOf& of, const LambdaOf& lambda_nm) {
+  using F = FloatsLike<D>;
+  const auto number = [&](float FlatSpectrum::*part) __attribute__((always_inline)) {
+    return gather<F>([&](int j) __attribute__((always_inline)) { return of(j).*part; });
+  };
+  const D c0 = to_doubles(number(&FlatSpectrum::c0)), c1 = to_doubles(number(&FlatSpectrum::c1)),
+          c2 = to_doubles(number(&FlatSpectrum::c2));
+  const F scale = number(&FlatSpectrum::scale), factor = number(&FlatSpectrum::factor);
+  const auto table = [&](int j) __attribute__((always_inline)) { return of(j).table; };
+  bool has_tables = false;
+  for (int j = 0; j < width<D>; ++j) has_tables |= of(j).has_table;
+  Four<F> values;
+  for (int i = 0; i < hero_count; ++i) values[i] = sigmoid(c0, c1, c2, lambda_nm(i));
+  if (has_tables)
+    for (int i = 0; i < hero_count; ++i) values[i] = values[i] * table_value_of_each<F>(table, lambda_nm(i));
+  for (int i = 0; i < hero_count; ++i) values[i] = values[i] * scale * factor;
+  return values;
 }
 
 // vitrail::sample_wavelengths by its tables (wavelength_tables()).

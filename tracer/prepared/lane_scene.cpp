@@ -6,6 +6,7 @@
 
 #include "scene/records/material_traits.h"
 #include "tracer/bsdf/principled_lobes.h"
+#include "tracer/sampling/wavelengths.h"
 
 namespace vitrail {
 
@@ -13,6 +14,15 @@ namespace {
 
 bool is_one(const SpectrumParameter& p) { return p == SpectrumParameter{Spectrum{ConstantSpectrum{1}}}; }
 bool is_constant(const SpectrumParameter& p) { return std::holds_alternative<Spectrum>(p); }
+
+// Those of LaneBsdf, in its order.
+void set_spectra(std::initializer_list<const SpectrumParameter*> parameters, LaneMaterial& s) {
+  s.is_textured = s.has_parameters = !std::ranges::all_of(
+      parameters, is_constant, [](const auto* p) -> const auto& { return *p; });
+  if (s.is_textured) return;
+  FlatSpectrum* next = s.spectra;
+  for (const SpectrumParameter* p : parameters) *next++ = flat_spectrum(std::get<Spectrum>(*p));
+}
 
 // Null where the widths are textured: they may be smooth in places.
 const float* width_of(const Roughness& r) {
@@ -22,29 +32,25 @@ const float* width_of(const Roughness& r) {
 void set(const DiffuseMaterial& m, LaneMaterial& s) {
   if (m.sigma_deg != FloatParameter{0.0f}) return;
   s.kind = LaneKind::diffuse;
-  s.is_textured = !is_constant(m.reflectance);
-  const auto* spectrum = std::get_if<Spectrum>(&m.reflectance);
-  if (!spectrum) return;
-  if (const auto* sigmoid = std::get_if<SigmoidSpectrum>(spectrum))
-    s.has_parameters = false, s.sigmoid = *sigmoid;
-  if (const auto* constant = std::get_if<ConstantSpectrum>(spectrum); constant && constant->value >= 0)
-    s.has_parameters = false, s.constant = constant->value;
+  set_spectra({&m.reflectance}, s);
 }
 
 void set(const ConductorMaterial& m, LaneMaterial& s) {
   if (!width_of(m.roughness)) return;
   s.kind = is_smooth(m.roughness) ? LaneKind::mirror : LaneKind::metal;
-  s.is_textured = !is_constant(m.reflectance_factor);
-  if (const auto* index = std::get_if<ComplexIndex>(&m.metal))
-    s.is_textured = s.is_textured || !is_constant(index->eta) || !is_constant(index->k);
-  if (const auto* normal = std::get_if<NormalReflectance>(&m.metal))
+  static const SpectrumParameter nothing = Spectrum{ConstantSpectrum{0}};
+  const auto* index = std::get_if<ComplexIndex>(&m.metal);
+  set_spectra({index ? &index->eta : &nothing, index ? &index->k : &nothing, &m.reflectance_factor}, s);
+  if (const auto* normal = std::get_if<NormalReflectance>(&m.metal)) {
     s.is_textured = s.is_textured || !is_constant(normal->reflectance);
+    s.has_parameters = true;
+  }
 }
 
 void set(const PlasticMaterial& m, LaneMaterial& s) {
   if (!width_of(m.roughness)) return;
   s.kind = m.roughness.alpha_u == FloatParameter{0.0f} ? LaneKind::plastic : LaneKind::rough_plastic;
-  s.is_textured = !is_constant(m.diffuse_reflectance) || !is_constant(m.specular_reflectance);
+  set_spectra({&m.diffuse_reflectance, &m.specular_reflectance}, s);
 }
 
 void set(const PrincipledMaterial& m, LaneMaterial& s) {
@@ -53,15 +59,15 @@ void set(const PrincipledMaterial& m, LaneMaterial& s) {
   const FloatParameter* const numbers[] = {&m.roughness, &m.anisotropic, &m.metallic,
                                            &m.spec_tint, &m.sheen,       &m.sheen_tint,
                                            &m.flatness,  &m.clearcoat,   &m.clearcoat_gloss};
-  s.is_textured =
-      !is_constant(m.base_color) || !std::ranges::all_of(numbers, [](const FloatParameter* number) {
-        return std::holds_alternative<float>(*number);
-      });
+  set_spectra({&m.base_color}, s);
+  if (std::ranges::all_of(numbers, [](const auto* number) { return std::holds_alternative<float>(*number); }))
+    return;
+  s.is_textured = s.has_parameters = true;
 }
 
 void set(const FinishMaterial& m, LaneMaterial& s) {
   s.kind = LaneKind::finish;
-  s.is_textured = !is_constant(m.reflectance) || !is_constant(m.highlight);
+  set_spectra({&m.reflectance, &m.highlight}, s);
 }
 
 void set(const DielectricMaterial& m, LaneMaterial& s) {
@@ -147,27 +153,27 @@ LaneLamp lane_lamp(const LightSampler& lights, const LightSampler::Slot& slot) {
 LaneBsdf lane_bsdf(const Bsdf& bsdf) {
   LaneBsdf l;
   if (const auto* lambert = std::get_if<LambertBsdf>(&bsdf)) {
-    l.a = lambert->reflectance;
+    l.spectra[0] = lambert->reflectance;
   } else if (const auto* metal = std::get_if<ConductorBsdf>(&bsdf)) {
-    l.a = metal->eta, l.b = metal->k, l.c = metal->factor;
+    l.spectra[0] = metal->eta, l.spectra[1] = metal->k, l.spectra[2] = metal->factor;
     l.microfacets = metal->microfacets;
     l.is_perfect = metal->perfect;
   } else if (const auto* plastic = std::get_if<PlasticBsdf>(&bsdf)) {
-    l.a = plastic->diffuse_reflectance, l.b = plastic->specular_reflectance;
+    l.spectra[0] = plastic->diffuse_reflectance, l.spectra[1] = plastic->specular_reflectance;
     l.eta = plastic->eta, l.internal_reflectance = plastic->internal_reflectance;
     l.is_nonlinear = plastic->nonlinear;
   } else if (const auto* rough = std::get_if<RoughPlasticBsdf>(&bsdf)) {
-    l.a = rough->diffuse_reflectance, l.b = rough->specular_reflectance;
+    l.spectra[0] = rough->diffuse_reflectance, l.spectra[1] = rough->specular_reflectance;
     l.eta = rough->eta, l.internal_reflectance = rough->tables->internal_reflectance;
     l.microfacets = rough->microfacets;
     l.external_transmittance = rough->tables->external_transmittance.data();
     l.is_nonlinear = rough->nonlinear;
   } else if (const auto* p = std::get_if<PrincipledBsdf>(&bsdf)) {
-    l.a = p->base_color;
+    l.spectra[0] = p->base_color;
     l.microfacets = principled::microfacets(p->roughness, p->anisotropic);
     l.principled = *p;
   } else if (const auto* finish = std::get_if<FinishBsdf>(&bsdf)) {
-    l.a = finish->reflectance, l.b = finish->highlight;
+    l.spectra[0] = finish->reflectance, l.spectra[1] = finish->highlight;
     l.finish = *finish;
   }
   return l;
@@ -181,11 +187,18 @@ LaneScene::LaneScene(const Manifest& manifest, const Textures& images, const Int
                     !std::ranges::all_of(lights.emitters, &PointEmitter::casts_shadows);
   divides_space = interiors.divide_space();
   for (const Material& material : manifest.materials) {
-    this->materials.push_back(lane_material(manifest, images, material));
-    has_textures = has_textures || this->materials.back().texture.image != nullptr;
+    LaneMaterial& lane = this->materials.emplace_back(lane_material(manifest, images, material));
+    if (lane.kind != LaneKind::none && lane.kind != LaneKind::glass && !lane.has_parameters &&
+        !lane.texture.image)
+      lane.constants = lane_bsdf(materials.bsdf_at(material, {}, luminance_wavelengths()[0]));
+    has_textures = has_textures || lane.texture.image != nullptr;
   }
   for (const Surface& surface : manifest.surfaces)
     surfaces.push_back(lane_surface(manifest, this->materials, interiors, materials, surface));
+  for (const AreaLight& light : manifest.area_lights) {
+    const auto* spectrum = std::get_if<Spectrum>(&light.radiance);
+    radiances.push_back(spectrum ? flat_spectrum(*spectrum, light.scale) : FlatSpectrum{});
+  }
   for (const LightSampler::Slot& slot : lights.slots) lamps.push_back(lane_lamp(lights, slot));
 }
 

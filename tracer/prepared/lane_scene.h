@@ -9,6 +9,7 @@
 #include "bundle/interiors.h"
 #include "bundle/manifest.h"
 #include "tracer/lights/light_sampler.h"
+#include "tracer/sampling/flat_spectrum.h"
 #include "tracer/surfaces/surface_materials.h"
 
 namespace vitrail {
@@ -34,17 +35,31 @@ struct LaneTexture {
   Wrap wrap = Wrap::repeat;
 };
 
+// The parameters of a BSDF at a point.
+struct LaneBsdf {
+  static constexpr std::size_t most_spectra = 3;
+  // Reflectance; index η and κ and a factor; diffuse and specular reflectance; base colour.
+  SampledSpectrum spectra[most_spectra];
+  Microfacets microfacets;
+  double eta = 1, internal_reflectance = 0;       // of plastics
+  const float* external_transmittance = nullptr;  // of rough ones: RoughPlasticTables'
+  bool is_nonlinear = false, is_perfect = false;
+  PrincipledBsdf principled;
+  FinishBsdf finish;
+};
+// Of a surface of that kind.
+LaneBsdf lane_bsdf(const Bsdf& bsdf);
+
 struct LaneMaterial {
   LaneKind kind = LaneKind::none;
   bool two_sided = false;
-  bool is_textured = false;    // its parameters depend on the point
-  bool is_tilted = false;      // a map or a height turns its normal
-  bool is_raised = false;      // a height does
-  bool has_parameters = true;  // a LaneBsdf; else they are these:
-  // Of `diffuse`: the reflectance, constant or, where that is < 0, a sigmoid.
-  float constant = -1;
-  SigmoidSpectrum sigmoid;
-  LaneTexture texture;  // or this, where it has an image
+  bool is_textured = false;                      // its parameters depend on the point
+  bool is_tilted = false;                        // a map or a height turns its normal
+  bool is_raised = false;                        // a height does
+  bool has_parameters = true;                    // a LaneBsdf a path; else they are these, at all points:
+  FlatSpectrum spectra[LaneBsdf::most_spectra];  // those of `constants`
+  LaneBsdf constants;
+  LaneTexture texture;  // of `diffuse`, where it has an image: the reflectance
   // Of `glass`: the indices on its back and on its front.
   float eta_behind = 1, eta_before = 1;
 
@@ -58,20 +73,6 @@ struct LaneSurface {
   bool emits = false;
 };
 
-// The parameters of a BSDF at a point.
-struct LaneBsdf {
-  // Reflectance; index η and κ and a factor; diffuse and specular reflectance; base colour.
-  SampledSpectrum a, b, c;
-  Microfacets microfacets;
-  double eta = 1, internal_reflectance = 0;       // of plastics
-  const float* external_transmittance = nullptr;  // of rough ones: RoughPlasticTables'
-  bool is_nonlinear = false, is_perfect = false;
-  PrincipledBsdf principled;
-  FinishBsdf finish;
-};
-// Of a surface of that kind.
-LaneBsdf lane_bsdf(const Bsdf& bsdf);
-
 // A lamp that is there as a whole and shines to all sides, alike all over; or one for lane by lane.
 enum class LaneLamp : std::uint8_t { other, triangle, sphere };
 
@@ -83,6 +84,8 @@ struct LaneScene {
   std::vector<LaneMaterial> materials;  // of all Manifest::materials
   std::vector<LaneSurface> surfaces;    // of all Manifest::surfaces
   std::vector<LaneLamp> lamps;          // of each of LightSampler::slots
+  // Of all Manifest::area_lights that have no texture: the radiance.
+  std::vector<FlatSpectrum> radiances;
   // Stand for what a path does not have.
   LightSampler::Slot no_slot;
   LightSampler::Face no_face;

@@ -86,12 +86,12 @@ constexpr LaneFunctions functions_of(const char* set) {
       table<W, stream_seed, sample_seed, random_bits, sample_4d, numbers_of_candidate, encode_direction,
             decode_direction, decode_normal, normalize, frame_of, frame_around, sample_cosine_hemisphere,
             attainable, fresnel_dielectric, refract, fresnel_conductor, density_beside, rounded_radiance,
-            rounded_by_chance, order_of_min_and_max, rounding_to_float, sigmoid, table_value, wavelengths,
-            plain_interaction, interaction_with_normals, interaction_with_uv, interaction_with_both,
-            offset_origin, depart, choose_of_few_lights, choose_of_many_lights, choose_by_power,
-            choose_of_none, aim, shadow_radiance, draw_triangle, sample_sphere, sphere_crossings,
-            aim_at_sphere, quick_math, microfacets, conductor, plastic, principled, finish, portable_math,
-            sphere_map, look_up_image, sample_environment, see_environment>;
+            rounded_by_chance, order_of_min_and_max, rounding_to_float, sigmoid, table_value, flat_spectrum,
+            wavelengths, plain_interaction, interaction_with_normals, interaction_with_uv,
+            interaction_with_both, offset_origin, depart, choose_of_few_lights, choose_of_many_lights,
+            choose_by_power, choose_of_none, aim, shadow_radiance, draw_triangle, sample_sphere,
+            sphere_crossings, aim_at_sphere, quick_math, microfacets, conductor, plastic, principled, finish,
+            portable_math, sphere_map, look_up_image, sample_environment, see_environment>;
   return {set, W, all, sizeof all / sizeof all[0]};
 }
 

@@ -4,6 +4,7 @@
 
 #include "tracer/lanes/interaction.h"
 #include "tracer/lights/light_sampler.h"
+#include "tracer/sampling/flat_spectrum.h"
 #include "tracer/sampling/wavelengths.h"
 #include "tracer/textures/baked_image.h"
 
@@ -11,12 +12,15 @@ namespace vitrail::lane_tests {
 
 inline constexpr std::uint32_t fixture_clusters = 64, fixture_lamps = 64, fixture_domains = 4,
                                fixture_trees = 4, fixture_spheres = 32, fixture_images = 5,
-                               fixture_environments = fixture_images + 2;
+                               fixture_environments = fixture_images + 2, fixture_spectra = 5;
+
+inline constexpr float fixture_factor = 0.7f;  // of all spectra
 
 struct Context {
   WavelengthTables wavelengths;
   const float *observer, *d65;
   const float* tables[2];                       // spectra
+  const FlatSpectrum* flat_spectra;             // fixture_spectra, one of each kind that has numbers
   lanes::DomainTables domain[fixture_domains];  // with normals if 1, with (u, v) if 2 is set in the index
   const LightSampler::Slot* slots;              // of triangles that emit
   const LightSampler::Face* faces;              // of each slot

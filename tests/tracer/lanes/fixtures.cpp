@@ -168,6 +168,11 @@ Fixtures::Fixtures() {
   context.observer = cie_1931()[0].data();
   context.d65 = cie_d65().data();
   context.tables[0] = tables[0].data(), context.tables[1] = tables[1].data();
+  const SigmoidSpectrum shape{1e-5f, -0.01f, 2};
+  spectra = {ConstantSpectrum{0.3f}, shape, RgbUnboundedSpectrum{shape, 3}, RgbIlluminantSpectrum{shape, 7},
+             TabulatedSpectrum{tables[0]}};
+  for (const Spectrum& spectrum : spectra) flat_spectra.push_back(flat_spectrum(spectrum, fixture_factor));
+  context.flat_spectra = flat_spectra.data();
   context.slots = lights.slots.data();
   context.faces = faces.data();
   context.two_sided = two_sided;

@@ -13,6 +13,8 @@ struct Fixtures {
   Fixtures();
   Fixtures(const Fixtures&) = delete;
   std::vector<float> tables[2];
+  std::vector<Spectrum> spectra;
+  std::vector<FlatSpectrum> flat_spectra;
   DomainContent contents[fixture_domains];
   DomainView views[fixture_domains];
   std::vector<EmissiveTriangle> triangles;

@@ -84,6 +84,14 @@ std::vector<ScalarFunction> stage_functions() {
              own{fixtures().tables[static_cast<std::size_t>(in[1])]};
          Results{out} << static_cast<double>(evaluate(d65, w)[0]) << static_cast<double>(evaluate(own, w)[0]);
        }},
+      {"flat_spectrum",
+       {word(fixture_spectra), wavelength(), wavelength(), wavelength(), wavelength()},
+       [](const Context&, const double* in, double* out) {
+         SampledWavelengths w;
+         for (std::size_t i = 0; i < hero_count; ++i) w.lambda_nm[i] = static_cast<float>(in[1 + i]);
+         Results{out}
+             << (evaluate(fixtures().spectra[static_cast<std::size_t>(in[0])], w) * fixture_factor).v;
+       }},
       {"wavelengths",
        {unit_number(), word(2)},
        [](const Context&, const double* in, double* out) {

@@ -18,6 +18,14 @@ LANE_FUNCTION(table_value, 2, 2) {
   out.number(lanes::table_value_of_each(
       [&](int j) { return context.tables[static_cast<int>(lanes::lane(in.d(1), j))]; }, in.f(0)));
 }
+// The spectrum of that number at four wavelengths.
+LANE_FUNCTION(flat_spectrum, 5, 4) {
+  out.four(lanes::flat_values<lanes::Doubles<W>>(
+      [&](int j) -> const FlatSpectrum& {
+        return context.flat_spectra[static_cast<int>(lanes::lane(in.d(0), j))];
+      },
+      [&](int i) { return in.f(1 + i); }));
+}
 LANE_FUNCTION(wavelengths, 2, 20) {
   const auto w = lanes::sample_wavelengths(context.wavelengths, in.f(0));
   out.four(w.lambda_nm), out.four(w.pdf);

@@ -160,6 +160,24 @@ std::vector<Case> cases() {
       {"gold", block(material(ConductorMaterial{gold_index()}))},
       {"rough gold", block(rough_gold(Roughness::Distribution::ggx))},
       {"rough gold, Beckmann", block(rough_gold(Roughness::Distribution::beckmann))},
+      {"metals by a reflectance and by indices side by side",
+       [](Scene& s) {
+         ConductorMaterial red{NormalReflectance{reflectance_from_rgb({0.9f, 0.2f, 0.1f})}};
+         red.roughness.alpha_u = red.roughness.alpha_v = 0.2f;
+         add_block(s, material(red));
+         ConductorMaterial gold{gold_index()};
+         gold.roughness.alpha_u = gold.roughness.alpha_v = 0.3f;
+         gold.reflectance_factor = Spectrum{RgbUnboundedSpectrum{{0, -0.01f, 5}, 1.5f}};
+         add_ball(s, material(gold));
+       }},
+      {"lamps and surfaces of all kinds of spectra",
+       [](Scene& s) {
+         add_ball(s, material(DiffuseMaterial{BlackbodySpectrum{5000, 0.2f}}),
+                  AreaLight{.radiance = emission_from_rgb({4, 2, 1}), .scale = 0.7f});
+         add_block(s, material(DiffuseMaterial{*named_spectrum("metal-Au-k")}));
+         add_shape(s, add_quads(s, box_faces({-0.9f, -0.9f, 0.2f}, {-0.7f, -0.7f, 0.4f})),
+                   material(DiffuseMaterial{}), AreaLight{.radiance = BlackbodySpectrum{3000, 2}});
+       }},
       {"plastic", block(plastic(0))},
       {"rough plastic", block(plastic(0.2f))},
       {"principled", block(principled(0.3f))},

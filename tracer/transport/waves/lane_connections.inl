@@ -93,6 +93,21 @@ VITRAIL_LANES void sample_spheres(const LaneWork& work, Vector<D> p, const Four<
   c.pdf = select<D>(those, s.pdf, c.pdf);
 }
 
+// Of plain lamps, kept in the path. Not inlined into the stage of each kind.
+[[gnu::noinline]] void find_radiances(const LaneWork& work, const Group& g,
+                                      const LightSampler::Slot* const (&slot)[W], const bool (&on)[W]) {
+  const Four<F> radiance = values_of(
+      g, [&](int j) __attribute__((always_inline))->const FlatSpectrum& {
+        return work.scene.radiances.data()[on[j] ? slot[j]->area_light : 0];
+      });
+  for (int j = 0; j < W; ++j) {
+    if (!on[j]) continue;
+    LastLamp& lamp = g.path[j]->lamp;
+    lamp.area_light = slot[j]->area_light;
+    for (int i = 0; i < 4; ++i) lamp.radiance.v[i] = lane(radiance[i], j);
+  }
+}
+
 VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vector<D> p, const Four<F>& u,
                                      Mask<D> on, TreeRoot& root) {
   const LightSampler& lights = work.tracing.scene.lights;
@@ -135,9 +150,10 @@ VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vecto
   if (some_triangle) sample_triangles(work, p, u, slot, triangle, c);
   if (some_sphere) sample_spheres(work, p, u, slot, sphere, c);
   c.pdf = c.pdf * (gather<D>(VITRAIL_EACH(chosen.probability[j])) * share);
+  bool is_new[W], some_new = false;
   for (int j = 0; j < W; ++j)
-    if (is_set(c.arrives, j) && g.path[j]->lamp.area_light != slot[j]->area_light)
-      lane_by_lane::find_radiance(work, *g.path[j], slot[j]->area_light);
+    some_new |= is_new[j] = is_set(c.arrives, j) && g.path[j]->lamp.area_light != slot[j]->area_light;
+  if (some_new) find_radiances(work, g, slot, is_new);
   for (int i = 0; i < 4; ++i) c.radiance[i] = gather<F>(VITRAIL_EACH(g.path[j]->lamp.radiance.v[i]));
   if (some_environment) {
     EnvironmentSample s;

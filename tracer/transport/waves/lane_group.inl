@@ -5,6 +5,7 @@
 struct Group {
   CameraPath* path[W];
   const LaneMaterial* material[W];
+  const LaneBsdf* bsdf[W];
   std::uint32_t place[W];
   int valid;
 };
@@ -16,8 +17,25 @@ VITRAIL_LANES Group group_of(const LaneWork& work, const LaneList& list, std::si
     g.place[j] = list.places[first + static_cast<std::size_t>(j < g.valid ? j : g.valid - 1)];
     g.path[j] = work.paths + g.place[j];
     g.material[j] = work.scene.materials.data() + work.material[g.place[j]];
+    g.bsdf[j] = g.material[j]->has_parameters ? work.bsdfs + g.place[j] : &g.material[j]->constants;
   }
   return g;
+}
+
+// of(j): the FlatSpectrum of lane j, at the wavelengths of its path.
+template <class SpectrumOf>
+VITRAIL_LANES Four<F> values_of(const Group& g, const SpectrumOf& of) {
+  Four<F> values = flat_values<D>(
+      of, [&](int i) __attribute__((always_inline)) {
+        return gather<F>(VITRAIL_EACH(g.path[j]->wavelengths.lambda_nm[i]));
+      });
+  for (int j = 0; j < W; ++j) {
+    if (!of(j).other) continue;
+    float value[4];
+    lane_by_lane::evaluate(of(j), *g.path[j], value);
+    for (int i = 0; i < 4; ++i) set_lane(values[i], j, value[i]);
+  }
+  return values;
 }
 
 // What a path carries, and what its random numbers are functions of.

@@ -2,10 +2,18 @@
 // Part of lane_stages.inl: how each kind reads its parameters. `eval` and `sample` are those of
 // tracer/bsdf/*_lanes.h.
 
-VITRAIL_LANES Four<F> spectrum_of(const LaneWork& work, const Group& g,
-                                  SampledSpectrum LaneBsdf::*parameter) {
-  Four<F> s;
-  for (int i = 0; i < 4; ++i) s[i] = gather<F>(VITRAIL_EACH((work.bsdfs[g.place[j]].*parameter).v[i]));
+// The spectrum `k` of a LaneBsdf.
+VITRAIL_LANES Four<F> spectrum_of(const Group& g, int k) {
+  const Mask<D> constant = gather_mask<D>(VITRAIL_EACH(!g.material[j]->has_parameters));
+  Four<F> s{};
+  if (!all(constant))
+    for (int i = 0; i < 4; ++i) s[i] = gather<F>(VITRAIL_EACH(g.bsdf[j]->spectra[k].v[i]));
+  if (!any(constant)) return s;
+  const Four<F> values = values_of(
+      g, [&](int j) __attribute__((always_inline))->const FlatSpectrum& {
+        return g.material[j]->spectra[k];
+      });
+  for (int i = 0; i < 4; ++i) s[i] = select<F>(mask_for<F>(constant), values[i], s[i]);
   return s;
 }
 
@@ -41,38 +49,27 @@ struct ReadLambert {
   static constexpr bool is_specular = false;
   static constexpr bool takes_any_normal = true;
   VITRAIL_LANES static Lambert<D> read(const LaneWork& work, const Group& g, const Interaction<D>& at) {
-    Lambert<D> bsdf;
-    const D c0 = to_doubles(gather<F>(VITRAIL_EACH(g.material[j]->sigmoid.c0))),
-            c1 = to_doubles(gather<F>(VITRAIL_EACH(g.material[j]->sigmoid.c1))),
-            c2 = to_doubles(gather<F>(VITRAIL_EACH(g.material[j]->sigmoid.c2)));
-    for (int i = 0; i < 4; ++i)
-      bsdf.reflectance[i] = sigmoid(c0, c1, c2, gather<F>(VITRAIL_EACH(g.path[j]->wavelengths.lambda_nm[i])));
-    const F constant = gather<F>(VITRAIL_EACH(g.material[j]->constant));
-    for (int i = 0; i < 4; ++i) bsdf.reflectance[i] = select<F>(constant >= 0, constant, bsdf.reflectance[i]);
-    for (int j = 0; j < W; ++j)
-      if (g.material[j]->has_parameters)
-        for (int i = 0; i < 4; ++i) set_lane(bsdf.reflectance[i], j, work.bsdfs[g.place[j]].a.v[i]);
+    Lambert<D> bsdf{spectrum_of(g, 0)};
     if (work.scene.has_textures) look_up_images(g, at.u, at.v, bsdf.reflectance);
     return bsdf;
   }
 };
 
-VITRAIL_LANES Microfacets<D> microfacets_of(const LaneWork& work, const Group& g) {
+VITRAIL_LANES Microfacets<D> microfacets_of(const Group& g) {
   return gather_microfacets<D>([&](int j) __attribute__((always_inline))->const vitrail::Microfacets& {
-    return work.bsdfs[g.place[j]].microfacets;
+    return g.bsdf[j]->microfacets;
   });
 }
 
-VITRAIL_LANES Conductor<D> conductor_of(const LaneWork& work, const Group& g) {
-  return {microfacets_of(work, g), spectrum_of(work, g, &LaneBsdf::a), spectrum_of(work, g, &LaneBsdf::b),
-          spectrum_of(work, g, &LaneBsdf::c),
-          gather_mask<D>(VITRAIL_EACH(work.bsdfs[g.place[j]].is_perfect))};
+VITRAIL_LANES Conductor<D> conductor_of(const Group& g) {
+  return {microfacets_of(g), spectrum_of(g, 0), spectrum_of(g, 1), spectrum_of(g, 2),
+          gather_mask<D>(VITRAIL_EACH(g.bsdf[j]->is_perfect))};
 }
 struct ReadMetal {
   static constexpr bool is_specular = false;
   static constexpr bool takes_any_normal = false;
-  VITRAIL_LANES static Conductor<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
-    return conductor_of(work, g);
+  VITRAIL_LANES static Conductor<D> read(const LaneWork&, const Group& g, const Interaction<D>&) {
+    return conductor_of(g);
   }
 };
 
@@ -85,44 +82,43 @@ VITRAIL_LANES BsdfSample<D> sample(const SmoothConductor& bsdf, Vector<D> out, F
 struct ReadMirror {
   static constexpr bool is_specular = true;
   static constexpr bool takes_any_normal = false;
-  VITRAIL_LANES static SmoothConductor read(const LaneWork& work, const Group& g, const Interaction<D>&) {
-    return {conductor_of(work, g)};
+  VITRAIL_LANES static SmoothConductor read(const LaneWork&, const Group& g, const Interaction<D>&) {
+    return {conductor_of(g)};
   }
 };
 
-VITRAIL_LANES Plastic<D> plastic_of(const LaneWork& work, const Group& g) {
-  return {spectrum_of(work, g, &LaneBsdf::a), spectrum_of(work, g, &LaneBsdf::b),
-          gather<D>(VITRAIL_EACH(work.bsdfs[g.place[j]].eta)),
-          gather<D>(VITRAIL_EACH(work.bsdfs[g.place[j]].internal_reflectance)),
-          gather_mask<D>(VITRAIL_EACH(work.bsdfs[g.place[j]].is_nonlinear))};
+VITRAIL_LANES Plastic<D> plastic_of(const Group& g) {
+  return {spectrum_of(g, 0), spectrum_of(g, 1), gather<D>(VITRAIL_EACH(g.bsdf[j]->eta)),
+          gather<D>(VITRAIL_EACH(g.bsdf[j]->internal_reflectance)),
+          gather_mask<D>(VITRAIL_EACH(g.bsdf[j]->is_nonlinear))};
 }
 struct ReadPlastic {
   static constexpr bool is_specular = false;
   static constexpr bool takes_any_normal = false;
-  VITRAIL_LANES static Plastic<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
-    return plastic_of(work, g);
+  VITRAIL_LANES static Plastic<D> read(const LaneWork&, const Group& g, const Interaction<D>&) {
+    return plastic_of(g);
   }
 };
 struct ReadRoughPlastic {
   static constexpr bool is_specular = false;
   static constexpr bool takes_any_normal = false;
-  VITRAIL_LANES static auto read(const LaneWork& work, const Group& g, const Interaction<D>&) {
+  VITRAIL_LANES static auto read(const LaneWork&, const Group& g, const Interaction<D>&) {
     const auto table = [&](int j) __attribute__((always_inline)) {
-      return work.bsdfs[g.place[j]].external_transmittance;
+      return g.bsdf[j]->external_transmittance;
     };
-    return RoughPlastic<D, decltype(table)>{plastic_of(work, g), microfacets_of(work, g), table};
+    return RoughPlastic<D, decltype(table)>{plastic_of(g), microfacets_of(g), table};
   }
 };
 
 struct ReadPrincipled {
   static constexpr bool is_specular = false;
   static constexpr bool takes_any_normal = false;
-  VITRAIL_LANES static Principled<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
+  VITRAIL_LANES static Principled<D> read(const LaneWork&, const Group& g, const Interaction<D>&) {
     const auto number = [&](double PrincipledBsdf::*of) __attribute__((always_inline)) {
-      return gather<D>(VITRAIL_EACH(work.bsdfs[g.place[j]].principled.*of));
+      return gather<D>(VITRAIL_EACH(g.bsdf[j]->principled.*of));
     };
     using B = PrincipledBsdf;
-    return {.base_color = spectrum_of(work, g, &LaneBsdf::a),
+    return {.base_color = spectrum_of(g, 0),
             .luminance = number(&B::luminance),
             .eta = number(&B::eta),
             .roughness = number(&B::roughness),
@@ -134,24 +130,19 @@ struct ReadPrincipled {
             .flatness = number(&B::flatness),
             .clearcoat = number(&B::clearcoat),
             .clearcoat_gloss = number(&B::clearcoat_gloss),
-            .microfacets = microfacets_of(work, g)};
+            .microfacets = microfacets_of(g)};
   }
 };
 
 struct ReadFinish {
   static constexpr bool is_specular = false;
   static constexpr bool takes_any_normal = true;
-  VITRAIL_LANES static Finish<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
+  VITRAIL_LANES static Finish<D> read(const LaneWork&, const Group& g, const Interaction<D>&) {
     const auto number = [&](double FinishBsdf::*of) __attribute__((always_inline)) {
-      return gather<D>(VITRAIL_EACH(work.bsdfs[g.place[j]].finish.*of));
+      return gather<D>(VITRAIL_EACH(g.bsdf[j]->finish.*of));
     };
     using B = FinishBsdf;
-    return {spectrum_of(work, g, &LaneBsdf::a),
-            spectrum_of(work, g, &LaneBsdf::b),
-            number(&B::brilliance),
-            number(&B::phong),
-            number(&B::phong_size),
-            number(&B::specular),
-            number(&B::roughness)};
+    return {spectrum_of(g, 0),      spectrum_of(g, 1),    number(&B::brilliance), number(&B::phong),
+            number(&B::phong_size), number(&B::specular), number(&B::roughness)};
   }
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/waves/lane_stages.h"
 
+#include <algorithm>
+
 #include "tracer/lights/draw_light.h"
 #include "tracer/sampling/wavelengths.h"
 #include "tracer/transport/connect.h"
@@ -51,9 +53,9 @@ std::uint8_t group_of(const LaneWork& work, LightRef light) {
 
 double filter_weight(const Tracing& tracing, float u, float v) { return tracing.scene.filter.weight(u, v); }
 
-void find_radiance(const LaneWork& work, const CameraPath& path, std::uint32_t area_light) {
-  const AreaLight& light = work.tracing.manifest().area_lights[area_light];
-  path.lamp = {area_light, evaluate(std::get<Spectrum>(light.radiance), path.wavelengths) * light.scale};
+void evaluate(const FlatSpectrum& spectrum, const CameraPath& path, float (&value)[4]) {
+  const SampledSpectrum values = vitrail::evaluate(*spectrum.other, path.wavelengths) * spectrum.factor;
+  std::ranges::copy(values.v, value);
 }
 
 void deposit_surroundings(const LaneWork& work, const CameraPath& path, const SampledSpectrum& radiance) {

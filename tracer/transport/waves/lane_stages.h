@@ -89,8 +89,8 @@ bool draw(const LaneWork& work, const CameraPath& path, Point3d p, const float (
 // As GroupedLights says.
 std::uint8_t group_of(const LaneWork& work, LightRef light);
 double filter_weight(const Tracing& tracing, float u, float v);
-// The radiance of a plain lamp, kept in path.lamp.
-void find_radiance(const LaneWork& work, const CameraPath& path, std::uint32_t area_light);
+// Of a spectrum that is an `other`.
+void evaluate(const FlatSpectrum& spectrum, const CameraPath& path, float (&value)[4]);
 // Radiance times throughput, of all that is around the scene.
 void deposit_surroundings(const LaneWork& work, const CameraPath& path, const SampledSpectrum& radiance);
 // Where light may pass something: goes to a light by whatever ray it takes. `front_side`: it leaves there.
