@@ -3,6 +3,7 @@
 // by side, and no branch lies between the points.
 #pragma once
 
+#include "tracer/lights/light_power_lanes.h"
 #include "tracer/lights/light_weights_lanes.h"
 #include "tracer/simd/vectors.h"
 
@@ -36,18 +37,12 @@ VITRAIL_LANES void choose_lights(const LightTree& tree, Vector<D> p, D u, Mask<D
     rest[j] = lane(u, j);
     node[j] = nodes;
   }
-  const auto take_by_power = [&](int j, LightTree::Slots slots) __attribute__((always_inline)) {
-    const auto one = tree.choose_by_power(slots, rest[j]);
-    chosen.any[j] = one.has_value();
-    if (!one) return;
-    chosen.slot[j] = one->slot, chosen.rest[j] = one->rest;
-    chosen.probability[j] = one->probability * chosen.probability[j];
-  };
-  if (tree.choice() == LightChoice::power) {
-    for (int j = 0; j < W; ++j)
-      if (open >> j & 1) take_by_power(j, tree.all());
-    return;
-  }
+  if (open == 0) return;
+  // Of lanes that go on by power: what they choose of, once all have come to that.
+  unsigned powered = 0;
+  LightTree::Slots alike[W];
+  for (int j = 0; j < W; ++j) alike[j] = tree.all();
+  if (tree.choice() == LightChoice::power) powered = open, open = 0;
   const D least = fill<D>(-LightTree::farthest), most = fill<D>(LightTree::farthest);
   const auto coordinate = [&](D x, double center) __attribute__((always_inline)) {
     const D local = (x - center) * tree.scale();
@@ -87,12 +82,22 @@ VITRAIL_LANES void choose_lights(const LightTree& tree, Vector<D> p, D u, Mask<D
       if (slots.end - slots.begin == 1) {
         chosen.slot[j] = slots.begin, chosen.rest[j] = rest[j], chosen.any[j] = true;
       } else if ((n.below[i] & LightNode::alike) != 0 && w.alike[i] > 0) {
-        take_by_power(j, slots);
+        alike[j] = slots, powered |= 1u << j;
       } else {
         node[j] = nodes + n.children + (n.below[i] & (LightNode::alike - 1u));
         open |= 1u << j;
       }
     }
+  }
+  if (powered == 0) return;
+  const ChosenByPower<D> one = choose_by_power<D>(
+      tree, [&](int j) __attribute__((always_inline))->const LightTree::Slots& { return alike[j]; },
+      gather<D>([&](int j) __attribute__((always_inline)) { return rest[j]; }));
+  for (int j = 0; j < W; ++j) {
+    if (!(powered >> j & 1)) continue;
+    chosen.any[j] = is_set(one.any, j);
+    chosen.slot[j] = one.slot[j], chosen.rest[j] = lane(one.rest, j);
+    chosen.probability[j] = lane(one.probability, j) * chosen.probability[j];
   }
 }
 

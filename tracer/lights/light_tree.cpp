@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracer/lights/light_power_lanes.h"
+
 namespace vitrail {
 
 namespace {
@@ -98,11 +100,15 @@ double LightTree::probability(Point3d p, std::uint32_t light) const {
   }
 }
 
-// The search begins where the slot is if all have the same power, in steps that double.
 std::optional<LightTree::Chosen> LightTree::choose_by_power(Slots slots, double u) const {
-  const double first = sums_[slots.begin], total = sums_[slots.end] - first;
-  if (!(total > 0)) return std::nullopt;
-  const double target = first + u * total;
+  const auto chosen = lanes::choose_by_power(
+      *this, [&](int) { return slots; }, u);
+  if (!chosen.any) return std::nullopt;
+  return Chosen{chosen.slot[0], chosen.probability, chosen.rest};
+}
+
+// The search begins where the slot is if all have the same power, in steps that double.
+std::uint32_t LightTree::slot_by_power(Slots slots, double u, double target) const {
   std::uint32_t low = slots.begin, high = slots.end;  // sums_[low] ≤ target
   auto at = low + static_cast<std::uint32_t>(u * (high - low));
   if (sums_[at] > target) {
@@ -118,9 +124,7 @@ std::optional<LightTree::Chosen> LightTree::choose_by_power(Slots slots, double 
     const std::uint32_t middle = low + (high - low) / 2;
     (sums_[middle] > target ? high : low) = middle;
   }
-  const double share = share_of_power(slots, low);
-  if (!(share > 0)) return std::nullopt;  // by rounding, at the end
-  return Chosen{low, share, std::min((target - sums_[low]) / (sums_[low + 1] - sums_[low]), below_one)};
+  return low;
 }
 
 double LightTree::share_of_power(Slots slots, std::uint32_t slot) const {

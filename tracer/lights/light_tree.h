@@ -99,6 +99,11 @@ class LightTree {
   Point3d center() const { return center_; }
   double scale() const { return scale_; }
   std::optional<Chosen> choose_by_power(Slots slots, double u) const;
+  std::span<const double> sums() const {
+    return sums_;
+  }  // of each slot: the power of those before, of 1; and of all
+  // The last of the slots that has no more than `target` before it; u in [0,1): where to look first.
+  std::uint32_t slot_by_power(Slots slots, double u, double target) const;
 
  private:
   friend class LightTreeBuilder;
@@ -110,7 +115,7 @@ class LightTree {
   double share_of_power(Slots slots, std::uint32_t slot) const;
 
   std::vector<LightNode> nodes_;  // 0 is the root
-  std::vector<double> sums_;      // of each slot: the power of those before, of 1; and of all
+  std::vector<double> sums_;      // as sums()
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> slot_;  // of each light, or `absent`
   Point3d center_;

@@ -7,6 +7,7 @@
 #include "scene/geometry/portable_math.h"
 #include "scene/models/fading.h"
 #include "tracer/lights/environment.h"
+#include "tracer/lights/point_emitter_lanes.h"
 #include "tracer/lights/projected_flux.h"
 #include "tracer/sampling/wavelengths.h"
 
@@ -31,10 +32,8 @@ struct DirectionalPart {
   SampledSpectrum operator()(const PointEmitter::Everywhere&) const { return filled(1); }
 
   SampledSpectrum operator()(const PointEmitter::Spot& spot) const {
-    if (!(d.z > spot.cos_cutoff)) return filled(0);
-    double part = falloff(spot);
-    if (spot.tightness > 0) part *= portable_pow(d.z, spot.tightness);
-    const auto falling = static_cast<float>(part);
+    const auto falling =
+        static_cast<float>(lanes::spot_part(d.z, [&](int) -> const PointEmitter::Spot& { return spot; }));
     if (!spot.texture || !(d.z > 0)) return filled(falling);
     const double scale = 0.5 / (d.z * spot.frame);
     const TexturePoint at{{0.5 + d.x * scale, 0.5 + d.y * scale}, {}, {}};
@@ -55,18 +54,6 @@ struct DirectionalPart {
   // The map's +z is the light's +y (pbrt).
   SampledSpectrum operator()(const PointEmitter::Goniometric& g) const {
     return look_up(*g.image, g.projection(), sphere_point(g.projection(), {d.x, d.z, d.y}), wavelengths);
-  }
-
- private:
-  // 1 within the beam, 0 beyond the cutoff; its ends are apart wherever the cosine is between them.
-  double falloff(const PointEmitter::Spot& spot) const {
-    if (d.z >= spot.cos_beam) return 1;
-    if (spot.falloff == SpotLight::Falloff::linear) {
-      const double width = spot.cutoff_rad - spot.beam_rad;
-      return width > 0 ? std::clamp((spot.cutoff_rad - portable_acos(d.z)) / width, 0.0, 1.0) : 1;
-    }
-    const double x = (d.z - spot.cos_cutoff) / (spot.cos_beam - spot.cos_cutoff);
-    return spot.falloff == SpotLight::Falloff::quartic ? x * x * x * x : x * x * (3 - 2 * x);
   }
 };
 
@@ -115,6 +102,28 @@ SampledSpectrum intensity(const PointEmitter& e, Vector3d direction, const Textu
   const SampledSpectrum part = std::visit(DirectionalPart{local, textures, wavelengths}, e.shape);
   if (is_black(part)) return filled(0);
   return part * (evaluate(e.intensity, wavelengths) * e.factor);
+}
+
+std::optional<PlainEmitter> plain_emitter(const PointEmitter& e) {
+  const auto* spot = std::get_if<PointEmitter::Spot>(&e.shape);
+  if (!std::holds_alternative<PointEmitter::Everywhere>(e.shape) && (!spot || spot->texture)) return {};
+  PlainEmitter plain;
+  plain.position = e.position;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& row = e.world_to_light.m[i];
+    plain.to_local[i] = {row[0], row[1], row[2]};
+  }
+  if (spot)
+    plain.spot = *spot;
+  else
+    plain.spot.cos_beam = -2, plain.spot.cos_cutoff = -3;
+  plain.fades = e.fading.has_value();
+  if (e.fading && weakens(*e.fading)) {
+    plain.fade_distance = static_cast<double>(e.fading->fade_distance);
+    plain.fade_power = static_cast<double>(e.fading->fade_power);
+  }
+  plain.intensity = flat_spectrum(e.intensity, e.factor);
+  return plain;
 }
 
 PointEmitter make_emitter(const PointLight& light) {

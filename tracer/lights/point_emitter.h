@@ -11,6 +11,7 @@
 #include "tracer/lights/light_image.h"
 #include "tracer/lights/light_tree.h"
 #include "tracer/lights/sphere_map.h"
+#include "tracer/sampling/flat_spectrum.h"
 #include "tracer/textures/textures.h"
 
 namespace vitrail {
@@ -50,6 +51,18 @@ struct PointEmitter {
   LightBounds bounds;       // power: luminous flux
   std::uint32_t light = 0;  // index into LightScene::lights
 };
+
+// What lanes read of one that shines to all sides, or as a spot without a texture.
+struct PlainEmitter {
+  Point3d position;
+  Vector3d to_local[3];     // rows of its world_to_light
+  PointEmitter::Spot spot;  // to all sides: one whose beam is everything
+  bool fades = false;
+  double fade_distance = 1, fade_power = 0;  // 0: it does not weaken at all
+  FlatSpectrum intensity;
+};
+// Empty: it is another. `emitter` outlives it.
+std::optional<PlainEmitter> plain_emitter(const PointEmitter& emitter);
 
 // `image`: of a goniometric light. `aspect`: width over height of a projection's image. `records`: of the
 // textures.

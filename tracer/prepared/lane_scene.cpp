@@ -136,6 +136,8 @@ LaneSurface lane_surface(const Manifest& manifest, const std::vector<LaneMateria
 }
 
 LaneLamp lane_lamp(const LightSampler& lights, const LightSampler::Slot& slot) {
+  if (slot.light.kind == LightKind::emitter)
+    return plain_emitter(lights.emitters[slot.light.index]) ? LaneLamp::emitter : LaneLamp::other;
   const bool is_quadric = slot.light.kind == LightKind::quadric;
   if (!is_quadric && (slot.light.kind != LightKind::triangle || lights.faces.empty())) return LaneLamp::other;
   const AreaLight& light = lights.scene.area_lights[slot.area_light];
@@ -199,6 +201,10 @@ LaneScene::LaneScene(const Manifest& manifest, const Textures& images, const Int
     const auto* spectrum = std::get_if<Spectrum>(&light.radiance);
     radiances.push_back(spectrum ? flat_spectrum(*spectrum, light.scale) : FlatSpectrum{});
   }
+  for (const PointEmitter& emitter : lights.emitters)
+    emitters.push_back(plain_emitter(emitter).value_or(PlainEmitter{}));
+  for (const LightSampler::Distant& light : lights.distant)
+    distant.push_back({!light.sun, flat_spectrum(light.irradiance)});
   for (const LightSampler::Slot& slot : lights.slots) lamps.push_back(lane_lamp(lights, slot));
 }
 

@@ -73,8 +73,9 @@ struct LaneSurface {
   bool emits = false;
 };
 
-// A lamp that is there as a whole and shines to all sides, alike all over; or one for lane by lane.
-enum class LaneLamp : std::uint8_t { other, triangle, sphere };
+// A lamp that is there as a whole and shines to all sides, alike all over; a PlainEmitter; or one for lane by
+// lane.
+enum class LaneLamp : std::uint8_t { other, triangle, sphere, emitter };
 
 struct LaneScene {
   // A connection may be no shadow ray: light may pass something straight on, or has nothing in its way.
@@ -86,7 +87,15 @@ struct LaneScene {
   std::vector<LaneLamp> lamps;          // of each of LightSampler::slots
   // Of all Manifest::area_lights that have no texture: the radiance.
   std::vector<FlatSpectrum> radiances;
+  std::vector<PlainEmitter> emitters;  // of all LightSampler::emitters, where they are LaneLamp::emitter
+  // Of all LightSampler::distant: whether lanes know it, as it is no sun; the irradiance.
+  struct Distant {
+    bool is_plain = false;
+    FlatSpectrum irradiance;
+  };
+  std::vector<Distant> distant;
   // Stand for what a path does not have.
+  PlainEmitter no_emitter;
   LightSampler::Slot no_slot;
   LightSampler::Face no_face;
   PlacedQuadric no_sphere{{}, {}};

@@ -11,8 +11,9 @@
 namespace vitrail::lane_tests {
 
 inline constexpr std::uint32_t fixture_clusters = 64, fixture_lamps = 64, fixture_domains = 4,
-                               fixture_trees = 4, fixture_spheres = 32, fixture_images = 5,
-                               fixture_environments = fixture_images + 2, fixture_spectra = 5;
+                               fixture_trees = 5, fixture_emitters = 8, fixture_spheres = 32,
+                               fixture_images = 5, fixture_environments = fixture_images + 2,
+                               fixture_spectra = 5;
 
 inline constexpr float fixture_factor = 0.7f;  // of all spectra
 
@@ -29,7 +30,8 @@ struct Context {
   const BakedImage* images[fixture_images];  // of kinds of spectra and of numbers
   const Environment* environments;           // those images, a sky with a sun, a sun alone
   const SampledWavelengths* some_wavelengths;
-  const LightTree* trees[fixture_trees];  // of few lights, of many, by power, of none
+  const LightTree* trees[fixture_trees];  // of few lights, of many, by power, of none, of one lamp
+  const PlainEmitter* emitters;           // fixture_emitters
 };
 
 }  // namespace vitrail::lane_tests

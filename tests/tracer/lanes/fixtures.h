@@ -24,6 +24,7 @@ struct Fixtures {
   std::vector<EmissiveQuadric> spheres;
   std::vector<PlacedQuadric> placed_spheres;
   LightTree trees[fixture_trees];
+  std::vector<PlainEmitter> plain_emitters;
   test::TemporaryDirectory directory;
   std::vector<Environment> environments;
   SampledWavelengths some_wavelengths;

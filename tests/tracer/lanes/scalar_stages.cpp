@@ -107,6 +107,21 @@ std::vector<ScalarFunction> stage_functions() {
       choice("choose_of_many_lights", 1),
       choice("choose_by_power", 2),
       choice("choose_of_none", 3),
+      choice("choose_of_two_lights", 4),
+      {"draw_emitter",
+       {word(fixture_emitters), position()},
+       [](const Context&, const double* in, double* out) {
+         const auto number = static_cast<std::uint32_t>(in[0]);
+         const PointEmitter& emitter = fixtures().lights.emitters[number];
+         const std::array<float, 4> u{};
+         LastLamp last;
+         LightSample s;
+         const bool arrives = draw_emitter(
+             {fixtures().lights, point_of(in + 1), u, {}, fixtures().some_wavelengths, last}, number, s);
+         const SampledSpectrum part = intensity(emitter, -s.to_light, nullptr, fixtures().some_wavelengths);
+         Results{out} << arrives << s.to_light << s.distance << static_cast<double>(part[0])
+                      << static_cast<double>(s.radiance[0]);
+       }},
       {"offset_origin",
        {position(), direction(), magnitude(-60, -20, {0}), direction()},
        [](const Context&, const double* in, double* out) {

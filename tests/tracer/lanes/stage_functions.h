@@ -8,6 +8,7 @@
 #include "tracer/lanes/light_tree.h"
 #include "tracer/lanes/rays.h"
 #include "tracer/lanes/spectra.h"
+#include "tracer/lights/point_emitter_lanes.h"
 
 namespace vitrail::lane_tests {
 namespace {
@@ -53,6 +54,15 @@ LANE_FUNCTION(plain_interaction, 8, 19) { put_interaction<0>(context, in, out); 
 LANE_FUNCTION(interaction_with_normals, 8, 19) { put_interaction<1>(context, in, out); }
 LANE_FUNCTION(interaction_with_uv, 8, 19) { put_interaction<2>(context, in, out); }
 LANE_FUNCTION(interaction_with_both, 8, 19) { put_interaction<3>(context, in, out); }
+// The emitter of that number, and a point.
+LANE_FUNCTION(draw_emitter, 4, 7) {
+  using D = lanes::Doubles<W>;
+  const auto s = lanes::draw_emitter<D>(in.vector(1), [&](int j) -> const PlainEmitter& {
+    return context.emitters[static_cast<int>(lanes::lane(in.d(0), j))];
+  });
+  out.mask(s.arrives), out.vector(s.to_light), out.number(s.distance), out.number(s.part * 0.3f);
+  out.number(s.part * 0.3f * s.weakening);
+}
 LANE_FUNCTION(offset_origin, 10, 3) {
   out.vector(lanes::offset_origin(in.vector(0), in.vector(3), in.d(6), 1e-14, in.vector(7)));
 }
@@ -83,6 +93,7 @@ LANE_FUNCTION(choose_of_few_lights, 6, 8) { put_chosen(*context.trees[0], in, ou
 LANE_FUNCTION(choose_of_many_lights, 6, 8) { put_chosen(*context.trees[1], in, out); }
 LANE_FUNCTION(choose_by_power, 6, 8) { put_chosen(*context.trees[2], in, out); }
 LANE_FUNCTION(choose_of_none, 6, 8) { put_chosen(*context.trees[3], in, out); }
+LANE_FUNCTION(choose_of_two_lights, 6, 8) { put_chosen(*context.trees[4], in, out); }
 // From in[0…3) to a light in direction in[3…6) at distance in[6], with normal in[7…10), tilt in[10].
 LANE_FUNCTION(aim, 12, 8) {
   using D = lanes::Doubles<W>;

@@ -220,6 +220,26 @@ std::vector<Case> cases() {
          s.shapes.back().object_to_world = translate({0.2, 0.1, 0}) * scale({5, 4, -6});
        }},
       {"a point", light(PointLight{{0.3, 0.2, -0.4}, ConstantSpectrum{1}})},
+      {"spots, points that fade and distant lights",
+       [](Scene& s) {
+         add_block(s, finish(1, 0.5f));
+         add_ball(s, rough_gold(Roughness::Distribution::ggx));
+         s.meshes[0].triangles.resize(8);
+         using Falloff = SpotLight::Falloff;
+         for (const auto falloff : {Falloff::smoothstep, Falloff::linear, Falloff::quartic}) {
+           SpotLight spot;
+           spot.intensity = emission_from_rgb({1, 0.7f, 0.3f});
+           spot.falloff = falloff, spot.cutoff_deg = 60, spot.beam_deg = 20;
+           spot.tightness = falloff == Falloff::linear ? 3.0f : 0.0f;
+           spot.light_to_world = translate({0.2, 0.8, -0.1}) * rotate(pi / 2 + 0.3, {1, 0, 0});
+           s.lights.push_back(Light{spot});
+         }
+         for (const float power : {0.0f, 1.5f, 2.0f})
+           s.lights.push_back(
+               Light{PointLight{{-0.5, 0.6, -0.5}, ConstantSpectrum{0.7f}, Fading{0.5f, power}}});
+         s.lights.push_back(Light{DistantLight{{0.3, -0.5, 0.8}, emission_from_rgb({1, 2, 3})}});
+         s.lights.push_back(Light{DistantLight{{-0.3, -0.5, 0.8}, BlackbodySpectrum{4000, 1}}});
+       }},
       {"no lamp", [](Scene& s) { s.shapes.pop_back(); }},
       {"hidden lamps",
        [](Scene& s) {

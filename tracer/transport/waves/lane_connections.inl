@@ -93,6 +93,75 @@ VITRAIL_LANES void sample_spheres(const LaneWork& work, Vector<D> p, const Four<
   c.pdf = select<D>(those, s.pdf, c.pdf);
 }
 
+// Those of which[j] that the number for it chooses beside the tree: an environment, a distant light, or none
+// that lanes know.
+struct SingleLight {
+  std::uint32_t environment = no_light, distant = no_light;
+};
+VITRAIL_LANES SingleLight single_light(const LaneWork& work, double rest) {
+  const LightSampler& lights = work.tracing.scene.lights;
+  const double* const share = lights.share.data();
+  const std::size_t first = lights.first_environment();
+  std::size_t choice = 0;
+  while (choice + 1 < lights.share.size() && rest >= share[choice]) rest -= share[choice++];
+  SingleLight light;
+  if (!(share[choice] > 0) || choice == 0) return light;
+  if (choice >= first)
+    light.environment = static_cast<std::uint32_t>(choice - first);
+  else if (work.scene.distant.data()[choice - 1].is_plain)
+    light.distant = static_cast<std::uint32_t>(choice - 1);
+  return light;
+}
+
+// Lights from one point, of `on`; other lanes keep what they have. The pdf is that of their choice.
+[[gnu::noinline]] void sample_emitters(const LaneWork& work, const Group& g, Vector<D> p,
+                                       const LightSampler::Slot* const (&slot)[W], const bool (&on)[W],
+                                       D choice, Candidate& c) {
+  const auto emitter = [&](int j) __attribute__((always_inline))->const PlainEmitter& {
+    return on[j] ? work.scene.emitters.data()[slot[j]->light.index] : work.scene.no_emitter;
+  };
+  const EmitterSample<D> s = draw_emitter<D>(p, emitter);
+  const Four<F> spectrum = values_of(
+      g, [&](int j) __attribute__((always_inline))->const FlatSpectrum& { return emitter(j).intensity; });
+  const Mask<D> those = gather_mask<D>(VITRAIL_EACH(on[j]));
+  c.arrives = c.arrives | (those & s.arrives);
+  c.is_delta = c.is_delta | those;
+  c.light.to_light = select<D>(those, s.to_light, c.light.to_light);
+  c.light.normal = select<D>(those, fill<D>(Vector3d{}), c.light.normal);
+  c.light.distance = select<D>(those, s.distance, c.light.distance);
+  c.light.tilt_rad = select<D>(those, fill<D>(0), c.light.tilt_rad);
+  c.pdf = select<D>(those, choice, c.pdf);
+  for (int i = 0; i < 4; ++i)
+    c.radiance[i] = select<F>(mask_for<F>(those), s.part * spectrum[i] * s.weakening, c.radiance[i]);
+}
+
+// The same of distant lights: which[j].
+[[gnu::noinline]] void sample_distant(const LaneWork& work, const Group& g, const std::uint32_t (&which)[W],
+                                      Candidate& c) {
+  const LightSampler& lights = work.tracing.scene.lights;
+  const auto number = [&](int j) __attribute__((always_inline)) {
+    return which[j] == no_light ? 0 : which[j];
+  };
+  const Four<F> irradiance = values_of(
+      g, [&](int j) __attribute__((always_inline))->const FlatSpectrum& {
+        return work.scene.distant.data()[number(j)].irradiance;
+      });
+  const Mask<D> those = gather_mask<D>(VITRAIL_EACH(which[j] != no_light));
+  const Vector<D> direction = gather_vector<D>([&](int j) __attribute__((always_inline))->const Vector3d& {
+    return lights.distant.data()[number(j)].direction;
+  });
+  c.arrives = c.arrives | those;
+  c.is_delta = c.is_delta | those;
+  c.light.to_light = select<D>(those, -direction, c.light.to_light);
+  c.light.normal = select<D>(those, fill<D>(Vector3d{}), c.light.normal);
+  c.light.distance = select<D>(those, fill<D>(std::numeric_limits<double>::infinity()), c.light.distance);
+  c.light.tilt_rad = select<D>(those, fill<D>(0), c.light.tilt_rad);
+  c.pdf = select<D>(those, gather<D>(VITRAIL_EACH(lights.share.data()[1 + number(j)])), c.pdf);
+  for (int i = 0; i < 4; ++i) c.radiance[i] = select<F>(mask_for<F>(those), irradiance[i], c.radiance[i]);
+  for (int j = 0; j < W; ++j)
+    if (which[j] != no_light) c.ref[j] = {LightKind::distant, which[j]};
+}
+
 // Of plain lamps, kept in the path. Not inlined into the stage of each kind.
 [[gnu::noinline]] void find_radiances(const LaneWork& work, const Group& g,
                                       const LightSampler::Slot* const (&slot)[W], const bool (&on)[W]) {
@@ -127,34 +196,39 @@ VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vecto
   root.is_known |= any(of_tree);
 
   const LightSampler::Slot* slot[W];
-  std::uint32_t environment[W];
-  bool triangle[W], sphere[W], alone[W], some_triangle = false, some_sphere = false, some_alone = false,
-                                         some_environment = false;
+  std::uint32_t environment[W], distant[W];
+  bool triangle[W], sphere[W], emitter[W], alone[W], some_triangle = false, some_sphere = false,
+                                                     some_emitter = false, some_distant = false,
+                                                     some_alone = false, some_environment = false;
   for (int j = 0; j < W; ++j) {
     const bool from_tree = is_set(of_tree, j) && chosen.any[j];
     const LaneLamp lamp = from_tree ? work.scene.lamps.data()[chosen.slot[j]] : LaneLamp::other;
     slot[j] = lamp != LaneLamp::other ? lights.slots.data() + chosen.slot[j] : &work.scene.no_slot;
     some_triangle |= triangle[j] = lamp == LaneLamp::triangle;
     some_sphere |= sphere[j] = lamp == LaneLamp::sphere;
-    environment[j] = is_set(on, j) && !is_set(of_tree, j)
-                         ? chosen_environment(lights, static_cast<double>(lane(u[3], j)))
-                         : no_environment;
-    some_environment |= environment[j] != no_environment;
-    some_alone |= alone[j] =
-        is_set(on, j) &&
-        (from_tree ? lamp == LaneLamp::other : !is_set(of_tree, j) && environment[j] == no_environment);
+    some_emitter |= emitter[j] = lamp == LaneLamp::emitter;
+    const bool is_single = is_set(on, j) && !is_set(of_tree, j);
+    const SingleLight single =
+        is_single ? single_light(work, static_cast<double>(lane(u[3], j))) : SingleLight{};
+    some_environment |= (environment[j] = single.environment) != no_light;
+    some_distant |= (distant[j] = single.distant) != no_light;
+    some_alone |= alone[j] = from_tree ? lamp == LaneLamp::other
+                                       : is_single && environment[j] == no_light && distant[j] == no_light;
   }
 
   Candidate c{};
   for (int j = 0; j < W; ++j) c.ref[j] = slot[j]->light;
   if (some_triangle) sample_triangles(work, p, u, slot, triangle, c);
   if (some_sphere) sample_spheres(work, p, u, slot, sphere, c);
-  c.pdf = c.pdf * (gather<D>(VITRAIL_EACH(chosen.probability[j])) * share);
+  const D choice = gather<D>(VITRAIL_EACH(chosen.probability[j])) * share;
+  c.pdf = c.pdf * choice;
   bool is_new[W], some_new = false;
   for (int j = 0; j < W; ++j)
     some_new |= is_new[j] = is_set(c.arrives, j) && g.path[j]->lamp.area_light != slot[j]->area_light;
   if (some_new) find_radiances(work, g, slot, is_new);
   for (int i = 0; i < 4; ++i) c.radiance[i] = gather<F>(VITRAIL_EACH(g.path[j]->lamp.radiance.v[i]));
+  if (some_emitter) sample_emitters(work, g, p, slot, emitter, choice, c);
+  if (some_distant) sample_distant(work, g, distant, c);
   if (some_environment) {
     EnvironmentSample s;
     sample_environments(work, g, u, environment, s);
@@ -166,7 +240,7 @@ VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vecto
     for (int i = 0; i < 4; ++i)
       c.radiance[i] = select<F>(mask_for<F>(s.chosen), s.seen.radiance[i], c.radiance[i]);
     for (int j = 0; j < W; ++j)
-      if (environment[j] != no_environment) c.ref[j] = {LightKind::environment, environment[j]};
+      if (environment[j] != no_light) c.ref[j] = {LightKind::environment, environment[j]};
   }
   if (some_alone) sample_alone(work, g, p, u, alone, of_tree, chosen, c);
   return c;

@@ -2,16 +2,7 @@
 // Part of lane_stages.inl: light from environments, where a path connects to them and where it leaves.
 #include "tracer/transport/waves/lane_group.inl"
 
-inline constexpr std::uint32_t no_environment = ~0u;
-
-// Which one a number chooses that has not chosen the tree.
-VITRAIL_LANES std::uint32_t chosen_environment(const LightSampler& lights, double rest) {
-  const double* const share = lights.share.data();
-  const std::size_t first = lights.first_environment();
-  std::size_t choice = 0;
-  while (choice + 1 < lights.share.size() && rest >= share[choice]) rest -= share[choice++];
-  return choice >= first && share[choice] > 0 ? static_cast<std::uint32_t>(choice - first) : no_environment;
-}
+inline constexpr std::uint32_t no_light = ~0u;
 
 struct EnvironmentSample {
   Mask<D> chosen, arrives;
@@ -23,7 +14,7 @@ struct EnvironmentSample {
 [[gnu::noinline]] void sample_environments(const LaneWork& work, const Group& g, const Four<F>& u,
                                            const std::uint32_t (&which)[W], EnvironmentSample& s) {
   const LightSampler& lights = work.tracing.scene.lights;
-  s.chosen = gather_mask<D>(VITRAIL_EACH(which[j] != no_environment));
+  s.chosen = gather_mask<D>(VITRAIL_EACH(which[j] != no_light));
   s.to_light = fill<D>(Vector3d{0, 0, 1});
   for (std::uint32_t i = 0; i < lights.environments.size(); ++i) {
     const Mask<D> those = gather_mask<D>(VITRAIL_EACH(which[j] == i));

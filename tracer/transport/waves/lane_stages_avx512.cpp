@@ -10,6 +10,7 @@
 #include "tracer/lanes/rays.h"
 #include "tracer/lanes/spectra.h"
 #include "tracer/lights/environment_lanes.h"
+#include "tracer/lights/point_emitter_lanes.h"
 #include "tracer/lights/sphere_light_lanes.h"
 #include "tracer/transport/waves/lane_stages.h"
 
