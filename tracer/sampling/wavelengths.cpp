@@ -31,7 +31,7 @@ Density make_density() {
     d.cumulative[i + 1] = d.cumulative[i] + d.pdf[i];
   }
   d.cumulative[bins] = 1;
-  d.guide = GuideTable(d.cumulative, 1024);
+  d.guide = GuideTable(d.cumulative, 4096);
   return d;
 }
 
