@@ -7,6 +7,7 @@
 
 #include "importers/writing/export_colors.h"
 #include "importers/writing/spot_falloff.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 
@@ -139,6 +140,13 @@ Point2d half_size(const ProjectionLight& light, double aspect) {
 UvMapping composed(const UvMapping& m, const UvMapping& n) {
   return {m.a * n.a + m.b * n.d, m.a * n.b + m.b * n.e, m.a * n.c + m.b * n.f + m.c,
           m.d * n.a + m.e * n.d, m.d * n.b + m.e * n.e, m.d * n.c + m.e * n.f + m.f};
+}
+
+double thrown_flux(const Image& image, Point2d half) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 2 < image.values.size(); i += 3)
+    sum += srgb_to_xyz({image.values[i], image.values[i + 1], image.values[i + 2]}).y;
+  return 4 * half.x * half.y * sum / static_cast<double>(std::max<std::size_t>(image.pixels(), 1));
 }
 
 Image with_three_channels(Image image) {

@@ -76,6 +76,8 @@ class ConvertedImages {
 void multiply(Image& image, RGB tint);
 // Times cosⁿθ of each texel's middle, as ImageChange has it.
 void multiply_by_cosine(Image& image, int power, Point2d half);
+// ∫ Y dω of a thrown image of colours, cos³θ times the intensity, over ±half at distance 1: dω = cos³θ dA.
+double thrown_flux(const Image& image, Point2d half);
 // A grey image as one of colours; others as they are.
 Image with_three_channels(Image image);
 

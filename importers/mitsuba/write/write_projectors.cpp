@@ -40,15 +40,6 @@ double greatest_value(const ImageTexture& texture) {
   return values.values.empty() ? 0 : static_cast<double>(*std::ranges::max_element(values.values));
 }
 
-// ∫ Y dω of an image of cos³θ times the radiance, dω = cos³θ dA, over ±half at distance 1.
-double flux_of(const std::filesystem::path& file, Point2d half) {
-  const Image image = read_linear_image(file);
-  double sum = 0;
-  for (std::size_t i = 0; i + 2 < image.values.size(); i += 3)
-    sum += srgb_to_xyz({image.values[i], image.values[i + 1], image.values[i + 2]}).y;
-  return 4 * half.x * half.y * sum / static_cast<double>(std::max<std::size_t>(image.pixels(), 1));
-}
-
 // Mitsuba's projector is a camera: u = 0 on the left, at +x, and v = 0 at the top, at +y.
 Element add_projector(Element root, const Transform& light_to_world, float fov_deg) {
   Element element = add(root, "emitter", "projector");
@@ -82,7 +73,7 @@ void write_intensity(Context& context, Element root, const ProjectionLight& ligh
     add_bitmap(lit, name);
     double factor = brightest / std::numbers::pi;
     if (light.power)
-      if (const double flux = brightest * flux_of(file, half); flux > 0)
+      if (const double flux = brightest * thrown_flux(read_linear_image(file), half); flux > 0)
         factor *= static_cast<double>(*light.power) * luminance(light.scale) / flux;
     add_float(element, "scale", static_cast<float>(factor));  // rgb variants know none of a d65
     context.approximated(

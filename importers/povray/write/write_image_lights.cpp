@@ -47,15 +47,6 @@ std::string shade(const Context& context, const std::string& objects, const Tran
       matrix(shade_to_pov(context, light_to_world)));
 }
 
-// ∫ Y dω of intensities at the texels of a rectangle of ±half at distance 1, dω = cos³θ dA.
-double flux_of(Image image, Point2d half) {
-  multiply_by_cosine(image, 3, half);
-  double sum = 0;
-  for (std::size_t i = 0; i + 2 < image.values.size(); i += 3)
-    sum += srgb_to_xyz({image.values[i], image.values[i + 1], image.values[i + 2]}).y;
-  return 4 * half.x * half.y * sum / static_cast<double>(std::max<std::size_t>(image.pixels(), 1));
-}
-
 // What a light throws into its frame: intensities, of the upper row at +y, with the left at −x.
 struct Thrown {
   Image image;
@@ -118,9 +109,12 @@ std::string shaded_light(Context& context, const ProjectionLight& light, WritePo
   Thrown all = thrown(context, light);
   double factor = take_greatest(all.image) * (light.irradiance ? pi : 1);
   if (!(factor > 0)) return "";
-  if (light.power)
-    if (const double flux = flux_of(all.image, all.half); flux > 0)
+  if (light.power) {
+    Image on_plane = all.image;
+    multiply_by_cosine(on_plane, 3, all.half);
+    if (const double flux = thrown_flux(on_plane, all.half); flux > 0)
       factor = static_cast<double>(*light.power) / flux;
+  }
   const auto flat = multiple_of_inverse_d65(light.scale);
   const RGB color = flat ? RGB{1, 1, 1} * static_cast<double>(*flat) : factor_rgb(light.scale);
   const auto [x, y] = all.half;
