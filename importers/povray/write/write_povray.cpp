@@ -192,8 +192,17 @@ class Writer {
     AreaLight source = *light;
     if (!is_unseen) source.scale *= *share;
     const std::string text = shows_reflection() ? rectangle_light_text(context_, *rectangle, source) : "";
+    if (is_unseen) return text;
     // The source stands for the mesh, which must not be counted a second time.
-    return is_unseen ? text : text + shape_text(shape, mesh, unseen_by_camera() + "no_radiosity ");
+    const std::string shining = shape_text(shape, mesh, unseen_by_camera() + "no_radiosity ");
+    return text + shining + (shows_reflection() ? unlit(shape, mesh) : "");
+  }
+
+  // What radiosity sees of a lamp that a source stands for: it hides what is behind, and reflects.
+  std::string unlit(Shape shape, const MeshText& mesh) {
+    shape.area_light.reset();
+    shape.exterior = shape.interior;  // what fills it is not written twice
+    return shape_text(shape, mesh, "no_image no_reflection ");
   }
 
   // Of what shines.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lamps as POV-Ray itself shows them of the files that are written.
+#include <numbers>
+
+#include "tests/importers/povray/povray_oracle.h"
+
+namespace vitrail {
+namespace {
+
+// The share of a plane's hemisphere that a square of ±half covers, whose middle is at (−x,−y) from the point
+// and `height` above it.
+double share_of_square(double x, double y, double half, double height) {
+  constexpr int n = 200;
+  double sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double dx = half * (2 * (i + .5) / n - 1) - x, dy = half * (2 * (j + .5) / n - 1) - y;
+      const double d2 = dx * dx + dy * dy + height * height;
+      sum += height * height / (d2 * d2);
+    }
+  return sum * 4 * half * half / (n * n) / std::numbers::pi;
+}
+
+// A black square under the sky: what it hides of the sky is dark, but for its own light.
+TEST_F(PovrayOracle, LampsThatAreSquaresHideTheSky) {
+  Scene scene = plane();
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({.5, .5, .5})}});
+  TriangleMesh lamp = square(-4, 4, -4, 4, 5);
+  std::swap(lamp.positions[1], lamp.positions[3]);
+  add_emitter(scene, lamp, {.2, .2, .2});
+  expect_plane(
+      scene,
+      [](double x, double y) -> std::array<double, 3> {
+        const double hidden = share_of_square(x, y, 4, 5), light = .5 * (1 - hidden) + .2 * hidden;
+        return {.8 * light, .5 * light, .25 * light};
+      },
+      0.03);
+}
+
+}  // namespace
+}  // namespace vitrail
