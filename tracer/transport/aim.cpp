@@ -32,7 +32,7 @@ Aimed aim(const Departure& from, const LightSample& light) {
   Aimed aimed{encode_direction(dot(way, way) > 0 ? way : light.to_light)};
   const Vector3d direction = cast<double>(aimed.rounded);
   const double distance = length(way), there = dot(way, direction) / dot(direction, direction);
-  aimed.end = there;
+  aimed.end = there * before_point;
   if (light.quadric) {
     end_on_quadric({from.origin, aimed.rounded, from.exclude}, *light.quadric, aimed);
     return aimed;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "scene/geometry/portable_math.h"
 #include "tests/support/render.h"
@@ -103,6 +104,25 @@ TEST(ShadowEnds, BehindGlassBeforeALamp) {
 }
 
 // ---- The lamp is not in the way
+
+// Exporters put them there, and the floor's vertices are rounded: pbrt and Mitsuba end a shadow ray before
+// it.
+TEST(ShadowEnds, OfAPointLightThatStandsInASurface) {
+  const auto seen = [](std::optional<float> tilt) {
+    Room room(1, 1, 1);
+    room.scene.shapes.pop_back();
+    if (tilt) {
+      std::array<Point3f, 4> floor = square({0, 0, 0}, 1, false);
+      for (Point3f& p : floor) p.z = p.x * *tilt;
+      add_shape(room.scene, add_quads(room.scene, {floor}), black);
+    }
+    room.scene.lights.push_back(Light{PointLight{{0, 0, 0}, ConstantSpectrum{1}}});
+    return room.seen(64).mean;
+  };
+  const double alone = seen({});
+  EXPECT_GT(alone, 0);
+  for (const float tilt : {0.0f, 2e-7f, -2e-7f}) EXPECT_EQ(seen(tilt), alone) << tilt;
+}
 
 // ∫ cosθ cosθ′/r² dA / π of what a point with the normal +z sees of a mesh that hides nothing of itself that
 // faces the point, as the mesh stands in the bundle.
