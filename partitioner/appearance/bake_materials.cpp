@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "partitioner/appearance/table_files.h"
 #include "scene/models/hair_color.h"
 #include "scene/models/subsurface_media.h"
@@ -11,6 +13,12 @@
 namespace vitrail {
 
 namespace {
+
+// Between equal indices light goes straight on, however rough the facets are.
+bool is_no_interface(const DielectricMaterial& m) {
+  return is_constant(m.eta) && is_constant(m.exterior_eta) &&
+         std::abs(evaluate(m.eta, 550) / evaluate(m.exterior_eta, 550) - 1) < 1e-6;
+}
 
 class MaterialBaker {
  public:
@@ -24,6 +32,7 @@ class MaterialBaker {
   }
   MaterialModel operator()(DielectricMaterial m) {
     m.eta = resolved(m.eta), m.exterior_eta = resolved(m.exterior_eta);
+    if (is_no_interface(m)) m.roughness = {};
     roughness(m.roughness), factor(m.reflectance_factor), factor(m.transmittance_factor);
     return m;
   }

@@ -44,6 +44,14 @@ TEST(Appearance, SpectraAreResolved) {
   EXPECT_EQ(std::get<ComplexIndex>(metal).eta, SpectrumParameter{resolved(NamedSpectrum{"metal-Cu-eta"})});
 }
 
+// As rough, light found behind it would be weighed against connections, which it blocks.
+TEST(Appearance, RoughGlassBetweenEqualIndicesIsSmooth) {
+  const DielectricMaterial rough{grey(1.5f), grey(1.5f), Roughness{0.2f, 0.2f}};
+  const Appearance a = baked(rough);
+  EXPECT_TRUE(a.diagnostics.empty());
+  EXPECT_EQ(std::get<DielectricMaterial>(a.materials.at(0).model).roughness, Roughness{});
+}
+
 TEST(Appearance, OthersBecomeTheNearestAndSaySo) {
   const auto reflectance = [](MaterialModel model) {
     const Appearance a = baked(std::move(model));
