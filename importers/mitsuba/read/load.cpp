@@ -37,7 +37,7 @@ class Loader {
     try {
       read_file(file, scene_, {}, 0);
       definitions_.require_given(file);
-      attach_glazing();
+      attach_files();
       objects_.push_back(scene_);
       references_.resolve(objects_);
       refuse_cycles(*scene_, report_);
@@ -172,13 +172,15 @@ class Loader {
   }
 
   // <default name="glazing:ID" value="FILE"/> is a parameter of the BSDF of that id that other readers of
-  // Mitsuba's files do not stop at.
-  void attach_glazing() {
+  // Mitsuba's files do not stop at; "picture:ID" is one of a grid that holds a picture.
+  void attach_files() {
     for (const MutablePtr& object : objects_) {
+      const char* const name = object->tag == "bsdf"     ? "glazing"
+                               : object->tag == "volume" ? "picture"
+                                                         : nullptr;
       const std::string* const file =
-          object->tag == "bsdf" ? definitions_.find("glazing:" + object->id) : nullptr;
-      if (file && !object->has("glazing"))
-        add(*object, "glazing", folders_.resolve(*file).string(), object->origin);
+          name ? definitions_.find(fmt::format("{}:{}", name, object->id)) : nullptr;
+      if (file && !object->has(name)) add(*object, name, folders_.resolve(*file).string(), object->origin);
     }
   }
 

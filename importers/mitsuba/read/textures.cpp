@@ -141,9 +141,22 @@ TextureModel mean_of_grid(Builder& b, const Object& volume, bool as_float) {
   return ProductTexture{color, ConstantSpectrum{1}};
 }
 
+// Of one layer, which our writer makes of a picture that is brighter than a bitmap may be: lamp_images.h.
+TextureModel picture_of_grid(Builder& b, const Object& volume) {
+  ImageTexture image;
+  image.filename = volume.text("picture", "", b.report);
+  if (volume.text("filter_type", "trilinear", b.report) == "nearest") image.filter = TextureFilter::nearest;
+  const std::string wrap = volume.text("wrap_mode", "clamp", b.report);
+  image.wrap = wrap == "repeat" ? Wrap::repeat : wrap == "mirror" ? Wrap::mirror : Wrap::clamp;
+  image.mapping = PlanarMapping{volume.transform("to_world", b.report)};
+  volume.ignore({"filename", "raw"});
+  return image;
+}
+
 TextureModel volume_texture(Builder& b, const Object& o, bool as_float) {
   const Object* volume = o.child("volume");
   if (!volume) b.report.fail("a \"volume\" texture needs a volume", o.origin);
+  if (volume->type == "gridvolume" && volume->has("picture")) return picture_of_grid(b, *volume);
   if (volume->type == "gridvolume") {
     TextureModel mean = mean_of_grid(b, *volume, as_float);
     report_unused(*volume, b.report, {"filename"});

@@ -9,6 +9,7 @@
 #include "images/image_files.h"
 #include "importers/images/environment_images.h"
 #include "importers/images/joined_surroundings.h"
+#include "importers/mitsuba/write/lamp_images.h"
 #include "importers/mitsuba/write/rgb_variants.h"
 #include "importers/mitsuba/write/write_images.h"
 #include "importers/mitsuba/write/write_projectors.h"
@@ -188,26 +189,22 @@ void write_lights(Context& context, Element root) {
   }
 }
 
-void write_area_light(Context& context, Element shape, const AreaLight& light) {
+void write_area_light(Context& context, Element element, const AreaLight& light, const Shape& shape) {
   context.begin(RecordKind::area_light, light.origin);
   if (!light.sampled) context.approximated("it lights the scene: Mitsuba has none that shines and does not");
-  Element element = add(shape, "emitter", light.directional ? "directionalarea" : "area", "",
+  Element emitter = add(element, "emitter", light.directional ? "directionalarea" : "area", "",
                         light.name.empty() ? "" : context.new_id(light.name, "area", 0));
   if (light.directional)
     context.approximated("Mitsuba's path tracers show nothing of a directionalarea; its ptracer does");
   if (const auto radiance = value_of(context, light.radiance)) {
     report_rgb_variants(context, *radiance);
-    return add_spectrum(element, "radiance", scaled(*radiance, static_cast<double>(light.scale)),
+    return add_spectrum(emitter, "radiance", scaled(*radiance, static_cast<double>(light.scale)),
                         Meaning::emission);
   }
   if (const auto flat = flat_image(context.scene, light)) {
-    add_parameter(context, element, "radiance", *flat, Meaning::emission);
+    add_parameter(context, emitter, "radiance", *flat, Meaning::emission);
   } else {
-    add_lit_image(context, element, "radiance", light.radiance, light.scale);
-    if (light.scale != 1)
-      context.approximated(fmt::format(
-          "Mitsuba's rgb variants leave out the scale of a lamp's image: there it is 1/{:g} as bright",
-          light.scale));
+    add_lamp_image(context, emitter, light, shape);
   }
 }
 

@@ -8,6 +8,6 @@ namespace vitrail::mitsuba_writer {
 void write_lights(Context& context, Element root);
 
 // The emission of a shape, inside of its element.
-void write_area_light(Context& context, Element shape, const AreaLight& light);
+void write_area_light(Context& context, Element element, const AreaLight& light, const Shape& shape);
 
 }  // namespace vitrail::mitsuba_writer

@@ -2,43 +2,17 @@
 #include "importers/mitsuba/write/write_media.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <span>
 
 #include "importers/mitsuba/write/rgb_variants.h"
+#include "importers/mitsuba/write/volume_files.h"
 #include "importers/writing/medium_grids.h"
 #include "scene/models/measured_media.h"
 #include "scene/models/subsurface_media.h"
-#include "scene/system/atomic_file.h"
 
 namespace vitrail::mitsuba_writer {
 
 namespace {
-
-// Mitsuba's volume file, version 3.
-struct VolumeHeader {
-  std::array<char, 4> magic{'V', 'O', 'L', 3};
-  std::int32_t encoding = 1;  // float32
-  std::int32_t nx = 0, ny = 0, nz = 0, channels = 0;
-  std::array<float, 6> bounds{};
-};
-static_assert(sizeof(VolumeHeader) == 48);
-
-void write_volume_file(const std::filesystem::path& path, const Grid& grid) {
-  const Point3f lower = cast<float>(grid.bounds.lower), upper = cast<float>(grid.bounds.upper);
-  VolumeHeader header;
-  header.nx = grid.nx;
-  header.ny = grid.ny;
-  header.nz = grid.nz;
-  header.channels = grid.channels;
-  header.bounds = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
-  AtomicFile file(path);
-  file.write(std::as_bytes(std::span(&header, 1)));
-  file.write(std::as_bytes(std::span(grid.values)));
-  file.commit_part();
-}
 
 // Mitsuba's grids fill the unit cube of their own space.
 Transform grid_to_world(const Transform& medium_to_world, const Bounds3d& box) {

@@ -169,7 +169,7 @@ void write_shape(Context& context, Element parent, const Shape& shape, std::size
   add_media(context, element, shape);
   if (!shape.area_light) return;
   const AreaLight light = light_of(context, shape);
-  write_area_light(context, element, light);
+  write_area_light(context, element, light, shape);
   TriangleMesh storage;
   if (!quadric && normals_lean(loaded(context.scene.meshes[shape.mesh.value], storage)))
     context.approximated("Mitsuba 3.9 weighs the light of a mesh by its shading normals");
@@ -179,7 +179,7 @@ void write_shape(Context& context, Element parent, const Shape& shape, std::size
   write_area_light(context,
                    quadric ? add_quadric(context, parent, shape, back_of(*quadric), "")
                            : add_mesh(context, parent, shape, back_of(context, shape), ""),
-                   light);
+                   light, shape);
 }
 
 // Mitsuba allows no area lights in shape groups: they are written with every instance.

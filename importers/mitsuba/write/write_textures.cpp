@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "images/image_files.h"
 #include "images/ptex_means.h"
 #include "importers/mitsuba/write/write_images.h"
 #include "importers/writing/export_colors.h"
@@ -90,9 +91,7 @@ UvMapping uv_mapping(Context& context, const TextureMapping& mapping) {
 }
 
 // The image's rows run down: its t is 1 − the Scene's.
-void write_image(Context& context, Element root, const MitsubaImage& written, const ImageTexture& image,
-                 const std::string& id) {
-  Element element = add(root, "texture", "bitmap", "", id);
+void fill_bitmap(Context& context, Element element, const MitsubaImage& written, const ImageTexture& image) {
   add_string(element, "filename", written.filename);
   add_boolean(element, "raw", written.raw);
   add_string(element, "filter_type", image.filter == TextureFilter::nearest ? "nearest" : "bilinear");
@@ -105,6 +104,11 @@ void write_image(Context& context, Element root, const MitsubaImage& written, co
   const UvMapping m = uv_mapping(context, image.mapping);
   const auto down = [](float value) { return value == 0 ? 0.0 : -static_cast<double>(value); };
   add_to_uv(element, {m.a, m.b, m.c, down(m.d), down(m.e), 1 - static_cast<double>(m.f)});
+}
+
+void write_image(Context& context, Element root, const MitsubaImage& written, const ImageTexture& image,
+                 const std::string& id) {
+  fill_bitmap(context, add(root, "texture", "bitmap", "", id), written, image);
 }
 
 // Mitsuba's cells are half a unit wide.
@@ -167,9 +171,51 @@ std::optional<WrittenTexture> simplified(Context& context, const TextureModel& m
   return std::nullopt;
 }
 
+// With a border of black texels.
+Image bordered(const Image& image) {
+  Image result = black_image(image.width + 2, image.height + 2, image.channels);
+  const auto row = static_cast<std::ptrdiff_t>(image.width) * image.channels;
+  for (std::ptrdiff_t y = 0; y < image.height; ++y)
+    std::copy_n(image.values.begin() + y * row, row,
+                result.values.begin() + (y + 1) * (row + 2 * image.channels) + image.channels);
+  return result;
+}
+
+// Mitsuba has no black outside, but it has edges that go on. Bilinear texels fade to black as they do
+// outside. Nothing where the file cannot be read.
+std::optional<std::pair<MitsubaImage, ImageTexture>> with_black_border(Context& context,
+                                                                       const TintedImage& tinted,
+                                                                       bool is_float) {
+  const auto* mapping = std::get_if<UvMapping>(&tinted.image.mapping);
+  if (tinted.image.wrap != Wrap::black || !mapping) return std::nullopt;
+  try {
+    Image image = texture_values(tinted.image, read_stored_image(tinted.image.filename),
+                                 is_float || tinted.is_number ? ImageUse::number : ImageUse::color);
+    const RGB& t = tinted.tint;
+    if (t.r != t.g || t.g != t.b) image = with_three_channels(std::move(image));
+    multiply(image, t);
+    const std::string name = context.new_file("images", "exr", context.derived_images);
+    write_exr_image(context.file.parent_path() / name, bordered(image));
+    const auto w = static_cast<float>(image.width), h = static_cast<float>(image.height);
+    ImageTexture wider = tinted.image;
+    wider.wrap = Wrap::clamp;
+    wider.mapping = composed({w / (w + 2), 0, 1 / (w + 2), 0, h / (h + 2), 1 / (h + 2)}, *mapping);
+    return std::pair(MitsubaImage{name, is_float}, wider);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
 WrittenTexture write_texture(Context& context, Element root, const Texture& texture, std::size_t index) {
   if (const auto simple = simplified(context, texture.model)) return *simple;
   const auto new_id = [&] { return context.new_id(texture.name, "texture", index); };
+  const auto tinted = tinted_image(context.scene, Id<Texture>{static_cast<std::uint32_t>(index)});
+  if (tinted && !context.roles.normal_map[index])
+    if (const auto bordered = with_black_border(context, *tinted, texture.is_float)) {
+      const std::string id = new_id();
+      write_image(context, root, bordered->first, bordered->second, id);
+      return id;
+    }
   if (std::holds_alternative<ImageTexture>(texture.model)) {
     const std::string id = new_id();
     const auto& image = std::get<ImageTexture>(texture.model);
@@ -178,7 +224,7 @@ WrittenTexture write_texture(Context& context, Element root, const Texture& text
                 id);
     return id;
   }
-  if (const auto tinted = tinted_image(context.scene, Id<Texture>{static_cast<std::uint32_t>(index)})) {
+  if (tinted) {
     const std::string id = new_id();
     const bool is_float = tinted->is_number || texture.is_float;
     const MitsubaImage written = image_for_mitsuba(context, tinted->image, is_float, false, tinted->tint);
@@ -290,6 +336,11 @@ float constant_of(Context& context, const FloatParameter& value, const char* wha
   if (const auto number = value_of(context, value)) return *number;
   note_mean(context, std::get<Id<Texture>>(value), what);
   return static_cast<float>(mean_of(context, value));
+}
+
+void add_bitmap(Context& context, Element parent, const std::string& name, const MitsubaImage& written,
+                const ImageTexture& image) {
+  fill_bitmap(context, add(parent, "texture", "bitmap", name), written, image);
 }
 
 void add_lit_image(Context& context, Element emitter, const char* name, const SpectrumParameter& image,

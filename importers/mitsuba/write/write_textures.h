@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "importers/mitsuba/write/write_images.h"
 #include "importers/mitsuba/write/write_spectra.h"
 
 namespace vitrail::mitsuba_writer {
@@ -19,6 +20,10 @@ float constant_of(Context& context, const FloatParameter& value, const char* wha
 // The value, unless it is a texture with an element of its own.
 std::optional<Spectrum> value_of(const Context& context, const SpectrumParameter& value);
 std::optional<float> value_of(const Context& context, const FloatParameter& value);
+
+// An image within another element; how it is looked up is `image`'s.
+void add_bitmap(Context& context, Element parent, const std::string& name, const MitsubaImage& written,
+                const ImageTexture& image);
 
 // The colours of an image under D65: Mitsuba would take white for a flat spectrum.
 void add_lit_image(Context& context, Element emitter, const char* name, const SpectrumParameter& image,

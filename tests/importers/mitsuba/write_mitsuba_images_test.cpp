@@ -197,5 +197,24 @@ TEST_F(MitsubaImages, ProjectionsOfPbrtKeepTheirIntensity) {
   }
 }
 
+// Mitsuba has no black outside: it gets a border of black, whose edge goes on.
+TEST_F(MitsubaImages, BlackOutsideIsABorder) {
+  Image grey = black_image(2, 1, 1);
+  grey.values = {0.25f, 0.5f};
+  write_exr_image(folder_ / "grey.exr", grey);
+  ImageTexture texture = image("grey.exr");
+  texture.wrap = Wrap::black;
+  texture.mapping = UvMapping{2, 0, 0, 0, 1, 0};
+  const ImageTexture again = written(texture, true);
+  EXPECT_EQ(again.wrap, Wrap::clamp);
+  EXPECT_EQ(values(again, ImageUse::number), (std::vector<float>{0, 0, 0, 0, 0, 0.25f, 0.5f, 0, 0, 0, 0, 0}));
+  const auto& m = std::get<UvMapping>(again.mapping);
+  EXPECT_FLOAT_EQ(m.a, 1);  // of 2 texels of 4
+  EXPECT_FLOAT_EQ(m.c, 0.25f);
+  EXPECT_FLOAT_EQ(m.e, 1.0f / 3);
+  EXPECT_FLOAT_EQ(m.f, 1.0f / 3);
+  EXPECT_THAT(diagnostics_, Not(says("black outside")));
+}
+
 }  // namespace
 }  // namespace vitrail

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What Mitsuba 3.9.1 would refuse or cut is written otherwise.
+#include "images/image_files.h"
+#include "importers/mitsuba/read/mitsuba.h"
 #include "importers/mitsuba/write/write_spectra.h"
 #include "tests/importers/mitsuba/write_mitsuba_fixture.h"
 
@@ -163,23 +165,76 @@ TEST_F(RefusedByMitsuba, IndicesOfMetalsAreNowhereNothing) {
     EXPECT_GT(std::stod(values.substr(at + 1)), 0) << values;
 }
 
-// Mitsuba's rgb variants know no scale of a d65: said of lamps, which have none of their own.
-TEST_F(RefusedByMitsuba, ScalesOfLampsImages) {
-  Scene scene = square_scene({});
-  ImageTexture image;
-  image.filename = (folder_ / "none.png").string();
-  const Id<Texture> slide = add_to(scene.textures, Texture{image, false, "", {}});
-  for (const float scale : {1.0f, 2.5f}) {
-    scene.area_lights = {AreaLight{slide, scale}};
+// Mitsuba's rgb variants know no scale of a d65, and its spectral ones cut the colours of a bitmap at 1.
+class LampsImages : public RefusedByMitsuba {
+ protected:
+  static constexpr float scale = 2.5f;
+  Scene lamp(std::vector<float> values, int channels) {
+    Image image = black_image(2, 1, channels);
+    image.values = std::move(values);
+    write_exr_image(folder_ / "slide.exr", image);
+    Scene scene = square_scene({});
+    ImageTexture texture;
+    texture.filename = (folder_ / "slide.exr").string();
+    scene.area_lights = {AreaLight{add_to(scene.textures, Texture{texture, false, "", {}}), scale}};
     scene.shapes[0].area_light = Id<AreaLight>{0};
-    write(scene);
-    const auto said = approximates("there it is 1/2.5 as bright");
-    if (scale == 1) {
-      EXPECT_THAT(diagnostics_, testing::Not(said));
-    } else {
-      EXPECT_THAT(diagnostics_, said);
-    }
+    return scene;
   }
+  pugi::xml_node radiance(const Scene& scene) {
+    return write(scene).child("shape").child("emitter").child("texture");
+  }
+  std::vector<float> floats_of_grid(pugi::xml_node volume) {
+    std::ifstream file(folder_ / value(volume, "filename"), std::ios::binary);
+    file.seekg(48);
+    std::vector<float> values(6);
+    file.read(reinterpret_cast<char*>(values.data()), 24);
+    return values;
+  }
+};
+
+TEST_F(LampsImages, OfColoursAboveOneAreGridsOfOneLayer) {
+  Scene scene = lamp({.8f, .4f, .2f, .1f, .4f, 1}, 3);
+  scene.shapes[0].object_to_world = translate({1, 2, 3}) * vitrail::scale({2, 2, 2});
+  const pugi::xml_node d65 = radiance(scene), volume = d65.child("texture").child("volume");
+  EXPECT_STREQ(d65.attribute("type").value(), "d65");
+  EXPECT_EQ(value(d65, "scale"), "");
+  EXPECT_THAT(floats_of_grid(volume),
+              testing::Pointwise(testing::FloatNear(1e-6f), {2.f, 1.f, .5f, .25f, 1.f, 2.5f}));
+  // The square's corner (−1, −1), u = v = 0, is at (−1, 0, 3), and the opposite one at (3, 4, 3).
+  std::array<double, 16> m{};
+  std::istringstream numbers(volume.child("transform").child("matrix").attribute("value").value());
+  for (double& x : m) numbers >> x;
+  EXPECT_NEAR(m[0], 4, 1e-6);
+  EXPECT_NEAR(m[5], 4, 1e-6);
+  EXPECT_NEAR(m[3], -1, 1e-6);
+  EXPECT_NEAR(m[7], 0, 1e-6);
+  EXPECT_TRUE(diagnostics_.empty());
+  const Scene again = read_mitsuba(folder_ / "scene.xml").scene;
+  const auto& texture = again.textures.at(std::get<Id<Texture>>(again.area_lights.at(0).radiance).value);
+  const auto& picture = std::get<ImageTexture>(texture.model);
+  const auto& plane = std::get<PlanarMapping>(picture.mapping);
+  EXPECT_NEAR(transform_point(inverse(plane.texture_to_world), {1, 3, 3}).x, .5, 1e-6);
+  EXPECT_NEAR(transform_point(inverse(plane.texture_to_world), {1, 3, 3}).y, .75, 1e-6);
+  EXPECT_EQ(read_stored_image(picture.filename).image.values.at(0), 2);
+}
+
+TEST_F(LampsImages, OfGreysOrBelowOneAreImagesTimesTheScale) {
+  const auto values = [&](const Scene& scene) {
+    const pugi::xml_node d65 = radiance(scene);
+    EXPECT_EQ(value(d65, "scale"), "") << text_;
+    return read_stored_image(folder_ / value(d65.child("texture"), "filename")).image.values;
+  };
+  EXPECT_EQ(values(lamp({.5f, 2}, 1)), (std::vector<float>{1.25f, 5}));
+  Scene dim = lamp({.5f, .25f, 0, .125f, 0, .25f}, 3);
+  dim.area_lights[0].scale = .5f;
+  EXPECT_EQ(values(dim), (std::vector<float>{.25f, .125f, 0, .0625f, 0, .125f}));
+}
+
+TEST_F(LampsImages, OnWhatIsNotFlatAreReported) {
+  Scene scene = lamp({.8f, .4f, .2f, .1f, .4f, 1}, 3);
+  scene.meshes[0].uvs[2] = {0.5f, 1};
+  radiance(scene);
+  EXPECT_THAT(diagnostics_, approximates("there it is 1/2.5 as bright"));
 }
 
 }  // namespace
