@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scene/records/scene.h"
+#include "importers/mitsuba/write/write_context.h"
 
-namespace vitrail {
+namespace vitrail::mitsuba_writer {
 
-// Whether the written integrator hides what shines from the camera: as the scene says, or where nothing meets
-// any of its lamps (Shape::opacity) and there are no surroundings that would be hidden with them.
-bool hides_emitters(const Scene& scene);
+// Whether a shape is a lamp that no ray meets: it shines, is not seen, and casts no shadow (pbrt's alpha of
+// 0).
+bool is_unseen_lamp(const Shape& shape);
 
-}  // namespace vitrail
+// Mitsuba shows every lamp that has an area. One that is not seen is written as spot lights on its surface,
+// whose falls of intensity add up to the cosine of a lamp. Reported, with their number.
+void write_unseen_lamp(Context& context, Element root, const Shape& shape);
+
+}  // namespace vitrail::mitsuba_writer

@@ -10,7 +10,6 @@
 
 #include "importers/mitsuba/aovs.h"
 #include "importers/mitsuba/screen.h"
-#include "importers/mitsuba/write/unseen_lamps.h"
 #include "importers/mitsuba/write/write_film.h"
 #include "scene/geometry/bounds.h"
 #include "scene/models/paraxial_lens.h"
@@ -289,7 +288,7 @@ void write_integrator(Context& context, Element root) {
     Element element = add(root, "integrator", "direct");
     add_integer(element, "emitter_samples", 1);
     add_integer(element, "bsdf_samples", 1);
-    return add_boolean(element, "hide_emitters", hides_emitters(scene));
+    return add_boolean(element, "hide_emitters", scene.settings.hides_emitters);
   }
   if (scene.settings.photons) {
     context.begin(RecordKind::integrator, scene.integrator_origin);
@@ -317,7 +316,7 @@ void write_integrator(Context& context, Element root) {
   add_integer(element, "max_depth",
               depth >= unlimited_depth ? -1 : depth + 1);  // Mitsuba counts the eye's ray
   add_integer(element, "rr_depth", 5);
-  add_boolean(element, "hide_emitters", hides_emitters(scene));
+  add_boolean(element, "hide_emitters", scene.settings.hides_emitters);
 }
 
 void write_camera(Context& context, Element root) {

@@ -27,7 +27,7 @@ bool is_there(const Shape& shape) { return shape.opacity == FloatParameter{1.0f}
 
 // What is not there of a shape is a mask around its material.
 void write_mask(Context& context, Element root, const Shape& shape) {
-  if (is_there(shape)) return;
+  if (is_there(shape) || is_unseen_lamp(shape)) return;
   std::string& id = context.masks[{shape.material.value, opacity_key(shape.opacity)}];
   if (!id.empty()) return;
   id = context.new_id("", "mask", context.masks.size() - 1);
@@ -140,16 +140,12 @@ AreaLight light_of(Context& context, const Shape& shape) {
   // Ids are unique, and a lamp that has none is known by its shape, or by its material.
   if (light.name == shape.name || light.name == context.scene.materials[shape.material.value].name)
     light.name.clear();
-  if (shape.opacity == FloatParameter{0.0f})
-    context.approximated(hides_emitters(context.scene)
-                             ? "a light that nothing meets casts shadows in Mitsuba, and mirrors show it"
-                             : "a light that nothing meets is seen in Mitsuba");
-  else if (!is_there(shape))
-    light.scale *= constant_of(context, shape.opacity, "the opacity of what shines");
+  if (!is_there(shape)) light.scale *= constant_of(context, shape.opacity, "the opacity of what shines");
   return light;
 }
 
 void write_shape(Context& context, Element parent, const Shape& shape, std::size_t index) {
+  if (is_unseen_lamp(shape)) return write_unseen_lamp(context, parent, shape);
   context.begin(RecordKind::shape, shape.origin);
   const std::string id = shape.name.empty() ? "" : context.new_id(shape.name, "shape", index);
   const std::vector<Element> curves = add_curves(context, parent, shape, sides_matter(context, shape), id);

@@ -561,21 +561,39 @@ TEST_F(WriteMitsuba, WhatIsNotThereDoesNotShine) {
   EXPECT_EQ(value(emitter, "radiance"), "0.5") << text_;
 }
 
-// pbrt's invisible lamps: the integrator hides them from the camera, where it hides nothing else with them.
-TEST_F(WriteMitsuba, LampsThatNothingMeetsAreHidden) {
+// pbrt's invisible lamps: spots that are together as bright, on the side that it shines to.
+TEST_F(WriteMitsuba, LampsThatNothingMeetsAreSpots) {
+  constexpr double pi = std::numbers::pi;
   Scene scene = square_scene({});
   scene.area_lights.push_back({ConstantSpectrum{2}});
   scene.shapes[0].area_light = Id<AreaLight>{0};
   scene.shapes[0].opacity = 0.0f;
-  EXPECT_EQ(value(write(scene).child("integrator"), "hide_emitters"), "true");
-  EXPECT_THAT(diagnostics_, approximates("mirrors show it"));
-  scene.shapes.push_back(scene.shapes[0]);
-  scene.shapes[1].opacity = 1.0f;
-  EXPECT_EQ(value(write(scene).child("integrator"), "hide_emitters"), "false") << "a lamp that is seen";
-  EXPECT_THAT(diagnostics_, approximates("is seen in Mitsuba"));
-  scene.shapes.pop_back();
-  scene.lights.push_back({InfiniteLight{ConstantSpectrum{1}}});
-  EXPECT_EQ(value(write(scene).child("integrator"), "hide_emitters"), "false") << "surroundings are seen";
+  for (const bool two_sided : {false, true}) {
+    scene.area_lights[0].two_sided = two_sided;
+    const pugi::xml_node root = write(scene);
+    EXPECT_FALSE(root.child("shape"));
+    EXPECT_EQ(value(root.child("integrator"), "hide_emitters"), "false");
+    double flux = 0, weight = 0, towards = 0;
+    std::size_t count = 0;
+    for (const pugi::xml_node spot : root.children("emitter")) {
+      EXPECT_STREQ(spot.attribute("type").value(), "spot");
+      const auto angle = [&](const char* name) { return std::stod(value(spot, name)) * pi / 180; };
+      const double a = angle("beam_width"), b = angle("cutoff_angle");
+      flux += std::stod(value(spot, "intensity")) * 2 * pi * (1 - (std::sin(b) - std::sin(a)) / (b - a));
+      weight += std::stod(value(spot, "sampling_weight"));
+      std::array<double, 3> from{}, to{};
+      const pugi::xml_node looks = spot.child("transform").child("lookat");
+      std::sscanf(looks.attribute("origin").value(), "%lf,%lf,%lf", &from[0], &from[1], &from[2]);
+      std::sscanf(looks.attribute("target").value(), "%lf,%lf,%lf", &to[0], &to[1], &to[2]);
+      towards += to[2] - from[2];
+      ++count;
+    }
+    const double area = 4;  // of the square
+    EXPECT_NEAR(flux, pi * 2 * area * (two_sided ? 2 : 1), 1e-4 * flux);
+    EXPECT_NEAR(weight, 1, 1e-4);
+    EXPECT_NEAR(towards / static_cast<double>(count), two_sided ? 0 : 1, 1e-6);
+    EXPECT_THAT(diagnostics_, approximates(fmt::format("becomes {} spot lights", count)));
+  }
 }
 
 }  // namespace
