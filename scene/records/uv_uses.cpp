@@ -3,15 +3,17 @@
 
 #include <algorithm>
 
-#include "scene/records/fields.h"
+#include "scene/records/field_search.h"
 #include "scene/records/material_traits.h"
 
 namespace vitrail {
 
 namespace {
 
-// Visits the fields of a record, and asks of each whether (u,v) show in it.
-struct Search {
+// Asks of each field whether (u,v) show in it.
+struct Search : FieldSearch<Search> {
+  using FieldSearch::in;
+  explicit Search(UvUses& u) : uses(u) {}
   UvUses& uses;
   bool found = false;
 
@@ -23,40 +25,13 @@ struct Search {
     if (!t.solid) in(t.mapping);
     in(t.even), in(t.odd);
   }
-  template <class T>
-  void in(const std::optional<T>& field) {
-    if (field) in(*field);
-  }
-  template <class... T>
-  void in(const std::variant<T...>& field) {
-    std::visit([this](const auto& alternative) { in(alternative); }, field);
-  }
-  template <class T>
-  void in(const std::vector<T>& list) {
-    for (const T& item : list) in(item);
-  }
-  template <HasFields Record>
-  void in(const Record& record) {
-    visit_fields(record, [this](const auto&... fields) { (in(fields), ...); });
-  }
-  // What no texture can be in. A record without a list of its fields does not compile.
-  template <class T>
-  requires(!std::is_class_v<T>) void in(const T&) {}
-  template <class T>
-  requires(std::constructible_from<Spectrum, T>) void in(const T&) {}
-  template <class T>
-  void in(const Id<T>&) {}
-  void in(const std::string&) {}
-  void in(const Vector3d&) {}
-  void in(const Transform&) {}
-  void in(const MeasuredSheet&) {}
 };
 
 }  // namespace
 
 bool UvUses::of(Id<Texture> texture) {
   while (known_.size() <= texture.value) {
-    Search search{*this};
+    Search search(*this);
     search.in(static_cast<const TextureVariant&>(textures_.at(known_.size()).model));
     known_.push_back(search.found);
   }
@@ -78,7 +53,7 @@ bool UvUses::of(const Material& material) {
   const MaterialTraits traits = traits_of(material.model);
   const bool knows_where_it_runs = traits.fibre && on_curves;
   if (traits.along_surface && !knows_where_it_runs) return true;
-  Search search{*this};
+  Search search(*this);
   search.in(static_cast<const MaterialVariant&>(material.model));
   return search.found;
 }

@@ -8,12 +8,12 @@
 #include <optional>
 
 #include "scene/models/pattern.h"
+#include "scene/models/texture_mapping.h"
 #include "scene/records/nesting_limits.h"
 #include "scene/records/texture_inputs.h"
 #include "scene/system/diagnostics.h"
 #include "tracer/sampling/wavelengths.h"
 #include "tracer/textures/image_lanes.h"
-#include "tracer/textures/mapping.h"
 #include "tracer/textures/noise.h"
 #include "tracer/textures/tile_cache.h"
 

@@ -8,6 +8,7 @@
 #include "importers/mitsuba/write/write_materials.h"
 #include "importers/mitsuba/write/write_media.h"
 #include "importers/mitsuba/write/write_shapes.h"
+#include "importers/writing/mapped_uvs.h"
 #include "scene/system/atomic_file.h"
 
 namespace vitrail {
@@ -23,9 +24,13 @@ struct TextWriter : pugi::xml_writer {
 
 }  // namespace
 
-Diagnostics write_mitsuba(const Scene& scene, const std::filesystem::path& out) {
+Diagnostics write_mitsuba(const Scene& given, const std::filesystem::path& out) {
   using namespace mitsuba_writer;
+  const auto by_uv = [](const TextureMapping& m) { return std::holds_alternative<UvMapping>(m); };
+  const std::optional<MappedUvs> mapped = with_mapped_uvs(given, by_uv);
+  const Scene& scene = mapped ? mapped->scene : given;
   Context context(scene, out);
+  note(context, mapped);
   pugi::xml_document document;
   document.append_child(pugi::node_comment)
       .set_value(fmt::format(" Written by Vitrail {} for Mitsuba 3 ", VITRAIL_VERSION).c_str());

@@ -7,6 +7,7 @@
 
 #include "importers/obj/write/write_mtl.h"
 #include "importers/writing/flat_shapes.h"
+#include "importers/writing/mapped_uvs.h"
 #include "importers/writing/side_files.h"
 #include "importers/writing/text_sink.h"
 #include "scene/records/uv_uses.h"
@@ -140,8 +141,11 @@ void note_attributes(const TriangleMesh& mesh, const FlatShape& flat, Conversion
 
 }  // namespace
 
-Diagnostics write_obj(const Scene& scene, const std::filesystem::path& path) {
+Diagnostics write_obj(const Scene& given, const std::filesystem::path& path) {
+  const std::optional<MappedUvs> mapped = with_mapped_uvs(given, is_unturned);
+  const Scene& scene = mapped ? mapped->scene : given;
   ConversionNotes notes(scene);
+  note(notes, mapped);
   note_geometry_only(notes);
   const std::vector<FlatShape> shapes = flat_shapes(scene);
   for (const FlatShape& flat : shapes) note_attributes(scene.meshes.at(flat.shape.mesh.value), flat, notes);

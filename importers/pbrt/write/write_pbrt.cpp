@@ -4,12 +4,18 @@
 #include <span>
 
 #include "importers/pbrt/write/writer.h"
+#include "importers/writing/mapped_uvs.h"
 #include "scene/system/atomic_file.h"
 
 namespace vitrail {
 
-Diagnostics write_pbrt(const Scene& scene, const std::filesystem::path& out) {
-  pbrt::Writer writer(scene, out);
+Diagnostics write_pbrt(const Scene& given, const std::filesystem::path& out) {
+  const auto is_kept = [](const TextureMapping& m) {
+    return std::holds_alternative<UvMapping>(m) ? is_unturned(m) : !std::holds_alternative<GlobeMapping>(m);
+  };
+  const std::optional<MappedUvs> mapped = with_mapped_uvs(given, is_kept);
+  pbrt::Writer writer(mapped ? mapped->scene : given, out);
+  note(writer, mapped);
   writer.line("# pbrt-v4, written by Vitrail");
   pbrt::write_tints(writer);
   pbrt::write_view(writer);

@@ -9,8 +9,8 @@
 
 #include "importers/povray/read/povray.h"
 #include "scene/models/pattern.h"
+#include "scene/models/texture_mapping.h"
 #include "tests/importers/povray/povray_render.h"
-#include "tracer/textures/mapping.h"
 
 namespace vitrail {
 namespace {
