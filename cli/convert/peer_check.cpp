@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -89,14 +90,15 @@ std::string picture_of_input(const PeerCheck& check, SmallPicture size, int samp
 }
 
 // Mitsuba's words on what was written and a reference: a scene of its own, or a picture.
-Json asked(const PeerCheck& check, const std::string& python, SmallPicture size, const std::string& reference,
-           const TemporaryFolder& folder) {
+Json asked(const PeerCheck& check, const std::string& python, SmallPicture size, int samples,
+           const std::string& reference, const TemporaryFolder& folder) {
   const std::string script = folder.file("peer.py"), said = folder.file("said.json"),
                     errors = folder.file("errors");
   std::ofstream(script) << mitsuba_script;
-  const ForeignEnd end = run_foreign({python, script, fs::absolute(check.out).string(), reference,
-                                      std::to_string(size.width), std::to_string(size.height)},
-                                     said, errors);
+  const ForeignEnd end =
+      run_foreign({python, script, fs::absolute(check.out).string(), reference, std::to_string(size.width),
+                   std::to_string(size.height), std::to_string(samples)},
+                  said, errors);
   if (!end.found) return {{"missing", python + " is not there"}};
   const Json result = Json::parse(text_of(said), nullptr, false);
   if (end.status == 0 && result.is_object()) return result;
@@ -107,15 +109,14 @@ Json asked(const PeerCheck& check, const std::string& python, SmallPicture size,
 
 bool is_not_compared(const Json& variant) { return variant.contains("not_compared"); }
 
-Json in_mitsuba(const PeerCheck& check, const std::string& python, const FilmSettings& film,
-                const TemporaryFolder& folder) {
-  constexpr int samples = 1024;
-  const SmallPicture size = small(film);
+// Of `samples` for each of eight seeds.
+Json once_in_mitsuba(const PeerCheck& check, const std::string& python, SmallPicture size, int samples,
+                     const TemporaryFolder& folder) {
   const auto by_vitrail = [&] {
-    return asked(check, python, size, picture_of_input(check, size, samples, folder), folder);
+    return asked(check, python, size, samples, picture_of_input(check, size, 16 * samples, folder), folder);
   };
   if (check.in.extension() != ".xml" || !check.options.empty()) return by_vitrail();
-  Json found = asked(check, python, size, fs::absolute(check.in).string(), folder);
+  Json found = asked(check, python, size, samples, fs::absolute(check.in).string(), folder);
   if (found.contains("missing") || std::ranges::none_of(found["variants"], is_not_compared)) return found;
   const Json others = by_vitrail();  // where Mitsuba shows nothing of the input
   for (const Json& variant : others.at("variants"))
@@ -125,6 +126,29 @@ Json in_mitsuba(const PeerCheck& check, const std::string& python, const FilmSet
         refused = variant;
         refused["not_compared"] = why;
       }
+  return found;
+}
+
+// Whether the noise leaves no room for a difference that is beyond the tolerance.
+bool is_decided(const Json& variant) {
+  if (!variant.contains("pixel_noise")) return true;
+  const double tolerance = variant.at("tolerance");
+  return 4 * variant.at("mean_noise").get<double>() <= tolerance &&
+         4 * variant.at("pixel_noise").get<double>() <= 5 * tolerance;
+}
+
+Json in_mitsuba(const PeerCheck& check, const std::string& python, const FilmSettings& film,
+                const TemporaryFolder& folder) {
+  constexpr std::array samples{64, 256, 1024};
+  constexpr std::chrono::seconds most{5};  // of a round: the next takes up to four times as long
+  Json found;
+  for (const int count : samples) {
+    const auto start = std::chrono::steady_clock::now();
+    found = once_in_mitsuba(check, python, small(film), count, folder);
+    if (found.contains("missing") || std::ranges::all_of(found["variants"], is_decided) ||
+        std::chrono::steady_clock::now() - start > most)
+      break;
+  }
   return found;
 }
 
@@ -179,6 +203,10 @@ std::string first_line(const Json& v, const char* key) {
   return text.substr(0, text.find('\n'));
 }
 
+std::string noise_in_words(const Json& v, const char* key, int digits) {
+  return v.contains(key) ? fmt::format(" ± {:.{}f} %", 100 * v.at(key).get<double>(), digits) : "";
+}
+
 std::string variant_in_words(const std::string& name, const Json& v) {
   if (!v.at("loads").get<bool>()) return fmt::format("{} refuses it: {}", name, first_line(v, "said"));
   if (v.contains("said")) return fmt::format("{} ruins it: {}", name, first_line(v, "said"));
@@ -188,10 +216,11 @@ std::string variant_in_words(const std::string& name, const Json& v) {
     return name + (v.at("passed").get<bool>() ? " renders it" : " shows light where the input has none") +
            refused;
   return fmt::format(
-      "{} shows it {} {} shows the input: luminance {:+.2f} %, a pixel of 64 by up to {:.1f} %{}", name,
+      "{} shows it {} {} shows the input: luminance {:+.2f} %{}, a pixel of 64 by up to {:.1f} %{}{}", name,
       v.at("passed").get<bool>() ? "as" : "otherwise than",
       v.at("compared_with") == "itself" ? "it" : "vitrail", 100 * (v.at("luminance_ratio").get<double>() - 1),
-      100 * v.at("worst_pixel").get<double>(), refused);
+      noise_in_words(v, "mean_noise", 2), 100 * v.at("worst_pixel").get<double>(),
+      noise_in_words(v, "pixel_noise", 1), refused);
 }
 
 }  // namespace

@@ -57,6 +57,20 @@ esac
   EXPECT_THAT(result.output, HasSubstr("of the input it says: no such plugin"));
 }
 
+// A difference of a mean that is a third of its noise, and is one where there are more samples ($6).
+TEST_F(Peer, SamplesMoreWhereNoiseLeavesRoomForADifference) {
+  const std::string in = write("in.xml", scene("path", "<shape type=\"sphere\"/>"));
+  const auto result = ask(in, R"(case $6 in
+64) noise=0.3 passed=true ;;
+*) noise=0.002 passed=false ;;
+esac
+echo '{"variants": [{"variant": "scalar_rgb", "loads": true, "passed": '$passed', "compared_with": "itself",
+  "luminance_ratio": 1.1, "mean_noise": '$noise', "worst_pixel": 0.1, "pixel_noise": '$noise', "tolerance": 0.01}]}'
+)");
+  EXPECT_EQ(result.status, 1) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("luminance +10.00 % ± 0.20 %, a pixel of 64 by up to 10.0 % ± 0.2 %"));
+}
+
 TEST_F(Peer, AsksVitrailWhereItRefusesTheInput) {
   if (std::system("povray --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no povray on the path";
   const std::string in =
