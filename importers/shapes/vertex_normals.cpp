@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace vitrail {
 
@@ -57,9 +58,9 @@ bool normals_oppose_winding(const TriangleMesh& mesh) {
   return balance < 0;
 }
 
-bool normals_lean(const TriangleMesh& mesh) {
+bool normals_lean(const TriangleMesh& mesh, double degrees) {
   if (mesh.normals.empty()) return false;
-  constexpr double cosine = 0.97;
+  const double cosine = std::cos(degrees * std::numbers::pi / 180);
   return std::ranges::any_of(mesh.triangles, [&](const std::array<std::uint32_t, 3>& t) {
     const Vector3d face = normalize(winding_normal(mesh, t));
     return std::ranges::any_of(t, [&](std::uint32_t v) {

@@ -21,7 +21,7 @@ Normal3f unit_normal(const Vector3d& sum);
 // Whether most shading normals point away from the side where the triangles run counter-clockwise.
 bool normals_oppose_winding(const TriangleMesh& mesh);
 
-// Whether a shading normal leans from that of a triangle by more than 14°, to either side.
-bool normals_lean(const TriangleMesh& mesh);
+// Whether a shading normal leans from that of a triangle by more than that, to either side.
+bool normals_lean(const TriangleMesh& mesh, double degrees);
 
 }  // namespace vitrail

@@ -75,7 +75,7 @@ void add_emission(Builder& builder, const Object& object, bool in_group, Shape& 
   shape.area_light = add_area_light(builder, *std::get<ObjectPtr>(emitters.front()->value));
   TriangleMesh storage;
   const TriangleMesh& mesh = builder.scene.meshes[shape.mesh.value];
-  if (shape.area_light && !mesh.quadric && normals_lean(loaded(mesh, storage)))
+  if (shape.area_light && !mesh.quadric && normals_lean(loaded(mesh, storage), 14))
     builder.report.approximated(
         "the light of a mesh goes by its triangles: Mitsuba 3.9 weighs it by the shading normals",
         object.origin);

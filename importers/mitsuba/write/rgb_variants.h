@@ -12,6 +12,14 @@ double luminance_in_rgb_variants(const Spectrum& emission);
 // Says it where it is off by more than 1 %.
 void report_rgb_variants(Context& context, const Spectrum& emission);
 
+// The luminance to which Mitsuba's rgb variants weaken white light (D65) by a medium's extinction at the
+// depth where the spectrum leaves a tenth of it: they weaken three numbers, each by its own.
+double tenth_in_rgb_variants(const Spectrum& extinction);
+
+// Says, once a scene that is not Mitsuba's, how far the product of a light's and a surface's three numbers is
+// off from that of their spectra, where it is by more than 1 %.
+void report_products_in_rgb_variants(Context& context);
+
 // Whether the item comes from a scene file of Mitsuba's.
 bool is_mitsuba_file(const Scene& scene, const Origin& origin);
 

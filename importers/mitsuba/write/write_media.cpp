@@ -200,7 +200,14 @@ void report_colour(Context& context, const Medium& medium, const ExtinctionAlbed
     context.approximated(
         "the colour of an extinction is outside of sRGB: in Mitsuba's rgb variants its medium does not "
         "scatter");
-  if (greatest > 1 && is_mitsuba_file(context.scene, medium.origin))
+  const bool is_theirs = is_mitsuba_file(context.scene, medium.origin);
+  if (const double tenth = tenth_in_rgb_variants(*spectrum); !is_theirs && std::abs(tenth - 0.1) > 0.005)
+    context.approximated(
+        fmt::format("Mitsuba's rgb variants weaken light by three numbers: white light that comes to a tenth "
+                    "comes to {:.3g} "
+                    "there",
+                    tenth));
+  if (greatest > 1 && is_theirs)
     context.approximated(fmt::format(
         "an extinction up to {:.3g}: Mitsuba's rgb variants cut that of the input at 1; the scale of what is "
         "written keeps it",

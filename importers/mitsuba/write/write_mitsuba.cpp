@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "importers/mitsuba/write/rgb_variants.h"
 #include "importers/mitsuba/write/write_camera.h"
 #include "importers/mitsuba/write/write_lights.h"
 #include "importers/mitsuba/write/write_materials.h"
@@ -46,6 +47,7 @@ Diagnostics write_mitsuba(const Scene& given, const std::filesystem::path& out) 
   write_shapes(context, root);
   write_integrator(context, root);
   write_camera(context, root);
+  report_products_in_rgb_variants(context);
   root.insert_move_before(root.last_child(), sensor);
   root.insert_move_before(root.last_child(), integrator);
   root.remove_child(integrator);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "importers/mitsuba/write/rgb_variants.h"
 #include "importers/mitsuba/write/unseen_lamps.h"
 #include "importers/mitsuba/write/write_curves.h"
 #include "importers/mitsuba/write/write_lights.h"
@@ -157,17 +158,22 @@ void write_shape(Context& context, Element parent, const Shape& shape, std::size
   if (context.hair_along_u[shape.material.value])
     context.approximated("Mitsuba's hair runs along v, this along u");
   const auto quadric = quadric_of(context, shape);
-  if (const auto& mesh = context.scene.meshes[shape.mesh.value]; mesh.quadric && !quadric)
-    context.approximated(as_triangles(*mesh.quadric));
+  const TriangleMesh& mesh = context.scene.meshes[shape.mesh.value];
+  if (mesh.quadric && !quadric) context.approximated(as_triangles(*mesh.quadric));
   Element element =
       quadric ? add_quadric(context, parent, shape, *quadric, id)
               : add_mesh(context, parent, shape, mesh_file(context, shape, sides_matter(context, shape)), id);
   add_media(context, element, shape);
+  if (!quadric && !mesh.deferred && !is_mitsuba_file(context.scene, shape.origin) && normals_lean(mesh, 45))
+    context.approximated(
+        "its shading normals lean by more than 45° from its faces: where one looks away from the eye, "
+        "Mitsuba "
+        "shows the light of the other side (of a cube with smooth edges a pixel of 144 by 18 %)");
   if (!shape.area_light) return;
   const AreaLight light = light_of(context, shape);
   write_area_light(context, element, light, shape);
   TriangleMesh storage;
-  if (!quadric && normals_lean(loaded(context.scene.meshes[shape.mesh.value], storage)))
+  if (!quadric && normals_lean(loaded(mesh, storage), 14))
     context.approximated("Mitsuba 3.9 weighs the light of a mesh by its shading normals");
   if (!light.two_sided) return;
   context.approximated(

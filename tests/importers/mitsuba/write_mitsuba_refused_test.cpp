@@ -165,6 +165,46 @@ TEST_F(RefusedByMitsuba, IndicesOfMetalsAreNowhereNothing) {
     EXPECT_GT(std::stod(values.substr(at + 1)), 0) << values;
 }
 
+// A cube of OBJ with smooth edges.
+TEST_F(RefusedByMitsuba, NormalsThatLeanFarAreReported) {
+  Scene scene = square_scene({}, true);
+  write(scene);
+  EXPECT_THAT(diagnostics_, testing::Not(approximates("lean by more than 45°")));
+  scene.meshes[0].normals[2] = {0, 1, 0.5f};
+  write(scene);
+  EXPECT_THAT(diagnostics_, approximates("lean by more than 45°"));
+}
+
+// Light of one spectrum on a surface of another is no product of three numbers.
+TEST_F(RefusedByMitsuba, ProductsOfSpectraInRgbVariantsAreReported) {
+  Scene scene = square_scene({});
+  std::get<DiffuseMaterial>(scene.materials[0].model).reflectance =
+      Spectrum{tabulate({{360, .05}, {580, .05}, {600, .8}, {830, .8}}, true)};
+  scene.lights = {Light{InfiniteLight{Spectrum{emission_from_rgb({1, 1, 1})}}}};
+  write(scene);
+  EXPECT_THAT(diagnostics_, testing::Not(approximates("multiply three numbers")));
+  scene.lights = {
+      Light{InfiniteLight{Spectrum{tabulate({{400, 0}, {500, 8}, {600, 15.6}, {700, 18.4}}, true)}}}};
+  write(scene);
+  EXPECT_THAT(diagnostics_, approximates("multiply three numbers"));
+}
+
+// A ball of pbrt's rgb [.5 2 4] is up to 32 % too bright in scalar_rgb, which weakens three numbers.
+TEST_F(RefusedByMitsuba, ColouredExtinctionsInRgbVariantsAreReported) {
+  const auto notes = [&](const Spectrum& extinction) {
+    Scene scene = square_scene({});
+    scene.media = {Medium{}};
+    scene.media[0].coefficients = ExtinctionAlbedo{extinction, ConstantSpectrum{0}};
+    scene.shapes[0].interior = Id<Medium>{0};
+    write(scene);
+    return diagnostics_;
+  };
+  EXPECT_THAT(notes(unbounded_from_rgb({.5, 2, 4})),
+              approximates("white light that comes to a tenth comes to"));
+  EXPECT_THAT(notes(unbounded_from_rgb({2, 2, 2})), testing::Not(approximates("comes to a tenth")));
+  EXPECT_THAT(notes(ConstantSpectrum{2}), testing::Not(approximates("comes to a tenth")));
+}
+
 // Mitsuba's rgb variants know no scale of a d65, and its spectral ones cut the colours of a bitmap at 1.
 class LampsImages : public RefusedByMitsuba {
  protected:
