@@ -2,6 +2,7 @@
 // The material models: exact where Mitsuba has the model, else the nearest one, which is reported.
 #include <cmath>
 
+#include "importers/mitsuba/write/coated_metal.h"
 #include "importers/mitsuba/write/write_materials.h"
 #include "scene/models/hair_color.h"
 #include "scene/spectra/color.h"
@@ -208,11 +209,24 @@ void write(Context& context, Element parent, ElementId id, const CoatedDiffuseMa
   write(context, parent, id, PlasticMaterial{m.reflectance, ConstantSpectrum{1}, eta, 1, m.roughness, true});
 }
 
+// Below a coat of index n a facet's tilt turns what it mirrors n times as far, as seen from outside.
+FloatParameter seen_through(Context& context, const FloatParameter& alpha, double eta) {
+  const auto value = value_of(context, alpha);
+  return value ? FloatParameter{static_cast<float>(std::min(1.0, static_cast<double>(*value) * eta))} : alpha;
+}
+
 void write(Context& context, Element parent, ElementId id, const CoatedConductorMaterial& m) {
-  context.approximated("coatedconductor is written without its coating");
   ConductorMaterial conductor;
+  const auto share = coated_share(context, m.metal, m.interface_eta);
+  if (share) conductor.reflectance_factor = *share;
+  context.approximated(
+      share ? "coatedconductor is written without its coating, as a metal of its mean reflectance"
+            : "coatedconductor is written without its coating");
   conductor.metal = m.metal;
   conductor.roughness = m.conductor_roughness;
+  const double eta = std::max(1.0, evaluate(resolved(m.interface_eta), 550));
+  conductor.roughness.alpha_u = seen_through(context, m.conductor_roughness.alpha_u, eta);
+  conductor.roughness.alpha_v = seen_through(context, m.conductor_roughness.alpha_v, eta);
   write(context, parent, id, conductor);
 }
 

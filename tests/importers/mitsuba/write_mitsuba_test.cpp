@@ -288,6 +288,24 @@ TEST_F(WriteMitsuba, ExactModels) {
   EXPECT_THAT(diagnostics_, IsEmpty());
 }
 
+// A clear coat takes as much from a metal as light loses on its way through, to and fro.
+TEST_F(WriteMitsuba, CoatedMetalsReflectAsMuchInTheMean) {
+  const auto factor = [&](float eta, float k, float coat) {
+    CoatedConductorMaterial m;
+    m.metal = ComplexIndex{Spectrum{ConstantSpectrum{eta}}, Spectrum{ConstantSpectrum{k}}};
+    m.interface_eta = ConstantSpectrum{coat};
+    const std::string values = value(write_material(m), "specular_reflectance");
+    return std::stod(values.substr(values.find(':') + 1));
+  };
+  EXPECT_NEAR(factor(1.5f, 0, 1.5f), 1, 1e-4);  // glass on glass
+  EXPECT_NEAR(factor(0.2f, 3, 1), 1, 1e-4);
+  // At normal incidence (1, 2) reflects .5 alone; below an index of 1.5 .415, with the .04 of the coat .429.
+  EXPECT_NEAR(factor(1, 2, 1.5f), .429 / .5, .03);
+  CoatedConductorMaterial textured;
+  textured.metal = NormalReflectance{SpectrumParameter{ConstantSpectrum{0.5f}}};
+  EXPECT_EQ(value(write_material(textured), "specular_reflectance"), "1");
+}
+
 TEST_F(WriteMitsuba, ApproximatedModels) {
   const auto type = [&](MaterialModel model) {
     return std::string(write_material(std::move(model)).attribute("type").value());
