@@ -140,7 +140,7 @@ bool is_decided(const Json& variant) {
 Json in_mitsuba(const PeerCheck& check, const std::string& python, const FilmSettings& film,
                 const TemporaryFolder& folder) {
   constexpr std::array samples{64, 256, 1024};
-  constexpr std::chrono::seconds most{5};  // of a round: the next takes up to four times as long
+  constexpr std::chrono::seconds most{10};  // of a round: the next takes up to four times as long
   Json found;
   for (const int count : samples) {
     const auto start = std::chrono::steady_clock::now();

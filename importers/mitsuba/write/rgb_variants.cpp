@@ -118,7 +118,7 @@ void report_products_in_rgb_variants(Context& context) {
       if (std::abs(times - 1) > std::abs(worst - 1)) worst = times;
     }
   }
-  if (std::abs(worst - 1) <= 0.01) return;
+  if (std::abs(worst - 1) <= 0.02) return;
   context.begin(RecordKind::any, scene.camera_origin);
   context.approximated(
       fmt::format("Mitsuba's rgb variants multiply three numbers for spectra: of light on a surface they "

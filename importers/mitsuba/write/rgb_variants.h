@@ -17,7 +17,7 @@ void report_rgb_variants(Context& context, const Spectrum& emission);
 double tenth_in_rgb_variants(const Spectrum& extinction);
 
 // Says, once a scene that is not Mitsuba's, how far the product of a light's and a surface's three numbers is
-// off from that of their spectra, where it is by more than 1 %.
+// off from that of their spectra, where it is by more than 2 %.
 void report_products_in_rgb_variants(Context& context);
 
 // Whether the item comes from a scene file of Mitsuba's.
