@@ -7,6 +7,7 @@
 #endif
 #include <xxhash.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -28,6 +29,13 @@ std::uint64_t checksum_of(std::span<T> array, FilmScratch* scratch, Visit&& visi
 template <class T>
 std::uint64_t checksum_of(std::span<T> array, FilmScratch* scratch) {
   return checksum_of(array, scratch, [](std::span<T>) {});
+}
+
+// A film's, of the checksums of its sums, counts, ids and mattes.
+inline std::uint64_t hash_of_arrays(const std::array<std::uint64_t, 4>& checksums, bool has_ids,
+                                    bool has_mattes) {
+  const std::size_t used = has_mattes ? 4 : has_ids ? 3 : 2;
+  return XXH3_64bits(checksums.data(), used * sizeof checksums[0]);
 }
 
 }  // namespace vitrail

@@ -64,13 +64,9 @@ std::vector<Covered> ranked(const MattePixel& pixel) {
 
 }  // namespace
 
-std::vector<PictureChannel> matte_channels(const Film& film, Layer layer) {
-  std::vector<std::vector<Covered>> pixels;
-  std::size_t most = 1;
-  for (std::uint32_t p = 0; p < film.pixels(); ++p) {
-    pixels.push_back(ranked(film.matte(p, layer)));
-    most = std::max(most, pixels.back().size());
-  }
+std::size_t things_of(const MattePixel& pixel) { return ranked(pixel).size(); }
+
+std::vector<PictureChannel> matte_channels(const Film& film, Layer layer, std::size_t most) {
   std::vector<PictureChannel> channels;
   for (std::size_t i = 0; i < 2 * ((most + 1) / 2); ++i)
     for (const char part : {"RB"[i % 2], "GA"[i % 2]})
@@ -78,22 +74,14 @@ std::vector<PictureChannel> matte_channels(const Film& film, Layer layer) {
                           false,
                           std::vector<float>(film.pixels()),
                           {}});
-  for (std::uint32_t p = 0; p < film.pixels(); ++p)
-    for (std::size_t i = 0; i < pixels[p].size(); ++i) {
-      channels[2 * i].values[p] = std::bit_cast<float>(pixels[p][i].id);
-      channels[2 * i + 1].values[p] = static_cast<float>(film.coverage(p, pixels[p][i].sum));
-    }
-  return channels;
-}
-
-double share_without_matte(const Film& film, Layer layer) {
-  double all = 0, kept = 0;
   for (std::uint32_t p = 0; p < film.pixels(); ++p) {
-    const MattePixel& pixel = film.matte(p, layer);
-    all += static_cast<double>(pixel.covered);
-    for (const std::int64_t sum : pixel.sums) kept += static_cast<double>(sum);
+    const std::vector<Covered> things = ranked(film.matte(p, layer));
+    for (std::size_t i = 0; i < things.size(); ++i) {
+      channels[2 * i].values[p] = std::bit_cast<float>(things[i].id);
+      channels[2 * i + 1].values[p] = static_cast<float>(film.coverage(p, things[i].sum));
+    }
   }
-  return all > 0 ? (all - kept) / all : 0;
+  return channels;
 }
 
 }  // namespace vitrail

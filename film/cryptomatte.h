@@ -24,11 +24,11 @@ std::uint32_t matte_id(std::string_view name);
 // JSON, names to eight hexadecimal digits of their ids.
 std::string matte_manifest(std::span<const std::string> names);
 
-// "CryptoObject00.R" (an id), ".G" (its coverage), ".B", ".A", "CryptoObject01.R" …: as many as the pixel
-// with most things needs. What covers nothing or less, by filters that go below 0, is left out.
-std::vector<PictureChannel> matte_channels(const Film& film, Layer layer);
+// What covers something of a pixel: what covers nothing or less, by filters that go below 0, is left out.
+std::size_t things_of(const MattePixel& pixel);
 
-// The part of all that things cover that has no mask, as pixels show more than most_mattes things.
-double share_without_matte(const Film& film, Layer layer);
+// "CryptoObject00.R" (an id), ".G" (its coverage), ".B", ".A", "CryptoObject01.R" …: as many as a pixel with
+// `most` things needs, which no pixel has more of.
+std::vector<PictureChannel> matte_channels(const Film& film, Layer layer, std::size_t most);
 
 }  // namespace vitrail

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "film/cryptomatte.h"
 #include "film/group_mix.h"
+#include "film/picture_memory.h"
 #include "film/working_gamma.h"
 #include "scene/system/diagnostics.h"
 
@@ -24,8 +26,8 @@ void require_unsaturated(const Refused& refused, const std::filesystem::path& fi
       {file.string()});
 }
 
-void require_samples(const Film& film, const std::filesystem::path& file) {
-  if (film.samples() > 0) return;
+void require_samples(std::uint64_t samples, const std::filesystem::path& file) {
+  if (samples > 0) return;
   throw Error("the film holds no sample yet: its picture would be black", {file.string()});
 }
 
@@ -47,8 +49,8 @@ void add_sums(const Film& film, Layer layer, std::vector<PictureChannel>& out) {
   }
 }
 
-void add_mattes(const Film& film, Layer layer, Picture& out) {
-  for (PictureChannel& channel : matte_channels(film, layer)) out.layers.push_back(std::move(channel));
+void add_mattes(const Film& film, Layer layer, std::size_t most, Picture& out) {
+  for (PictureChannel& channel : matte_channels(film, layer, most)) out.layers.push_back(std::move(channel));
   out.mattes.push_back({kind_of(layer).channels[0], ""});
 }
 
@@ -77,7 +79,32 @@ Picture develop_colors(const Film& film) {
   return picture;
 }
 
-Picture develop(const Film& film) {
+Picture develop_colors(const FilmRows& film) {
+  Picture picture;
+  const int rows = rows_at_once(film.settings(), film.key());
+  for (int y = 0; y < film.height(); y += rows) {
+    Picture part = develop_colors(film.rows(y, std::min(y + rows, film.height())));
+    if (y == 0) {
+      picture = std::move(part);
+      picture.rgb.values.reserve(3 * film.pixels());
+      for (PictureChannel& layer : picture.layers) layer.values.reserve(film.pixels());
+      continue;
+    }
+    const auto append = [](std::vector<float>& to, const std::vector<float>& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(picture.rgb.values, part.rgb.values);
+    for (std::size_t i = 0; i < part.layers.size(); ++i)
+      append(picture.layers[i].values, part.layers[i].values);
+  }
+  picture.rgb.height = film.height();
+  picture.window = film.settings().crop;
+  return picture;
+}
+
+Picture develop(const Film& film) { return develop(film, survey_of(film)); }
+
+Picture develop(const Film& film, const FilmSurvey& whole) {
   Picture picture = develop_colors(film);
   const bool knows_variance = !film.key().one_sequence;
   if (knows_variance) picture.variance = black_image(film.width(), film.height(), 1);
@@ -85,7 +112,6 @@ Picture develop(const Film& film) {
   picture.spectrum = black_image(film.width(), film.height(), film.bins().count);
   if (film.bins().count == 0) picture.spectrum = {};
   picture.shared_error = film.shared_error();
-  std::uint64_t most_samples = 0, least_samples = ~std::uint64_t{0};
   for (std::uint32_t p = 0; p < film.pixels(); ++p) {
     if (knows_variance) {
       const double slope = light_per_sum(film.mean(p).y, film.settings().working_gamma);
@@ -94,14 +120,12 @@ Picture develop(const Film& film) {
     const auto bins = static_cast<std::size_t>(film.bins().count);
     for (std::size_t b = 0; b < bins; ++b)
       picture.spectrum.values[bins * p + b] = static_cast<float>(film.mean_of_bin(p, b));
-    most_samples = std::max(most_samples, film.samples(p));
-    least_samples = std::min(least_samples, film.samples(p));
   }
   for (std::size_t i = 0; i < layer_count; ++i) {
     const auto layer = static_cast<Layer>(i);
     if (!film.layers().has(layer) || layer == Layer::alpha) continue;
     if (kind_of(layer).is_matte)
-      add_mattes(film, layer, picture);
+      add_mattes(film, layer, whole.mattes[i].most, picture);
     else if (kind_of(layer).is_id())
       add_ids(film, layer, picture.layers);
     else
@@ -109,12 +133,12 @@ Picture develop(const Film& film) {
   }
   for (PictureChannel& channel : group_channels(film)) picture.layers.push_back(std::move(channel));
   constexpr std::uint64_t most_int = 0x7fffffff;
-  picture.samples_per_pixel = static_cast<int>(std::min(most_samples, most_int));
+  picture.samples_per_pixel = static_cast<int>(std::min(whole.most_samples, most_int));
   picture.origin = {.software = to_string(film.key().renderer),
                     .scene_hash = fmt::format("{:016x}", film.key().scene_hash),
                     .seeds = fmt::format("{}", film.key().seed),
-                    .film_hash = fmt::format("{:016x}", film.hash()),
-                    .least_samples = static_cast<int>(std::min(least_samples, most_int))};
+                    .film_hash = fmt::format("{:016x}", whole.hash),
+                    .least_samples = static_cast<int>(std::min(whole.least_samples, most_int))};
   return picture;
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "film/film.h"
+#include "film/film_rows.h"
+#include "film/film_survey.h"
 #include "film/neighbours.h"
 #include "scene/records/image.h"
 
@@ -55,14 +57,20 @@ struct Picture {
 // `samples_per_pixel` is the most that a pixel has. Throws Error if the film is saturated.
 Picture develop(const Film& film);
 
+// The same of some rows of a film, of which `whole` is known.
+Picture develop(const Film& rows, const FilmSurvey& whole);
+
 // The same of the colours, their place and their alpha alone.
 Picture develop_colors(const Film& film);
+
+// The same of a film that stays in its file.
+Picture develop_colors(const FilmRows& film);
 
 // Throws Error where deposits were too large, and says what to do. `file`: the film's.
 void require_unsaturated(const Refused& refused, const std::filesystem::path& file);
 
 // Throws Error where nothing was rendered yet.
-void require_samples(const Film& film, const std::filesystem::path& file);
+void require_samples(std::uint64_t samples, const std::filesystem::path& file);
 
 // Brighter by `ev` stops: values and spectra times 2^ev, variances times 4^ev.
 void expose(Picture& picture, double ev);

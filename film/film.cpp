@@ -254,20 +254,10 @@ float rounded_threshold(double threshold) {
 }
 
 std::string difference(const Film& a, const Film& b) {
-  const auto differ = [](const char* what, const auto& x, const auto& y) {
-    return fmt::format("{}: {} and {}", what, x, y);
+  const auto what = [](const Film& f) {
+    return SumsOf{f.key(), f.settings(), f.exponent(), f.length_exponent()};
   };
-  const std::vector<PictureField> mine = picture_fields(a.key(), a.settings()),
-                                  theirs = picture_fields(b.key(), b.settings());
-  for (std::size_t i = 0; i < mine.size(); ++i)
-    if (mine[i].value != theirs[i].value)
-      return mine[i].is_shown ? differ(mine[i].difference, mine[i].value, theirs[i].value)
-                              : mine[i].difference;
-  if (a.exponent() != b.exponent())
-    return differ("their sums count in different powers of two", a.exponent(), b.exponent());
-  if (a.length_exponent() != b.length_exponent())
-    return differ("their lengths count in different powers of two", a.length_exponent(), b.length_exponent());
-  return {};
+  return difference(what(a), what(b));
 }
 
 void Film::merge(const Film& other) {
@@ -287,9 +277,7 @@ void Film::merge(const Film& other) {
 
 std::uint64_t Film::hash() const {
   const auto of = [&](const auto& array) { return checksum_of(std::span(array), scratch_.get()); };
-  const std::array<std::uint64_t, 4> parts{of(sums_), of(counts_), of(ids_), of(mattes_)};
-  const std::size_t used = !mattes_.empty() ? 4 : !ids_.empty() ? 3 : 2;
-  return XXH3_64bits(parts.data(), used * sizeof parts[0]);
+  return hash_of_arrays({of(sums_), of(counts_), of(ids_), of(mattes_)}, !ids_.empty(), !mattes_.empty());
 }
 
 }  // namespace vitrail

@@ -8,6 +8,18 @@ namespace vitrail::film_layout {
 
 std::uint64_t checksum(const Header& h) { return XXH3_64bits(&h, offsetof(Header, checksum)); }
 
+std::vector<char> text_of(const LightGroups& groups) {
+  std::vector<char> text;
+  for (const std::string& name : groups.names)
+    text.insert(text.end(), name.c_str(), name.c_str() + name.size() + 1);
+  return text;
+}
+
+GroupsHeader header_of(const LightGroups& groups) {
+  return {groups.lights, static_cast<std::uint32_t>(groups.names.size()),
+          static_cast<std::uint32_t>(text_of(groups).size())};
+}
+
 Arrays arrays_of(const Header& h, std::uint64_t groups) {
   const FilmLayers layers{h.layers, (h.options & option_camera_space) != 0};
   const std::uint64_t pixels =

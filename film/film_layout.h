@@ -57,6 +57,8 @@ struct GroupsHeader {
   std::uint32_t groups, text_bytes;
 };
 inline constexpr std::uint32_t most_text_bytes = 1 << 20;
+std::vector<char> text_of(const LightGroups& groups);
+GroupsHeader header_of(const LightGroups& groups);
 
 // Of the header, without that field.
 std::uint64_t checksum(const Header& h);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the sums of a film stand (Film::sums), and what they count in. For film.cpp and film_statistics.cpp
-// alone.
+// Where the sums of a film stand (Film::sums), and what they count in. For film.cpp, film_statistics.cpp
+// and film_survey.cpp alone.
 #pragma once
 
 #include <bit>

@@ -11,7 +11,7 @@
 #include <span>
 
 #include "film/cryptomatte.h"
-#include "film/exr_bytes.h"
+#include "film/exr_file.h"
 #include "film/fixed_date.h"
 #include "film/picture_attributes.h"
 #include "film/png_file.h"
@@ -41,18 +41,14 @@ PictureFile file_of(const Picture& picture) {
           .attributes = {{"DateTime", date_as_text()}}};
 }
 
-void write_whole(const std::filesystem::path& file, std::span<const std::byte> bytes) {
-  AtomicFile target(file);
-  target.write(bytes);
-  target.commit();
-}
-
 void write_file(const std::filesystem::path& file, const PictureFile& picture, const void* pixels) {
   std::vector<std::byte> bytes;
   if (const std::string problem = image_codec().encode_picture(file.string(), picture, pixels, bytes);
       !problem.empty())
     throw MachineError(fmt::format("cannot write {}: {}", file.string(), problem));
-  write_whole(file, bytes);
+  AtomicFile target(file);
+  target.write(bytes);
+  target.commit();
 }
 
 // The layout of Fichet, Pacanowski & Wilkie 2021: the wavelength of a bin's centre, with a decimal comma.
@@ -121,24 +117,6 @@ void put_numbers(PictureFile& file, const Picture& picture) {
   put(of_variances_name, picture.neighbours.of_variances);
 }
 
-void write_exr(const std::filesystem::path& path, const Picture& picture) {
-  const std::vector<Plane> planes = planes_of(picture);
-  PictureFile file = file_of(picture);
-  put_numbers(file, picture);
-  put_origin(file, picture.origin);
-  for (const PictureMattes& mattes : picture.mattes) put_mattes(file, mattes);
-  if (picture.spectrum.pixels() > 0) {
-    file.attributes.emplace_back("spectralLayoutVersion", "1.0");
-    file.attributes.emplace_back("emissiveUnits", "W.m^-2.sr^-1");
-  }
-  for (const Plane& plane : planes) file.channels.push_back({plane.name, plane.is_id()});
-  std::vector<std::uint32_t> pixels;  // both formats have 32 bits
-  pixels.reserve(planes.size() * picture.rgb.pixels());
-  for (std::size_t p = 0; p < picture.rgb.pixels(); ++p)
-    for (const Plane& plane : planes) pixels.push_back(plane.bits(p));
-  write_whole(path, exr_bytes(file, pixels));
-}
-
 bool is_tiff(const std::filesystem::path& file) {
   return file.extension() == ".tif" || file.extension() == ".tiff";
 }
@@ -169,7 +147,40 @@ void write_integers(const std::filesystem::path& path, const Picture& picture) {
   write_file(path, file, pixels.data());
 }
 
+// With what it says of itself; `top`: its first rows.
+PictureFile exr_of(const Picture& top, std::span<const Plane> planes, int height) {
+  PictureFile file = file_of(top);
+  file.height = height;
+  file.full_height = std::max(file.full_height, height);
+  put_numbers(file, top);
+  put_origin(file, top.origin);
+  for (const PictureMattes& mattes : top.mattes) put_mattes(file, mattes);
+  if (top.spectrum.pixels() > 0) {
+    file.attributes.emplace_back("spectralLayoutVersion", "1.0");
+    file.attributes.emplace_back("emissiveUnits", "W.m^-2.sr^-1");
+  }
+  for (const Plane& plane : planes) file.channels.push_back({plane.name, plane.is_id()});
+  return file;
+}
+
 }  // namespace
+
+ExrRows::ExrRows(const std::filesystem::path& file, const Picture& top, int height)
+    : file_(std::make_unique<ExrFile>(file, exr_of(top, planes_of(top), height))) {}
+ExrRows::~ExrRows() = default;
+
+void ExrRows::add(const Picture& rows) {
+  const std::vector<Plane> planes = planes_of(rows);
+  const auto width = static_cast<std::size_t>(rows.rgb.width);
+  std::vector<std::uint32_t> row(planes.size() * width);  // both formats have 32 bits
+  for (std::size_t first = 0; first < rows.rgb.pixels(); first += width) {
+    for (std::size_t x = 0; x < width; ++x)
+      for (std::size_t c = 0; c < planes.size(); ++c) row[x * planes.size() + c] = planes[c].bits(first + x);
+    file_->add_row(row);
+  }
+}
+
+void ExrRows::commit() { file_->commit(); }
 
 int usual_bits(const std::filesystem::path& file) {
   const std::filesystem::path format = file.extension();
@@ -179,7 +190,7 @@ int usual_bits(const std::filesystem::path& file) {
   return std::ranges::find(of_8, format.string()) != std::end(of_8) ? 8 : 0;
 }
 
-void write_picture(const std::filesystem::path& file, const Picture& picture, int bits) {
+int chosen_bits(const std::filesystem::path& file, int bits) {
   const std::filesystem::path format = file.extension();
   const int usual = usual_bits(file), chosen = bits == 0 ? usual : bits;
   const bool has_choice = format == ".png" || is_tiff(file);
@@ -188,7 +199,17 @@ void write_picture(const std::filesystem::path& file, const Picture& picture, in
         "cannot write {}: images are written as .exr, .hdr, .png, .jpg, .tif or .webp", file.string()));
   if (chosen != usual && (!has_choice || (chosen != 8 && chosen != 16)))
     throw UsageError(fmt::format("{} has {} bits, not {}", format.string(), usual, chosen));
-  if (format == ".exr") return write_exr(file, picture);
+  return chosen;
+}
+
+void write_picture(const std::filesystem::path& file, const Picture& picture, int bits) {
+  const std::filesystem::path format = file.extension();
+  const int chosen = chosen_bits(file, bits);
+  if (format == ".exr") {
+    ExrRows exr(file, picture, picture.rgb.height);
+    exr.add(picture);
+    return exr.commit();
+  }
   if (format == ".hdr") return write_hdr(file, picture);
   if (format == ".png") return write_png(file, picture, chosen);
   if (chosen == 16) return write_integers<std::uint16_t>(file, picture);

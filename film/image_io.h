@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "film/develop.h"
 
@@ -19,8 +20,27 @@ namespace vitrail {
 // does not have, throw UsageError.
 void write_picture(const std::filesystem::path& file, const Picture& picture, int bits = 0);
 
+// An .exr that is written as its rows come, so that the whole picture is never in memory. The file is the one
+// that write_picture makes of all of them.
+class ExrRows {
+ public:
+  // `top`: the first rows, whose channels all have; what it says of samples, error and origin is of the whole
+  // picture, which has `height` rows.
+  ExrRows(const std::filesystem::path& file, const Picture& top, int height);
+  ~ExrRows();
+  // The next rows from the top, `top` first.
+  void add(const Picture& rows);
+  void commit();
+
+ private:
+  std::unique_ptr<class ExrFile> file_;
+};
+
 // A channel, by the file's name: 32 (floats), 16 or 8; 0 where such a file cannot be written.
 int usual_bits(const std::filesystem::path& file);
+
+// `bits`, or the usual ones for 0. Throws UsageError where write_picture does.
+int chosen_bits(const std::filesystem::path& file, int bits);
 
 // Reads any format OpenImageIO knows: channels R, G, B, else the first three, or one for grey. Integer pixels
 // are decoded from sRGB. Throws Error with the file's name.

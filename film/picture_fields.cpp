@@ -65,4 +65,21 @@ std::vector<PictureField> picture_fields(const FilmKey& key, const FilmSettings&
        film.layers.in_camera_space ? "camera" : "world", hidden}};
 }
 
+std::string difference(const SumsOf& a, const SumsOf& b) {
+  const auto differ = [](const char* what, const auto& x, const auto& y) {
+    return fmt::format("{}: {} and {}", what, x, y);
+  };
+  const std::vector<PictureField> mine = picture_fields(a.key, a.settings),
+                                  theirs = picture_fields(b.key, b.settings);
+  for (std::size_t i = 0; i < mine.size(); ++i)
+    if (mine[i].value != theirs[i].value)
+      return mine[i].is_shown ? differ(mine[i].difference, mine[i].value, theirs[i].value)
+                              : mine[i].difference;
+  if (a.exponent != b.exponent)
+    return differ("their sums count in different powers of two", a.exponent, b.exponent);
+  if (a.length_exponent != b.length_exponent)
+    return differ("their lengths count in different powers of two", a.length_exponent, b.length_exponent);
+  return {};
+}
+
 }  // namespace vitrail

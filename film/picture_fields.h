@@ -26,4 +26,14 @@ struct PictureField {
 // hash.
 std::vector<PictureField> picture_fields(const FilmKey& key, const FilmSettings& film);
 
+// What the sums of a film are of.
+struct SumsOf {
+  const FilmKey& key;
+  const FilmSettings& settings;
+  int exponent, length_exponent;
+};
+
+// As of films (film.h).
+std::string difference(const SumsOf& a, const SumsOf& b);
+
 }  // namespace vitrail

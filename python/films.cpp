@@ -23,7 +23,7 @@ namespace {
 // A film, and the picture that it gives.
 struct DevelopedFilm {
   explicit DevelopedFilm(const std::filesystem::path& file) : film(read_film(file, &progress)) {
-    require_samples(film, file);
+    require_samples(film.samples(), file);
     picture = develop(film);
   }
   FilmProgress progress;

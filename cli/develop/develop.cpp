@@ -80,22 +80,25 @@ void show_false_colors(Picture& picture, const Exposed& sum, const DevelopArgume
   picture.variance = {};
 }
 
-// Of films.
-Picture measured_picture(const Exposed& sum, const DevelopArguments& a) {
-  if (sum.film.key().clamp > 0 && !a.quiet)
+void say_of_films(const Exposed& sum, const FilmSurvey& whole) {
+  if (sum.film.key().clamp > 0)
     say("vitrail: rendered with --clamp {}, which took {:.3g} % of the light\n", sum.film.key().clamp,
-        100 * sum.film.clamped_share());
+        100 * clamped_share(whole, sum.film));
+  for (const Layer layer : {Layer::crypto_object, Layer::crypto_material})
+    if (const double share = share_without_matte(whole, layer); share > 0)
+      say("vitrail: pixels with more than {} masks of {} leave {:.2g} % of the visible surfaces without a "
+          "mask\n",
+          most_mattes, kind_of(layer).name, 100 * share);
+}
+
+// Of films, or of some of their rows.
+Picture measured_picture(const Exposed& sum, const Film& rows, const FilmSurvey& whole,
+                         const DevelopArguments& a) {
   if (a.with_variance && sum.film.key().one_sequence)
     throw Error("the film knows no variance: it was rendered with --one-sequence", {sum.file.string()});
-  for (const Layer layer : {Layer::crypto_object, Layer::crypto_material})
-    if (sum.film.layers().has(layer) && !a.quiet)
-      if (const double share = share_without_matte(sum.film, layer); share > 0)
-        say("vitrail: pixels with more than {} masks of {} leave {:.2g} % of the visible surfaces without a "
-            "mask\n",
-            most_mattes, kind_of(layer).name, 100 * share);
-  Picture picture = picture_of(sum);
+  Picture picture = develop(rows, whole);
   if (a.groups.empty()) return picture;
-  picture.rgb = mixed_groups(sum.film, parse_group_weights(a.groups));
+  picture.rgb = mixed_groups(rows, parse_group_weights(a.groups));
   std::erase_if(picture.layers, [](const PictureChannel& c) { return c.name.starts_with("Light."); });
   picture.origin.groups = a.groups;
   return picture;
@@ -108,15 +111,29 @@ void require_parts(const Picture& picture, const DevelopArguments& a) {
     throw Error("the picture has no channel Variance.Y", {a.films.front()});
 }
 
-void cut_and_resize(Picture& picture, const DevelopArguments& a) {
-  if (!a.crop.empty()) {
-    const PixelRect part = parse_rectangle("--crop", a.crop), &own = picture.window;
-    if (part.x0 >= part.x1 || part.y0 >= part.y1 || part.x0 < own.x0 || part.x1 > own.x1 ||
-        part.y0 < own.y0 || part.y1 > own.y1)
-      throw UsageError(fmt::format("--crop is not within the picture, which is {},{},{},{}: {}", own.x0,
-                                   own.x1, own.y0, own.y1, a.crop));
-    cut_to(picture, part);
+// What is asked for beside the colours.
+void choose_parts(Picture& picture, const DevelopArguments& a) {
+  require_parts(picture, a);
+  if (!a.layers.empty()) {
+    keep_layers(picture, parse_chosen_layers(a.layers), a.films.front());
+    return;
   }
+  if (!a.spectral) picture.spectrum = {};
+  if (!a.with_variance) picture.variance = {};
+}
+
+// `own`: the picture's.
+PixelRect cut_of(const PixelRect& own, const DevelopArguments& a) {
+  if (a.crop.empty()) return own;
+  const PixelRect part = parse_rectangle("--crop", a.crop);
+  if (part.x0 >= part.x1 || part.y0 >= part.y1 || part.x0 < own.x0 || part.x1 > own.x1 || part.y0 < own.y0 ||
+      part.y1 > own.y1)
+    throw UsageError(fmt::format("--crop is not within the picture, which is {},{},{},{}: {}", own.x0, own.x1,
+                                 own.y0, own.y1, a.crop));
+  return part;
+}
+
+void resize_to(Picture& picture, const DevelopArguments& a) {
   if (a.size.empty()) return;
   if (a.with_variance) throw UsageError("--resize mixes pixels, whose variances are then not known");
   if (!picture.mattes.empty() && !a.quiet) say("vitrail: --resize leaves the masks out: ids do not mix\n");
@@ -136,9 +153,10 @@ double expose_for_screen(Picture& picture, const DevelopArguments& a) {
   return ev;
 }
 
-void say_what_is_written(const Picture& picture, const DevelopArguments& a, double ev) {
+// `picture`: its first rows; `height`: of all.
+void say_what_is_written(const Picture& picture, int height, const DevelopArguments& a, double ev) {
   std::string words = fmt::format("vitrail: {}: {} × {} pixels of {} bits", a.output, picture.rgb.width,
-                                  picture.rgb.height, a.bits > 0 ? a.bits : usual_bits(a.output));
+                                  height, a.bits > 0 ? a.bits : usual_bits(a.output));
   if (picture.samples_per_pixel > 0) words += fmt::format(", {} samples each", picture.samples_per_pixel);
   if (!a.layer.empty()) words += ", layer " + a.layer;
   if (!a.groups.empty()) words += ", light " + a.groups;
@@ -148,34 +166,66 @@ void say_what_is_written(const Picture& picture, const DevelopArguments& a, doub
   say("{}\n", words);
 }
 
+// Whether each pixel of what is written is made of that pixel alone.
+bool goes_by_rows(const DevelopArguments& a) {
+  return a.writes(".exr") && !a.reads_picture() && !a.denoised && a.size.empty() && a.layer.empty() &&
+         exposure_ev(a).has_value();
+}
+
+// An .exr of films that stay in their files: some of their rows are in memory.
+void develop_rows(const Exposed& sum, const FilmSurvey& whole, const DevelopArguments& a) {
+  chosen_bits(a.output, a.bits);
+  const PixelRect own = sum.parts[0].settings().crop, cut = cut_of(own, a);
+  const int height = cut.y1 - cut.y0;
+  Picture top;
+  double ev = 0;
+  std::optional<ExrRows> exr;
+  for (MergedRows all(sum, cut.y0 - own.y0, cut.y1 - own.y0); const std::optional<Film> rows = all.next();) {
+    Picture picture = measured_picture(sum, *rows, whole, a);
+    choose_parts(picture, a);
+    cut_to(picture, {cut.x0, cut.x1, picture.window.y0, picture.window.y1});
+    ev = expose_for_screen(picture, a);
+    if (!exr) {
+      tell_origin(picture, sum);
+      exr.emplace(a.output, picture, height);
+    }
+    exr->add(picture);
+    if (top.rgb.pixels() == 0) top = std::move(picture);
+  }
+  exr->commit();
+  if (!a.quiet) say_what_is_written(top, height, a, ev);
+}
+
 int develop_all(const DevelopArguments& a) {
   for (const std::string& file : a.films) require_input(file, {InputKind::film, InputKind::picture});
   std::optional<Denoiser> denoiser;
   if (a.denoised) denoiser.emplace();
   std::optional<Exposed> sum;
-  if (!a.reads_picture()) {
-    sum = merge_all(a);
-    require_samples(sum->film, sum->file);
+  Picture picture;
+  if (a.reads_picture()) {
+    picture = read_picture(a.films.front());
+  } else {
+    sum = merge_all(a, goes_by_rows(a));
+    const FilmSurvey whole = survey_of(*sum);
+    require_samples(whole.samples, sum->file);
     if (a.writes(".csv")) return write_table(a.output, *sum), exit_done;
     if (a.writes(".film")) return write_merged(a.output, *sum), exit_done;
+    if (!a.quiet) say_of_films(*sum, whole);
+    if (goes_by_rows(a)) return develop_rows(*sum, whole, a), exit_done;
+    picture = measured_picture(*sum, sum->film, whole, a);
+    tell_origin(picture, *sum);
   }
-  Picture picture = sum ? measured_picture(*sum, a) : read_picture(a.films.front());
-  require_parts(picture, a);
-  if (!a.layers.empty()) {
-    keep_layers(picture, parse_chosen_layers(a.layers), a.films.front());
-    if (a.denoised) picture.variance = {};  // of what was measured
-  } else {
-    if (!a.spectral) picture.spectrum = {};
-    if (!a.with_variance) picture.variance = {};
-  }
+  choose_parts(picture, a);
+  if (!a.layers.empty() && a.denoised) picture.variance = {};  // of what was measured
   if (denoiser) denoise_by_guides(picture, *denoiser, a.quiet);
-  cut_and_resize(picture, a);
+  cut_to(picture, cut_of(picture.window, a));
+  resize_to(picture, a);
   if (!a.layer.empty()) show_layer(picture, a.layer, !a.writes_light());
   if (a.writes(".png")) make_straight(picture);
   const double ev = expose_for_screen(picture, a);
   if (!a.false_color.empty()) show_false_colors(picture, *sum, a);
   write_picture(a.output, picture, a.bits);
-  if (!a.quiet) say_what_is_written(picture, a, ev);
+  if (!a.quiet) say_what_is_written(picture, picture.rgb.height, a, ev);
   return exit_done;
 }
 

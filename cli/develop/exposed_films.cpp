@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
 
 #include "film/cryptomatte.h"
 #include "film/film_progress.h"
 #include "film/film_seeds.h"
+#include "film/picture_memory.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
 #include "scene/system/say.h"
@@ -17,10 +21,16 @@ namespace vitrail {
 
 namespace {
 
-Exposed load(const std::string& file, const DevelopArguments& a) {
+Exposed load(const std::string& file, const DevelopArguments& a, bool in_files) {
   note_input(file);
   FilmProgress progress;
-  Exposed e{.file = file, .film = read_film(file, &progress)};
+  Exposed e{.file = file};
+  if (in_files) {
+    e.parts.emplace_back(file, &progress);
+    e.film = e.parts[0].rows(0, 1);
+  } else {
+    e.film = read_film(file, &progress);
+  }
   e.seeds = seeds_of(e.film, progress.about);
   e.about = std::move(progress.about);
   e.render_time_s = progress.render_time_s;
@@ -42,6 +52,20 @@ void add_seeds(Exposed& sum, const Exposed& film) {
                   {film.file.string()});
   sum.seeds.insert(sum.seeds.end(), film.seeds.begin(), film.seeds.end());
   std::ranges::sort(sum.seeds);
+}
+
+std::string difference_of(const Exposed& a, const Exposed& b) {
+  return a.parts.empty() ? difference(a.film, b.film) : difference(a.parts[0], b.parts[0]);
+}
+
+// `films`: what `more` is a part of.
+void merge(Film& film, const Film& more, const std::filesystem::path& films,
+           const std::filesystem::path& part) {
+  try {
+    film.merge(more);
+  } catch (const Error& e) {
+    throw Error(fmt::format("cannot merge with {}: {}", films.string(), e.what()), {part.string()});
+  }
 }
 
 // What the render knew of scene and camera.
@@ -80,29 +104,50 @@ void name_mattes(Picture& picture, const std::string& about) {
 
 }  // namespace
 
-Exposed merge_all(const DevelopArguments& a) {
+Exposed merge_all(const DevelopArguments& a, bool in_files) {
   std::vector<Exposed> films;
-  for (const std::string& file : a.films) films.push_back(load(file, a));
+  for (const std::string& file : a.films) films.push_back(load(file, a, in_files));
   std::ranges::sort(films, {}, [](const Exposed& film) { return film.seeds.front(); });
   for (const Exposed& film : films)
-    if (const std::string what = difference(films.front().film, film.film); !what.empty())
+    if (const std::string what = difference_of(films.front(), film); !what.empty())
       throw Error(fmt::format("cannot merge with {}: {}", films.front().file.string(), what),
                   {film.file.string()});
   Exposed sum = std::move(films.front());
   for (std::size_t i = 1; i < films.size(); ++i) {
     add_seeds(sum, films[i]);
-    try {
-      sum.film.merge(films[i].film);
-    } catch (const Error& e) {
-      throw Error(fmt::format("cannot merge with {}: {}", sum.file.string(), e.what()),
-                  {films[i].file.string()});
-    }
+    merge(sum.film, films[i].film, sum.file, films[i].file);
+    std::ranges::move(films[i].parts, std::back_inserter(sum.parts));
     sum.render_time_s += films[i].render_time_s;
     sum.samples_per_pixel += films[i].samples_per_pixel;
     sum.adaptive |= films[i].adaptive;
     if (sum.complete && !films[i].complete) sum.complete = false, sum.file = films[i].file;
   }
   return sum;
+}
+
+MergedRows::MergedRows(const Exposed& films, int y0, int y1, bool with_sums)
+    : films_(films),
+      y_(y0),
+      end_(y1),
+      step_(rows_at_once(films.parts[0].settings(), films.parts[0].key())),
+      with_sums_(with_sums) {}
+
+std::optional<Film> MergedRows::next() {
+  if (y_ == end_) return std::nullopt;
+  const int first = std::exchange(y_, std::min(y_ + step_, end_));
+  Film sum = films_.parts[0].rows(first, y_, with_sums_);
+  for (const FilmRows& more : std::span(films_.parts).subspan(1))
+    merge(sum, more.rows(first, y_, with_sums_), films_.file, more.file());
+  return sum;
+}
+
+FilmSurvey survey_of(const Exposed& film) {
+  if (film.parts.empty()) return survey_of(film.film);
+  FilmSurvey survey;
+  MergedRows all(film, 0, film.parts[0].height(), film.film.key().clamp > 0);
+  while (const std::optional<Film> rows = all.next()) add_rows(survey, *rows);
+  survey.hash = hash_of(film.parts);
+  return survey;
 }
 
 void write_merged(const std::filesystem::path& file, const Exposed& film) {
@@ -122,14 +167,12 @@ void write_merged(const std::filesystem::path& file, const Exposed& film) {
               .adaptive = film.adaptive});
 }
 
-Picture picture_of(const Exposed& sum) {
-  Picture picture = develop(sum.film);
+void tell_origin(Picture& picture, const Exposed& sum) {
   picture.render_time_s = sum.render_time_s;
   picture.origin.seeds = fmt::format("{}", fmt::join(sum.seeds, ","));
   put_about(picture.origin, sum.about);
   name_mattes(picture, sum.about);
   picture.neighbours = neighbours_of(sum.about);
-  return picture;
 }
 
 }  // namespace vitrail

@@ -2,14 +2,18 @@
 // The films that a picture is made of, as one.
 #pragma once
 
+#include <optional>
+
 #include "cli/develop/develop_arguments.h"
 #include "film/develop.h"
+#include "film/film_rows.h"
 
 namespace vitrail {
 
 struct Exposed {
   std::filesystem::path file;
-  Film film;
+  Film film;  // the sum; of films that stay in their files, of which `parts` are: its first row
+  std::vector<FilmRows> parts{};  // in the order of their seeds
   double render_time_s = 0;
   std::uint64_t samples_per_pixel = 0;
   bool adaptive = false, complete = true;
@@ -18,11 +22,28 @@ struct Exposed {
 };
 
 // The films of the command line, merged in the order of their seeds, so that their order there does not
-// matter. Throws Error where they are not of one picture, or share a seed.
-Exposed merge_all(const DevelopArguments& arguments);
+// matter; `in_files`: they stay there. Throws Error where they are not of one picture, or share a seed.
+Exposed merge_all(const DevelopArguments& arguments, bool in_files);
 
-// With what the render knew of scene and camera.
-Picture picture_of(const Exposed& film);
+// Rows of films in files, merged, from the top down, as many as a few megabytes have.
+class MergedRows {
+ public:
+  // `with_sums`: as of FilmRows::rows. From row `y0` of the crop on, up to `y1`.
+  MergedRows(const Exposed& films, int y0, int y1, bool with_sums = true);
+  // None: that was all.
+  std::optional<Film> next();
+
+ private:
+  const Exposed& films_;
+  int y_, end_, step_;
+  bool with_sums_;
+};
+
+// In one pass over the film.
+FilmSurvey survey_of(const Exposed& film);
+
+// Adds what the render knew of scene and camera, and which films it is made of.
+void tell_origin(Picture& picture, const Exposed& film);
 
 // As a film of its own, whose seed is a number made of all seeds, so that no render goes on from it; its
 // description has the seeds themselves, and it merges with films of others. Throws Error where it is not

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render/picture_output.h"
 
-#include <memory>
 #include <utility>
 
 #include "cli/common/run_program.h"
 #include "farm/run/checkpoint.h"
 #include "film/alpha.h"
 #include "film/develop.h"
-#include "film/film_progress.h"
 #include "film/own_picture.h"
 #include "film/png_file.h"
 #include "film/tone_curves.h"
@@ -38,11 +36,8 @@ void require_own_picture(const fs::path& picture, bool force) {
 void develop_film(const RenderArguments& a, const fs::path& file, const fs::path& picture,
                   const RenderStats& stats) {
   if (is_png(picture) && !a.denoised) {
-    // One that was too large for memory still is.
-    std::shared_ptr<FilmScratch> scratch;
-    if (stats.film_window_bytes > 0) scratch = std::make_shared<FilmScratch>(FilmScratch::least_window_bytes);
-    const Film film = read_film(file, nullptr, std::move(scratch));
-    require_samples(film, file);
+    const FilmRows film(file, nullptr);
+    require_samples(film.samples(), file);
     Picture developed = develop_colors(film);
     if (const double ev = fitting_exposure_ev(developed.rgb); ev != 0) {
       expose(developed, ev);

@@ -6,6 +6,7 @@
 
 #include "farm/files/timeline.h"
 #include "farm/plan/job_manifest.h"
+#include "film/picture_memory.h"
 #include "tracer/photons/photon_map.h"
 
 namespace vitrail {
@@ -33,21 +34,21 @@ std::uint64_t base_bytes(const Manifest& m, const RenderOptions& options, const 
          (options.outputs.trace.empty() ? 0 : Timeline::most_bytes(ranks));
 }
 
-// Of rank 0 while it makes the picture, for which the film is read again: beside what of the film is in
-// memory. A PNG it makes itself: the colours as numbers, and as bytes. For others and for what is denoised it
-// runs vitrail-develop, which was measured to take five eighths of the film beside it, and 8 MiB for its
-// libraries; what denoises is not counted.
+// Of rank 0 while it makes the picture, for which it reads the film again, a PNG and an .exr row by row. A
+// PNG it makes itself: the colours as numbers, and as bytes. For others and for what is denoised it runs
+// vitrail-develop, with 8 MiB of libraries. Other formats were measured to take five eighths of the film
+// beside it; what denoises is not counted.
 std::uint64_t picture_bytes(const Manifest& m, const RenderOptions& options, const JobPlan& plan) {
   const std::filesystem::path& picture = options.outputs.picture;
   if (picture.empty() || options.outputs.dry_run) return 0;
   constexpr std::uint64_t a_pixel = 24, encoder = 2 << 20, libraries = 10 << 20;
-  const std::uint64_t window = plan.film.window == 0 ? 0 : FilmScratch::least_window_bytes;
   const PixelRect& c = m.film.crop;
   const auto pixels = static_cast<std::uint64_t>(c.x1 - c.x0) * static_cast<std::uint64_t>(c.y1 - c.y0);
-  return plan.scene.resident +
-         (picture.extension() == ".png"
-              ? a_pixel * pixels + encoder + FilmMemory{plan.film.bytes, window}.resident()
-              : plan.film.bytes + plan.film.bytes / 8 * 5 + libraries);
+  const std::uint64_t by_rows = exr_memory(m.film, plan.key);
+  return plan.scene.resident + (picture.extension() == ".png" ? a_pixel * pixels + encoder + by_rows
+                                : picture.extension() == ".exr"
+                                    ? by_rows + libraries
+                                    : plan.film.bytes + plan.film.bytes / 8 * 5 + libraries);
 }
 
 std::uint64_t largest_domain(const Manifest& manifest) {

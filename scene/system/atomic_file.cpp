@@ -67,6 +67,17 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
   }
 }
 
+void AtomicFile::write_at(std::uint64_t place, std::span<const std::byte> bytes) {
+  const Underway underway("writing", temporary_);
+  while (!bytes.empty()) {
+    const ssize_t n = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("write", temporary_);
+    place += static_cast<std::uint64_t>(n);
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+}
+
 void AtomicFile::sync() const {
   const Underway underway("syncing", temporary_);
   if ((parts_on_their_way.exchange(false) ? ::syncfs(descriptor_) : ::fsync(descriptor_)) != 0)

@@ -23,6 +23,8 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   void write(std::span<const std::byte> bytes);
+  // Over what was written there.
+  void write_at(std::uint64_t place, std::span<const std::byte> bytes);
   std::uint64_t size() const { return size_; }
   void commit();
   void commit_part();

@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "film/film_progress.h"
 #include "film/image_io.h"
+#include "film/picture_extent.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
@@ -41,6 +44,41 @@ TEST_F(Develop, SaysInOneLineWhatItWrote) {
   EXPECT_THAT(done.output, AllOf(HasSubstr("a.png: 40 × 20 pixels of 8 bits, 2 samples each"),
                                  HasSubstr("exposure -0.50, tone agx\n")));
   EXPECT_EQ(develop(path("a.film"), "a.png", "--quiet").output, "");
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// It is made row by row of films that stay in their files; the bytes are those of the whole picture.
+TEST_F(Develop, WritesAnExrAsOfTheWholeFilm) {
+  std::vector<Film> films;
+  for (const int seed : {1, 2}) {
+    const std::string name = fmt::format("{}.film", seed);
+    ASSERT_EQ(render(name, fmt::format("--spp 2 --spectral 5 --aov cryptomatte,albedo,shape_index --alpha "
+                                       "--light-groups --crop 3,37,1,19 --seed {}",
+                                       seed))
+                  .status,
+              0);
+    films.push_back(film(name));
+    write_film(directory_ / name, films.back(), {});  // without words on the scene, which develop adds
+  }
+  const auto expect_same = [&](Picture whole, const std::string& of, const std::string& more) {
+    write_picture(directory_ / "whole.exr", whole);
+    ASSERT_EQ(develop(of, "rows.exr", "--layers all " + more).status, 0);
+    EXPECT_EQ(bytes_of(directory_ / "rows.exr"), bytes_of(directory_ / "whole.exr")) << more;
+  };
+  Picture one = vitrail::develop(films[0]);
+  expect_same(one, path("1.film"), "");
+  expose(one, 1.5);
+  expect_same(one, path("1.film"), "--exposure 1.5");
+  cut_to(one, {5, 30, 2, 18});
+  expect_same(one, path("1.film"), "--exposure 1.5 --crop 5,30,2,18");
+  films[0].merge(films[1]);
+  Picture both = vitrail::develop(films[0]);
+  both.origin.seeds = "1,2";
+  expect_same(both, path("2.film") + " " + path("1.film"), "");
 }
 
 // A picture goes on where its film left off, layers and origin included.

@@ -33,6 +33,8 @@ WRITERS = {
     "layers.exr": ["--aov", "albedo,position,normal,depth,crypto_object,crypto_material", "--alpha"],
     "spectral": ["--spectral", 16],
     "large.film": ["--spectral", 47],
+    "large.exr": ["--spectral", 47],
+    "large.png": ["--spectral", 47],
     "groups": ["--light-groups"],
     "profile": ["--profile", "profile.json"],
     "trace": ["--trace", "trace.json"],
@@ -87,7 +89,7 @@ def run(folder, ranks, words, limit=None):
 
 def measure(folder, ranks, name, options):
     output = name if "." in name else "out.film"
-    size = LARGE if name == "large.film" else (200, 150)
+    size = LARGE if name.startswith("large.") else (200, 150)
     words = [programs / "vitrail-render", "city.vit", "-o", output, "--width", size[0], "--height", size[1], "--spp", 4, "--threads", 2, "--quiet",
              "--force", "--stats", "stats.json", *options]
     done = run(folder, ranks, words)
@@ -108,7 +110,7 @@ def measure(folder, ranks, name, options):
           f"{everything['peak_rss_bytes'] / MIB:.1f}; {little['evictions']} evictions", flush=True)
     if little["film_hash"] != everything["film_hash"]:
         return "another film"
-    if name == "large.film" and not (0 < little["film_window_bytes"] and budget < size[0] * size[1] * 824 / 3):
+    if name.startswith("large.") and not (0 < little["film_window_bytes"] and budget < size[0] * size[1] * 824 / 3):
         return f"the film is in memory, or is not large for {budget / MIB:.0f}M"
     return f"{little['peak_rss_bytes']} bytes of {budget}" if little["peak_rss_bytes"] > budget else None
 

@@ -139,7 +139,8 @@ TEST(Cryptomatte, TheGreatestCoverageComesFirst) {
     film.count_sample(5, s);
     if (s < 7) film.put_matte(5, Layer::crypto_material, s < 1 ? 300u : s < 5 ? 100u : 200u, 1);
   }
-  const std::vector<PictureChannel> channels = matte_channels(film, Layer::crypto_material);
+  EXPECT_EQ(survey_of(film).mattes[static_cast<std::size_t>(Layer::crypto_material)].most, 3u);
+  const std::vector<PictureChannel> channels = matte_channels(film, Layer::crypto_material, 3);
   ASSERT_EQ(channels.size(), 8u);
   const std::vector<std::string> names{"00.R", "00.G", "00.B", "00.A", "01.R", "01.G", "01.B", "01.A"};
   const std::vector<float> values{std::bit_cast<float>(100u),
@@ -155,9 +156,9 @@ TEST(Cryptomatte, TheGreatestCoverageComesFirst) {
     EXPECT_EQ(channels[i].values[5], values[i]) << names[i];
     EXPECT_EQ(channels[i].values[6], 0);
   }
-  EXPECT_EQ(share_without_matte(film, Layer::crypto_material), 0);
+  EXPECT_EQ(share_without_matte(survey_of(film), Layer::crypto_material), 0);
   for (std::uint32_t id = 1; id <= 9; ++id) film.put_matte(6, Layer::crypto_material, id, 1);
-  EXPECT_EQ(share_without_matte(film, Layer::crypto_material), 1.0 / 16);
+  EXPECT_EQ(share_without_matte(survey_of(film), Layer::crypto_material), 1.0 / 16);
 }
 
 TEST(Cryptomatte, FilmsKeepThem) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "film/exr_bytes.h"
+#include "film/exr_file.h"
 
 #include <zlib.h>
 
@@ -8,6 +8,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "film/picture_memory.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {
@@ -16,7 +17,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the format is little-endian");
 
-constexpr int block_rows = 16;        // of ZIP
 constexpr std::uint8_t zip = 3;       // the format's number of it
 constexpr int compression_level = 4;  // of zlib; more takes twice the time for a few percent
 
@@ -120,53 +120,58 @@ std::vector<std::uint8_t> rearranged(const std::vector<std::uint8_t>& bytes) {
   return out;
 }
 
-// A block that does not become smaller stays as it is.
-std::vector<std::uint8_t> compressed(std::vector<std::uint8_t> block) {
+// Empty where it would not become smaller.
+std::vector<std::uint8_t> compressed(const std::vector<std::uint8_t>& block) {
   const std::vector<std::uint8_t> source = rearranged(block);
   uLongf size = ::compressBound(static_cast<uLong>(source.size()));
   std::vector<std::uint8_t> out(size);
   if (::compress2(out.data(), &size, source.data(), static_cast<uLong>(source.size()), compression_level) !=
       Z_OK)
     throw MachineError("cannot write a picture: zlib failed");
-  if (size >= block.size()) return block;
-  out.resize(size);
+  out.resize(size < block.size() ? size : 0);
   return out;
-}
-
-// Rows [first, end), each channel by channel.
-std::vector<std::uint8_t> rows_of(const PictureFile& picture, std::span<const std::uint32_t> pixels,
-                                  std::span<const std::size_t> order, int first, int end) {
-  const auto width = static_cast<std::size_t>(picture.width);
-  std::vector<std::uint32_t> values;
-  values.reserve(static_cast<std::size_t>(end - first) * width * order.size());
-  for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(end); ++row)
-    for (const std::size_t c : order)
-      for (std::size_t x = 0; x < width; ++x) values.push_back(pixels[(row * width + x) * order.size() + c]);
-  std::vector<std::uint8_t> bytes(values.size() * sizeof values[0]);
-  std::memcpy(bytes.data(), values.data(), bytes.size());
-  return bytes;
 }
 
 }  // namespace
 
-std::vector<std::byte> exr_bytes(const PictureFile& picture, std::span<const std::uint32_t> pixels) {
-  const std::vector<std::size_t> order = sorted_channels(picture);
-  Writer out;
-  put_header(out, picture, order);
-  const std::size_t table = out.bytes.size();
-  const auto blocks = static_cast<std::size_t>((picture.height + block_rows - 1) / block_rows);
-  std::vector<std::uint64_t> offsets;
-  out.bytes.resize(table + blocks * sizeof offsets[0]);
-  for (int first = 0; first < picture.height; first += block_rows) {
-    const int end = std::min(first + block_rows, picture.height);
-    const std::vector<std::uint8_t> block = compressed(rows_of(picture, pixels, order, first, end));
-    offsets.push_back(out.bytes.size());
-    out.put(std::int32_t{picture.y + first});
-    out.put(static_cast<std::int32_t>(block.size()));
-    out.put_bytes(block.data(), block.size());
-  }
-  std::memcpy(out.bytes.data() + table, offsets.data(), offsets.size() * sizeof offsets[0]);
-  return std::move(out.bytes);
+ExrFile::ExrFile(const std::filesystem::path& file, const PictureFile& picture)
+    : out_(file), order_(sorted_channels(picture)), y_(picture.y), height_(picture.height) {
+  Writer header;
+  put_header(header, picture, order_);
+  table_ = header.bytes.size();
+  const auto blocks = static_cast<std::size_t>((height_ + exr_block_rows - 1) / exr_block_rows);
+  header.bytes.resize(table_ + blocks * sizeof offsets_[0]);
+  out_.write(header.bytes);
+}
+
+void ExrFile::add_row(std::span<const std::uint32_t> pixels) {
+  const std::size_t channels = order_.size(), first = block_.size();
+  block_.reserve(static_cast<std::size_t>(std::min(exr_block_rows, height_)) * pixels.size_bytes());
+  block_.resize(first + pixels.size_bytes());
+  std::uint8_t* to = block_.data() + first;
+  for (const std::size_t c : order_)
+    for (std::size_t at = c; at < pixels.size(); at += channels, to += sizeof pixels[at])
+      std::memcpy(to, &pixels[at], sizeof pixels[at]);
+  ++rows_;
+  if (rows_ % exr_block_rows == 0 || rows_ == height_) write_block();
+}
+
+void ExrFile::write_block() {
+  const int first = (rows_ - 1) / exr_block_rows * exr_block_rows;
+  const std::vector<std::uint8_t> smaller = compressed(block_);
+  const std::vector<std::uint8_t>& bytes = smaller.empty() ? block_ : smaller;
+  offsets_.push_back(out_.size());
+  Writer begin;
+  begin.put(std::int32_t{y_ + first});
+  begin.put(static_cast<std::int32_t>(bytes.size()));
+  out_.write(begin.bytes);
+  out_.write(std::as_bytes(std::span(bytes)));
+  block_.clear();
+}
+
+void ExrFile::commit() {
+  out_.write_at(table_, std::as_bytes(std::span(offsets_)));
+  out_.commit();
 }
 
 }  // namespace vitrail

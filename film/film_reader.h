@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// A film file, read from its beginning to its arrays of sums. For film_file.cpp and film_rows.cpp alone.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "film/array_checksum.h"
+#include "film/film_layout.h"
+#include "film/film_progress.h"
+
+namespace vitrail {
+
+// Throws Error, with the file, for what is not there or is not as its checksum says.
+class FilmReader {
+ public:
+  explicit FilmReader(const std::filesystem::path& file);
+
+  [[noreturn]] void fail(const std::string& what) const;
+  std::uint64_t size() const { return size_; }
+  const std::filesystem::path& path() const { return path_; }
+
+  void read(void* to, std::uint64_t bytes);
+  template <class Array>
+  void read_array(Array& array, std::uint64_t count, const char* what, FilmScratch* scratch = nullptr) {
+    array.resize(count);
+    const std::uint64_t sum =
+        checksum_of(std::span(array), scratch, [&](auto part) { read(part.data(), part.size_bytes()); });
+    require_checksum(sum, what);
+  }
+  // Passes over an array, of which `visit` sees part by part. Returns its checksum.
+  template <class T, class Visit>
+  std::uint64_t pass_array(std::uint64_t count, const char* what, Visit&& visit) {
+    std::vector<T> part(std::min<std::uint64_t>(count, scratch_part_bytes / sizeof(T)));
+    XXH3_state_t state;
+    XXH3_64bits_reset(&state);
+    for (std::uint64_t left = count; left > 0;) {
+      const std::span<T> here(part.data(), std::min<std::uint64_t>(left, part.size()));
+      read(here.data(), here.size_bytes());
+      visit(here);
+      XXH3_64bits_update(&state, here.data(), here.size_bytes());
+      left -= here.size();
+    }
+    const std::uint64_t sum = XXH3_64bits_digest(&state);
+    require_checksum(sum, what);
+    return sum;
+  }
+
+  std::uint64_t place() { return static_cast<std::uint64_t>(in_.tellg()); }
+  void go_to(std::uint64_t place) { in_.seekg(static_cast<std::streamoff>(place)); }
+
+ private:
+  void require_checksum(std::uint64_t sum, const char* what);
+
+  std::filesystem::path path_;
+  std::ifstream in_;
+  std::uint64_t size_ = 0;
+};
+
+// What stands before the sums.
+struct FilmHead {
+  FilmSettings settings;
+  FilmKey key;
+  int exponent, length_exponent;
+  Refused refused;
+  film_layout::Arrays arrays;
+  FilmProgress progress;  // without `more`, which comes last
+};
+FilmHead read_head(FilmReader& in);
+
+}  // namespace vitrail

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a picture says of its film as a whole, found in one pass over its rows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "film/film.h"
+
+namespace vitrail {
+
+struct FilmSurvey {
+  struct Mattes {
+    std::size_t most = 1;          // things of one pixel, as matte_channels counts them
+    double covered = 0, kept = 0;  // by all things, and by those that have a place
+  };
+  std::uint64_t samples = 0;                                          // of all pixels
+  std::uint64_t most_samples = 0, least_samples = ~std::uint64_t{0};  // of a pixel
+  std::array<Mattes, layer_count> mattes;                             // by layer
+  WideSum light;           // of a film with a clamp, the Y that is left
+  std::uint64_t hash = 0;  // Film::hash
+};
+
+// From the top down. The hash is the caller's.
+void add_rows(FilmSurvey& survey, const Film& rows);
+
+// Of all of a film.
+FilmSurvey survey_of(const Film& film);
+
+// Film::clamped_share; `rows`: any of them.
+double clamped_share(const FilmSurvey& survey, const Film& rows);
+
+// The part of all that things cover that has no mask, as pixels show more than most_mattes things.
+double share_without_matte(const FilmSurvey& survey, Layer layer);
+
+}  // namespace vitrail
