@@ -36,7 +36,10 @@ CORPUS = pathlib.Path(os.environ.get("VITRAIL_CORPUS", HERE.parents[2] / "shared
 # What one may choose instead of path tracing with the usual samples, where it is for that.
 WAYS = {name: {"photons": ["--integrator", "photon", "--photons"]} for name in ("box, diffuse", "box, spheres", "glass")}
 WAYS |= {name: {"adaptive": ["--adaptive"]} for name in ("arealight", "envmap", "four lamps", "killeroo-simple")}
-WAYS["hotel room"] = {"splat": ["--splat"]}
+for scene in SCENES:
+    WAYS.setdefault(scene, {})["one sequence"] = ["--one-sequence"]
+for scene in ("Cornell of Tungsten", "hotel room", "city, 10⁶ triangles"):  # whose filters are wider than a pixel
+    WAYS[scene] |= {"splat": ["--splat"], "splat, one sequence": ["--splat", "--one-sequence"]}
 
 
 def noise(a, b):

@@ -47,11 +47,12 @@ Some scenes gain from another way than path tracing with the usual samples. The 
 tracing:
 
 - `--integrator photon --photons N`, a photon a pixel and iteration, for light that glass and white walls gather;
-- `--splat`, where the scene's filter is wider than a pixel;
+- `--one-sequence`, where the film need not know its error, as those of the peers do not;
+- `--splat`, where the scene's filter is wider than a pixel, which is how Mitsuba filters;
 - `--adaptive`, where a part of the picture has most of the noise.
 
 Photons have a bias, so their *error* counts in place of noise: the error to 4096 paths a pixel of Mitsuba, less the
-noise of those. The last row has the better of the two for each scene.
+noise of those. The last row has the best way for each scene.
 
 {ways}
 
@@ -59,7 +60,7 @@ Notes on the rows:
 
 - *hotel room*, *city*: Mitsuba's path tracer cannot connect through panes to the sun. Its picture lacks the sunlight
   in the rooms (the means show it), and with it most of our noise. The two do not solve the same problem there.
-- The pixel filters of these two, of *killeroo-simple* and of *Cornell of Tungsten* are wider than a pixel. Mitsuba
+- The pixel filters of these two and of *Cornell of Tungsten* are wider than a pixel. Mitsuba
   adds each sample to several pixels, as Vitrail does with `--splat`. Otherwise Vitrail chooses the sample's place by
   the filter. `--splat` makes neighbouring pixels alike, and this measure counts that as less noise.
 - *killeroo-simple*: Mitsuba gets the spherical lamps of PBRT from `vitrail convert`.
