@@ -99,9 +99,8 @@ class LightTree {
   Point3d center() const { return center_; }
   double scale() const { return scale_; }
   std::optional<Chosen> choose_by_power(Slots slots, double u) const;
-  std::span<const double> sums() const {
-    return sums_;
-  }  // of each slot: the power of those before, of 1; and of all
+  // Of each slot: the power of those before, of 1; and of all.
+  std::span<const double> sums() const { return sums_; }
   // The last of the slots that has no more than `target` before it; u in [0,1): where to look first.
   std::uint32_t slot_by_power(Slots slots, double u, double target) const;
 
