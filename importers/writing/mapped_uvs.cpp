@@ -47,16 +47,20 @@ struct Layouts : FieldSearch<Layouts> {
   bool of_material(Id<Material> id) {
     const Material& material = scene.materials.at(id.value);
     const MaterialTraits traits = traits_of(material.model);
-    if (material.normal_map || traits.along_surface || traits.fibre) return false;
+    if (material.normal_map) in(*material.normal_map);
     if (material.displacement) in(*material.displacement);
     in(static_cast<const MaterialVariant&>(material.model));
-    return std::ranges::all_of(parts_of(material.model),
-                               [&](Id<Material> part) { return of_material(part); });
+    bool free = !material.normal_map && !traits.along_surface && !traits.fibre;
+    for (const Id<Material> part : parts_of(material.model)) free = of_material(part) && free;
+    return free;
   }
   bool of_shape(const Shape& shape) {
     in(shape.opacity);
-    if (shape.area_light) in(scene.area_lights.at(shape.area_light->value).radiance);
-    return of_material(shape.material);
+    const bool free = of_material(shape.material);
+    if (!shape.area_light) return free;
+    const SpectrumParameter& radiance = scene.area_lights.at(shape.area_light->value).radiance;
+    in(radiance);
+    return free && !std::holds_alternative<Id<Texture>>(radiance);  // writers lay out images of lamps
   }
 };
 

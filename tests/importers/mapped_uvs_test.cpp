@@ -132,6 +132,14 @@ TEST(MappedUvs, TexturesOfTwoMappingsStay) {
   EXPECT_TRUE(with_mapped_uvs(scene, is_unturned));
   scene.shapes[1].material = {1};  // shares the turned texture with the first
   EXPECT_FALSE(with_mapped_uvs(scene, is_unturned));
+  scene.materials[1] = scene.materials[0];
+  scene.materials[1].normal_map = Id<Texture>{0};
+  EXPECT_FALSE(with_mapped_uvs(scene, is_unturned)) << "a mesh that has to stay";
+  scene.materials[1].normal_map.reset();
+  EXPECT_TRUE(with_mapped_uvs(scene, is_unturned));
+  scene.area_lights = {AreaLight{Id<Texture>{0}}};
+  scene.shapes[1].area_light = Id<AreaLight>{0};
+  EXPECT_FALSE(with_mapped_uvs(scene, is_unturned)) << "an image of a lamp";
   EXPECT_FALSE(with_mapped_uvs(scene, nothing));
 }
 
