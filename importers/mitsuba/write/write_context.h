@@ -87,6 +87,7 @@ struct Context : ConversionNotes {
   std::unordered_map<std::size_t, std::string>
       interiors;                    // media inside of subsurface materials, by material
   bool colored_extinction = false;  // of a medium that was written
+  std::size_t unseen_lamps = 0;     // of the written scene (is_unseen_lamp), with those of instances
   std::size_t curve_files = 0, derived_meshes = 0, derived_images = 0, derived_volumes = 0;
   ConvertedImages images{[this] { return file.parent_path() / new_file("images", "exr", derived_images); }};
 

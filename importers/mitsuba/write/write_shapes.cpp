@@ -255,6 +255,7 @@ std::vector<bool> turned_both_ways(const Scene& scene) {
 void write_shapes(Context& context, Element root) {
   const Scene& scene = context.scene;
   context.turned_both_ways = turned_both_ways(scene);
+  context.unseen_lamps = count_unseen_lamps(scene);
   for (const Shape& shape : scene.shapes) write_mask(context, root, shape);
   for (const Prototype& prototype : scene.prototypes)
     for (const Shape& shape : prototype.shapes) write_mask(context, root, shape);

@@ -256,6 +256,9 @@ TEST_F(LampsImages, OfColoursAboveOneAreGridsOfOneLayer) {
   EXPECT_NEAR(transform_point(inverse(plane.texture_to_world), {1, 3, 3}).x, .5, 1e-6);
   EXPECT_NEAR(transform_point(inverse(plane.texture_to_world), {1, 3, 3}).y, .75, 1e-6);
   EXPECT_EQ(read_stored_image(picture.filename).image.values.at(0), 2);
+  write_mitsuba(again, folder_ / "again.xml");
+  std::ifstream file(folder_ / "again.xml");
+  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(file), {}), testing::HasSubstr("gridvolume"));
 }
 
 TEST_F(LampsImages, OfGreysOrBelowOneAreImagesTimesTheScale) {

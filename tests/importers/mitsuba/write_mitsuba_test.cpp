@@ -614,5 +614,28 @@ TEST_F(WriteMitsuba, LampsThatNothingMeetsAreSpots) {
   }
 }
 
+// Of a ball as bright from each side: its triangles lie ring by ring.
+TEST_F(WriteMitsuba, SpotsOfABallLieAllAround) {
+  Scene scene = square_scene({});
+  scene.meshes[0] = {};
+  scene.meshes[0].quadric = Quadric{QuadricKind::sphere};
+  scene.area_lights.push_back({ConstantSpectrum{2}});
+  scene.shapes[0].area_light = Id<AreaLight>{0};
+  scene.shapes[0].opacity = 0.0f;
+  std::array<double, 3> sum{}, squares{};
+  double count = 0;
+  for (const pugi::xml_node spot : write(scene).children("emitter")) {
+    std::array<double, 3> p{};
+    std::sscanf(spot.child("transform").child("lookat").attribute("origin").value(), "%lf,%lf,%lf", &p[0],
+                &p[1], &p[2]);
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += p[k], squares[k] += p[k] * p[k];
+    ++count;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(sum[k] / count, 0, 0.02) << k;
+    EXPECT_NEAR(squares[k] / count, 1.0 / 3, 0.02) << k;
+  }
+}
+
 }  // namespace
 }  // namespace vitrail
