@@ -19,18 +19,22 @@ namespace vitrail {
 // compile.
 template <class Derived>
 struct FieldSearch {
+  // In what it holds, where it holds something.
   template <class T>
   void in(const std::optional<T>& field) {
     if (field) self().in(*field);
   }
+  // In the alternative that it holds.
   template <class... T>
   void in(const std::variant<T...>& field) {
     std::visit([this](const auto& alternative) { self().in(alternative); }, field);
   }
+  // In each of them.
   template <class T>
   void in(const std::vector<T>& list) {
     for (const T& item : list) self().in(item);
   }
+  // In its fields.
   template <HasFields Record>
   void in(const Record& record) {
     visit_fields(record, [this](const auto&... fields) { (self().in(fields), ...); });

@@ -95,8 +95,8 @@ VITRAIL_LANES Aimed<D> aim(Vector<D> p, Vector<FloatsLike<D>> origin, const Conn
   const D low = 0.5 * there, high = 2.0 * there;
   const D clamped = select<D>(plane < low, low, select<D>(high < plane, high, plane));
   const Mask<D> meets = height * cosine > 0;
-  aimed.end =
-      select<D>(endless, fill<D>(std::numeric_limits<double>::infinity()), select<D>(meets, clamped, there * before_point));
+  aimed.end = select<D>(endless, fill<D>(std::numeric_limits<double>::infinity()),
+                        select<D>(meets, clamped, there * before_point));
   aimed.cosine = select<D>(no(endless) & meets, cosine, fill<D>(1));
   return aimed;
 }
