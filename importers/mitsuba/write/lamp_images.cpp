@@ -160,6 +160,10 @@ bool add_exactly(Context& context, Element emitter, const AreaLight& light, cons
       return false;
     }
     add_grid(context, add(emitter, "texture", "d65", "radiance"), image, tinted->image, *to_world);
+    context.approximated(
+        "a lamp's image above 1 is a grid: in Mitsuba's spectral variants its colours are other spectra of "
+        "the same "
+        "colour");
     return true;
   }
   const std::string name = context.new_file("images", "exr", context.derived_images);

@@ -172,11 +172,14 @@ TEST_F(MitsubaLight, TexturedEmissionIsUnderD65) {
       add_to(scene.area_lights, AreaLight{add_to(scene.textures, Texture{texture, false, "", {}}), 3});
   const Json found = ask(
       scene, Json::array({ray("hit", {-0.9, 0.9, 3}, {0, 0, -1}), ray("hit", {0.9, -0.9, 3}, {0, 0, -1})}));
-  const Spectrum red = reflectance_from_rgb({0.8, 0.1, 0.1}), white = emission_from_rgb({3, 3, 3});
-  std::vector<double> red_light = values(red);
+  // Of a colour above 1, 2.4 .3 .3, a grid has the spectrum of half of it ÷ its greatest number.
+  const Spectrum red = reflectance_from_rgb({0.8, 0.1, 0.1}),
+                 dim = reflectance_from_rgb({0.5, 0.0625, 0.0625}),
+                 white = emission_from_rgb({4.8, 4.8, 4.8});
+  std::vector<double> red_light = values(dim);
   for (std::size_t i = 0; i < red_light.size(); ++i) red_light[i] *= values(white)[i];
   expect_near(found[0]["emission"], red_light, 1e-2);
-  expect_near(found[1]["emission"], values(white, 0.5), 5e-3);
+  expect_near(found[1]["emission"], values(emission_from_rgb({3, 3, 3}), 0.5), 5e-3);
   // Times the inverse of D65 it is what Mitsuba shows of an image by itself: flat where it is grey.
   const Id<Texture> bright = std::get<Id<Texture>>(scene.area_lights[0].radiance);
   scene.area_lights[0] = {
