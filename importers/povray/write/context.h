@@ -40,6 +40,9 @@ struct Context : ConversionNotes {
   std::map<std::uint32_t, std::string> interiors = {};  // of materials that others are made of
   std::map<std::uint32_t, std::string> media = {};      // as they were written
   bool has_scattering = false;                          // of a medium
+  bool has_facets = false;                              // of rough materials
+  std::string functions = {};                           // of images, which their pigments call
+  int image_functions = 0;
 };
 
 inline std::string vector(Vector3d v) { return fmt::format("<{},{},{}>", v.x, v.y, v.z); }

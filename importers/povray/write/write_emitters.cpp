@@ -16,6 +16,18 @@ bool is_black(const Scene& scene, Id<Material> material) {
 
 }  // namespace
 
+std::string weighted(Context& context, const FloatParameter& amount, const std::string& at_0,
+                     const std::string& at_1, const Origin& user) {
+  if (const auto* id = std::get_if<Id<Texture>>(&amount))
+    if (const auto pattern = pattern_of(context, *id, user))
+      return fmt::format("texture {{ {} texture_map {{ [0 {}] [1 {}] }}{} }}\n", pattern->text, at_0, at_1,
+                         pattern->transform);
+  const double weight = std::clamp(constant_of(context, amount, "amount of a blend", user), 0.0, 1.0);
+  if (weight == 0 || weight == 1) return fmt::format("texture {{ {} }}\n", weight == 0 ? at_0 : at_1);
+  return fmt::format("texture {{ average texture_map {{ [{} {}] [{} {}] }} }}\n", 1 - weight, at_0, weight,
+                     at_1);
+}
+
 std::string use_of(Context& context, const Shape& shape, const Surface& surface, bool inside_out,
                    const std::string& media) {
   const auto there = [&](const char* name) {

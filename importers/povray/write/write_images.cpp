@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "importers/povray/write/write_pigments.h"
+#include "importers/writing/export_colors.h"
 #include "importers/writing/jpeg_components.h"
 #include "importers/writing/mesh_files.h"
 
@@ -66,7 +68,51 @@ bool is_seen_as_meant(const ImageTexture& texture, ImageUse use) {
   return have_same_values(texture, taken, use) && (use != ImageUse::number || is_grey(texture));
 }
 
+double mean_of(const Context& context, const FloatParameter& parameter);
+
+double mean_of(const Context& context, const SpectrumParameter& parameter) {
+  const auto* spectrum = std::get_if<Spectrum>(&parameter);
+  return spectrum ? mean(factor_rgb(*spectrum))
+                  : mean_of(context, FloatParameter{std::get<Id<Texture>>(parameter)});
+}
+
+// The mean number of a texture over all of it: 0.5 of those whose mean is not known.
+double mean_of(const Context& context, const FloatParameter& parameter) {
+  if (const auto* value = std::get_if<float>(&parameter)) return *value;
+  const TextureModel& model = context.scene.textures.at(std::get<Id<Texture>>(parameter).value).model;
+  if (const auto* t = std::get_if<ImageTexture>(&model)) {
+    const Image numbers = texture_values(*t, read_stored_image(t->filename), ImageUse::number);
+    double sum = 0;
+    for (const float number : numbers.values) sum += static_cast<double>(number);
+    return sum / static_cast<double>(std::max<std::size_t>(numbers.values.size(), 1));
+  }
+  if (const auto* t = std::get_if<CheckerboardTexture>(&model))
+    return (mean_of(context, t->even) + mean_of(context, t->odd)) / 2;
+  if (const auto* t = std::get_if<ProductTexture>(&model))
+    return mean_of(context, t->first) * mean_of(context, t->second);
+  if (const auto* t = std::get_if<MixTexture>(&model))
+    return std::lerp(mean_of(context, t->first), mean_of(context, t->second), mean_of(context, t->amount));
+  if (const auto* t = std::get_if<NoiseTexture>(&model)) return mean(mean_of_noise(*t));
+  if (const auto* t = std::get_if<MeshAttributeTexture>(&model))
+    if (const auto found = mean_of_attribute(context.scene, *t)) return mean(*found);
+  return 0.5;
+}
+
 }  // namespace
+
+double constant_of(Context& context, const FloatParameter& parameter, const char* what, const Origin& user) {
+  if (const auto* value = std::get_if<float>(&parameter)) return *value;
+  const Texture& texture = context.scene.textures.at(std::get<Id<Texture>>(parameter).value);
+  const Origin& place = texture.origin.line ? texture.origin : user;
+  try {
+    const double value = mean_of(context, parameter);
+    context.approximated(fmt::format("texture of the {}: its mean, {:.3g}", what, value), place);
+    return value;
+  } catch (const Error& error) {
+    context.approximated(fmt::format("texture of the {}: 0.5: {}", what, error.what()), place);
+    return 0.5;
+  }
+}
 
 std::optional<std::string> image_of(Context& context, const ImageTexture& texture, ImageUse use,
                                     const Origin& origin) {

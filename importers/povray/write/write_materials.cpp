@@ -6,6 +6,7 @@
 #include "importers/povray/write/write_patterns.h"
 #include "importers/povray/write/write_pigments.h"
 #include "importers/writing/export_colors.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail::povray {
 
@@ -76,25 +77,43 @@ class Builder {
                        image->scale);
   }
 
-  double alpha_of(const Roughness& roughness) {
-    const double u = constant(roughness.alpha_u, "roughness"), v = constant(roughness.alpha_v, "roughness");
-    if (u != v) approximated("anisotropic roughness: the mean of the two");
-    return (u + v) / 2;
+  // α, and whether its slopes are Beckmann's.
+  struct Facets {
+    double alpha = 0;
+    bool beckmann = false;
+    bool are_seen() const { return alpha >= smooth_alpha; }
+    double albedo() const { return are_seen() ? facet_albedo(alpha, beckmann) : 1; }
+  };
+
+  Facets facets_of(const Roughness& roughness) {
+    const auto alpha = [&](const FloatParameter& parameter) {
+      const double value = constant(parameter, "roughness");
+      const bool is_root = roughness.square_root && std::holds_alternative<Id<Texture>>(parameter);
+      return is_root ? std::sqrt(std::max(0.0, value)) : value;
+    };
+    const double u = alpha(roughness.alpha_u);
+    const double v = roughness.alpha_v == roughness.alpha_u ? u : alpha(roughness.alpha_v);
+    if (u != v)
+      approximated(fmt::format("anisotropic roughness of {:.3g} and {:.3g}: the mean of the two", u, v));
+    return {(u + v) / 2, roughness.distribution == Roughness::Distribution::beckmann};
   }
 
   // Glossy reflection by normals that vary below the size of a pixel.
-  std::string rough_normal(double alpha) {
-    if (alpha < smooth_alpha || !normal_.empty()) return normal_;
+  std::string rough_normal(const Facets& facets) {
+    if (!facets.are_seen() || !normal_.empty()) return normal_;
+    context_.has_facets = true;
     approximated(fmt::format(
-        "roughness (α = {:.3g}): normals are tilted at random, and highlights are Blinn and Phong's", alpha));
-    return fmt::format(" normal {{ bumps {} scale {} }}", alpha,
-                       1e-4 * context_.units.radius * context_.units.scale);
+        "roughness (α = {:.3g}): normals tilted at random, of the same slopes; the {:.2g} % of mirrored "
+        "light that facets hide is lost at all angles alike; points show Blinn and Phong's highlights",
+        facets.alpha, 100 * (1 - facets.albedo())));
+    return fmt::format(" normal {{ {} }}", facet_text(facets.alpha, facets.beckmann,
+                                                      1e-4 * context_.units.radius * context_.units.scale));
   }
 
   // What lights without extent show: the exponent n = 2/α² − 2 has the width of the microfacets.
-  std::string highlight(double alpha, double strength, bool metallic) {
-    if (alpha < smooth_alpha || !context_.has_delta_lights || strength <= 0) return "";
-    const double limited = std::min(alpha, 0.9), squared = limited * limited;
+  std::string highlight(const Facets& facets, double strength, bool metallic) {
+    if (!facets.are_seen() || !context_.has_delta_lights || strength <= 0) return "";
+    const double limited = std::min(facets.alpha, 0.9), squared = limited * limited;
     return fmt::format(" specular albedo {} roughness {}{}", strength, squared / (2 - 2 * squared),
                        metallic ? " metallic" : "");
   }
@@ -115,22 +134,47 @@ class Builder {
     return text;
   }
 
-  // A diffuse base under a smooth or rough interface that reflects `reflectance` · Fresnel.
-  Surface coated(const Pigment& base, double share, double eta, double alpha, RGB reflectance) {
-    const double grey = (eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1));
-    const std::string finish =
-        fmt::format("diffuse 0 reflection {{ rgb 0, {} fresnel on }}{}", color(reflectance),
-                    highlight(alpha, grey * mean(reflectance), false));
-    return {diffuse(base, share) + layer("rgbt 1", finish, rough_normal(alpha)), "",
-            fmt::format("interior {{ ior {} }}\n", eta)};
+  // A layer of highlights alone, whose normals are not tilted again.
+  std::string shining(const std::string& highlight) const {
+    return highlight.empty() ? "" : layer("rgbt 1", "diffuse 0" + highlight);
   }
 
-  // The reflectance of a diffuse base, white below, that light reaches and leaves through an interface.
-  double diffuse_share(const Pigment& base, double eta, bool nonlinear) {
+  // A diffuse base under a smooth or rough interface that reflects `reflectance` · Fresnel. Light that leaves
+  // the base loses what its angle reflects (conserve_energy); `share` is less for all that enters.
+  Surface coated(const Pigment& base, double share, double eta, const Facets& facets, RGB reflectance) {
+    const double grey = (eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1));
+    const std::string mirror = fmt::format("diffuse 0 reflection {{ rgb 0, {} fresnel on }} conserve_energy",
+                                           color(reflectance * facets.albedo()));
+    const std::string shine = highlight(facets, grey * mean(reflectance), false);
+    const double leaves = 1 - diffuse_fresnel_outside(eta);
+    return {diffuse(base, share / leaves) + shining(shine) + layer("rgbt 1", mirror, rough_normal(facets)),
+            "", fmt::format("interior {{ ior {} }}\n", eta)};
+  }
+
+  // What one way through pbrt's coating leaves: of light that enters, and of light from a diffuse base.
+  struct Passes {
+    double entering = 1, diffuse = 1;
+  };
+  Passes passes_of(const CoatingVolume& volume) {
+    const double depth = constant(volume.thickness, "thickness of a coating") *
+                         (1 - mean(constant_color(volume.albedo, "albedo of a coating")));
+    return {std::exp(-depth / 0.87), std::exp(-2 * depth)};
+  }
+
+  // The diffuse base, white below, that light reaches and leaves through an interface.
+  Surface coated(const SpectrumParameter& reflectance, bool nonlinear, double eta, const Facets& facets,
+                 RGB gloss, const Passes& passes) {
+    Pigment base = pigment(reflectance);
     const double in = 1 - diffuse_fresnel_outside(eta), back = diffuse_fresnel_inside(eta);
-    if (!nonlinear) return in;
-    const double rho = base.is_constant ? std::min(1.0, mean(base.constant) * base.factor) : 0.5;
-    return in * (1 - back) / (1 - rho * back);
+    const double way = std::cbrt(facets.albedo()) * passes.entering;
+    const double again = back * facets.albedo() * passes.diffuse * passes.diffuse;
+    const auto share = [&](double rho) { return way * way * (1 - back) / (1 - std::min(rho, 1.0) * again); };
+    if (!nonlinear) return coated(base, in, eta, facets, gloss);
+    if (!base.is_constant) return coated(base, in * share(0.5), eta, facets, gloss);
+    RGB& c = base.constant = base.constant * base.factor;
+    c = {c.r * share(c.r), c.g * share(c.g), c.b * share(c.b)};
+    base.text = color(c), base.factor = 1;
+    return coated(base, in, eta, facets, gloss);
   }
 
   // ---- Models -----------------------------------------------------------------------------------
@@ -141,7 +185,8 @@ class Builder {
   }
 
   Surface surface_of(const DielectricMaterial& m) {
-    const double alpha = alpha_of(m.roughness), eta = index(m.eta, m.exterior_eta);
+    const Facets facets = facets_of(m.roughness);
+    const double eta = index(m.eta, m.exterior_eta);
     const RGB reflected = constant_color(m.reflectance_factor, "factor of reflection");
     const Pigment through = pigment(m.transmittance_factor);
     approximated("dielectric: light of sources passes straight through it, without caustics");
@@ -153,51 +198,51 @@ class Builder {
                          disperses ? fmt::format(" dispersion {} dispersion_samples 7", n_ratio) : "");
     };
     const std::string finish =
-        fmt::format("diffuse 0 reflection {{ rgb 0, {} fresnel on }} conserve_energy{}", color(reflected),
-                    highlight(alpha, 0.04, false));
-    std::string filter = through.is_constant ? color(through.constant * through.factor) + " filter 1" : "";
+        fmt::format("diffuse 0 reflection {{ rgb 0, {} fresnel on }} conserve_energy", color(reflected));
+    const double passes = std::cbrt(facets.albedo());  // measured at α = .1 and .45
+    std::string filter =
+        through.is_constant ? color(through.constant * (through.factor * passes)) + " filter 1" : "";
     if (filter.empty()) {
       approximated("texture of the transmitted light: clear");
       filter = "rgb 1 filter 1";
     }
-    return {layer(filter, finish, rough_normal(alpha)), "", interior(eta, ratio),
-            interior(1 / eta, 1 / ratio)};
+    return {layer(filter, finish, rough_normal(facets)) + shining(highlight(facets, 0.04, false)), "",
+            interior(eta, ratio), interior(1 / eta, 1 / ratio)};
   }
 
   Surface surface_of(const ThinDielectricMaterial& m) {
     const double eta = index(m.eta, m.exterior_eta);
     const double once = (eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1));
-    const double sheet = 2 * once / (1 + once);  // of the light that goes to and fro in it
+    const double sheet = 2 * once / (1 + once);  // to and fro
     approximated("thin dielectric: reflects by Schlick's approximation");
     const RGB reflected = constant_color(m.reflectance_factor, "factor of reflection");
-    const RGB through = constant_color(m.transmittance_factor, "factor of transmission");
-    return {layer(color(through) + " filter 1",
+    return {layer(color(constant_color(m.transmittance_factor, "factor of transmission")) + " filter 1",
                   fmt::format("diffuse 0 reflection {{ {}, {} falloff 5 }} conserve_energy",
                               color(reflected * sheet), color(reflected))),
             "", ""};
   }
 
   Surface conductor(const Metal& metal, const Roughness& roughness, const SpectrumParameter& factor) {
-    const double alpha = alpha_of(roughness);
-    const RGB tint = constant_color(factor, "factor of reflection");
+    const Facets facets = facets_of(roughness);
+    const RGB tint = constant_color(factor, "factor of reflection") * facets.albedo();
     const auto* normal = std::get_if<NormalReflectance>(&metal);
     if (normal && std::holds_alternative<Id<Texture>>(normal->reflectance)) {
       const Pigment p = pigment(normal->reflectance);
       approximated("textured reflectance of a metal: POV-Ray's metallic reflection");
       return {layer(p.text,
                     fmt::format("diffuse 0 reflection {{ {} metallic }}{}", color(tint * p.factor),
-                                highlight(alpha, 1, true)),
-                    rough_normal(alpha)),
+                                highlight(facets, 1, true)),
+                    rough_normal(facets)),
               "", ""};
     }
     const RGB facing = normal_reflectance_rgb(metal) * tint;
-    const bool is_perfect = std::holds_alternative<PerfectReflector>(metal);
-    if (!is_perfect) approximated("conductor: Schlick's approximation from its colour at normal incidence");
-    return {layer(color(facing),
-                  fmt::format("diffuse 0 reflection {{ {}, {} falloff 5 }}{}", color(facing), color(tint),
-                              highlight(alpha, 1, true)),
-                  rough_normal(alpha)),
-            "", ""};
+    if (!std::holds_alternative<PerfectReflector>(metal))
+      approximated("conductor: Schlick's approximation from its colour at normal incidence");
+    const std::string mirror =
+        fmt::format("diffuse 0 reflection {{ {}, {} falloff 5 }}", color(facing), color(tint));
+    const std::string shine = highlight(facets, 1, true), tilted = rough_normal(facets);
+    if (shine.empty()) return {layer(color(facing), mirror, tilted), "", ""};
+    return {layer(color(facing), "diffuse 0" + shine) + layer("rgbt 1", mirror, tilted), "", ""};
   }
 
   Surface surface_of(const ConductorMaterial& m) {
@@ -206,22 +251,42 @@ class Builder {
 
   Surface surface_of(const PlasticMaterial& m) {
     const double eta = m.exterior_eta > 0 ? m.eta / m.exterior_eta : m.eta;
-    const Pigment base = pigment(m.diffuse_reflectance);
     approximated("plastic: a diffuse base of the same mean albedo under Fresnel reflection");
-    return coated(base, diffuse_share(base, eta, m.nonlinear), eta, alpha_of(m.roughness),
-                  constant_color(m.specular_reflectance, "specular reflectance"));
+    return coated(m.diffuse_reflectance, m.nonlinear, eta, facets_of(m.roughness),
+                  constant_color(m.specular_reflectance, "specular reflectance"), {});
   }
 
   Surface surface_of(const CoatedDiffuseMaterial& m) {
     const double eta = index_of_refraction(m.eta);
-    const Pigment base = pigment(m.reflectance);
     approximated("coated diffuse: a diffuse base of the same mean albedo under Fresnel reflection");
-    return coated(base, diffuse_share(base, eta, true), eta, alpha_of(m.roughness), {1, 1, 1});
+    return coated(m.reflectance, true, eta, facets_of(m.roughness), {1, 1, 1}, passes_of(m.volume));
   }
 
   Surface surface_of(const CoatedConductorMaterial& m) {
-    approximated("coated conductor: without its coating");
-    return conductor(m.metal, m.conductor_roughness, ConstantSpectrum{1});
+    const double eta = index_of_refraction(m.interface_eta);
+    Metal metal = m.metal;
+    if (auto* index = std::get_if<ComplexIndex>(&metal))
+      for (SpectrumParameter* part : {&index->eta, &index->k})
+        if (const auto* spectrum = std::get_if<Spectrum>(part)) *part = scaled(resolved(*spectrum), 1 / eta);
+    approximated("coated conductor: a metal of the colour that both have at normal incidence");
+    // Of the light that the metal reflects from one facet, so much does not leave: what meets the interface
+    // beyond the critical angle, and Fresnel's share of the rest.
+    const Facets facets = facets_of(m.conductor_roughness);
+    const double normal = (eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1)), albedo = facets.albedo();
+    const double slope = std::tan(std::asin(std::min(1.0, 1 / eta)) / 2),
+                 squared = facets.alpha * facets.alpha;
+    const double beyond = squared / (squared + slope * slope), back = beyond + (1 - beyond) * normal;
+    const double interface = facets_of(m.interface_roughness).albedo();
+    const Passes passes = passes_of(m.volume);
+    const double way = std::cbrt(interface) * passes.entering,
+                 again = interface * passes.entering * passes.entering;
+    const auto whole = [&](double r) {
+      return normal + (1 - normal) * way * way * albedo * r * (1 - back) / (1 - back * again * albedo * r);
+    };
+    const RGB bare = normal_reflectance_rgb(metal);
+    const RGB both{whole(bare.r) / albedo, whole(bare.g) / albedo, whole(bare.b) / albedo};
+    return conductor(NormalReflectance{reflectance_from_rgb(both)}, m.conductor_roughness,
+                     ConstantSpectrum{1});
   }
 
   // POV-Ray's second diffuse amount is for light from behind.
@@ -235,12 +300,13 @@ class Builder {
   }
 
   Surface surface_of(const PrincipledMaterial& m) {
-    const double rough = constant(m.roughness, "roughness"), alpha = std::max(0.001, rough * rough);
+    const double rough = constant(m.roughness, "roughness");
+    const Facets facets{std::max(0.001, rough * rough)};
     const double metallic = constant(m.metallic, "metallic"), glass = constant(m.spec_trans, "spec_trans");
     const char* const kind = metallic >= 0.5 ? "conductor" : glass >= 0.5 ? "dielectric" : "plastic";
     approximated(fmt::format("principled material: a {}; sheen, tints and clearcoat are left out", kind));
     Roughness roughness;
-    roughness.alpha_u = roughness.alpha_v = static_cast<float>(alpha);
+    roughness.alpha_u = roughness.alpha_v = static_cast<float>(facets.alpha);
     if (metallic >= 0.5) return conductor(NormalReflectance{m.base_color}, roughness, ConstantSpectrum{1});
     if (glass >= 0.5) {
       DielectricMaterial dielectric;
@@ -250,7 +316,8 @@ class Builder {
       return surface_of(dielectric);
     }
     const Pigment base = pigment(m.base_color);
-    return coated(base, 1, m.eta, alpha, {1, 1, 1});  // its gloss is added to its colour
+    return coated(base, 1 - diffuse_fresnel_outside(m.eta), m.eta, facets,
+                  {1, 1, 1});  // its gloss is added to its colour
   }
 
   Surface opaque_instead(const char* what, double grey) {
@@ -327,18 +394,6 @@ class Builder {
 };
 
 }  // namespace
-
-std::string weighted(Context& context, const FloatParameter& amount, const std::string& at_0,
-                     const std::string& at_1, const Origin& user) {
-  if (const auto* id = std::get_if<Id<Texture>>(&amount))
-    if (const auto pattern = pattern_of(context, *id, user))
-      return fmt::format("texture {{ {} texture_map {{ [0 {}] [1 {}] }}{} }}\n", pattern->text, at_0, at_1,
-                         pattern->transform);
-  const double weight = std::clamp(constant_of(context, amount, "amount of a blend", user), 0.0, 1.0);
-  if (weight == 0 || weight == 1) return fmt::format("texture {{ {} }}\n", weight == 0 ? at_0 : at_1);
-  return fmt::format("texture {{ average texture_map {{ [{} {}] [{} {}] }} }}\n", 1 - weight, at_0, weight,
-                     at_1);
-}
 
 Surface surface_of(Context& context, Id<Material> material) { return Builder(context, material).build(); }
 

@@ -17,4 +17,12 @@ std::string pattern_text(const PatternTexture& pattern, const std::vector<std::s
 // is one of a slope_map. None where its values are textures.
 std::optional<std::string> normal_text(const PatternTexture& texture);
 
+// Functions of POV-Ray's language that facet_text calls.
+const char* facet_functions();
+// Behind `normal {`: each small cube of space tilts normals at random, with the slopes of microfacets of that
+// α.
+std::string facet_text(double alpha, bool beckmann, double size);
+// About the share of light that rough mirrors reflect from one facet alone, and not into the surface.
+double facet_albedo(double alpha, bool beckmann);
+
 }  // namespace vitrail::povray

@@ -116,17 +116,55 @@ std::string entry(Context& context, const SpectrumParameter& parameter, const Us
                      filter_of(use));
 }
 
+// A coordinate of an image of so many texels along it, and what its values are multiplied by: POV-Ray's
+// images repeat, and so do the texels that it interpolates between at their edges.
+struct Wrapped {
+  std::string coordinate, weight;
+};
+
+Wrapped wrapped(const char* x, int texels, const ImageTexture& texture) {
+  const double edge = 0.5 / texels;
+  const auto held = [&](const std::string& inside) {
+    return fmt::format("min({}, max({}, {}))", 1 - edge, edge, inside);
+  };
+  if (texture.wrap == Wrap::mirror) return {held(fmt::format("1 - abs({0} - 2*floor({0}/2) - 1)", x)), "1"};
+  if (texture.wrap == Wrap::clamp) return {held(x), "1"};
+  if (texture.filter == TextureFilter::nearest)
+    return {held(x), fmt::format("select({0}, 0, 1)*select(1 - {0}, 0, 1)", x)};
+  return {held(x), fmt::format("min(1, max(0, {0}*{1} + .5))*min(1, max(0, (1 - {0})*{1} + .5))", x, texels)};
+}
+
+// An image that does not repeat: a function of each channel, at half its value and below 1.
+std::string unrepeated(Context& context, const ImageTexture& texture, const std::string& map,
+                       const Use& use) {
+  const ImageLayout layout = read_image_layout(texture.filename);
+  const Wrapped s = wrapped("x", layout.width, texture), t = wrapped("y", layout.height, texture);
+  const double most = use.colors == Colors::emissions ? 65536 : 2;
+  const std::string name = fmt::format("Image_{}", context.image_functions++);
+  context.functions += fmt::format("#declare {} = function {{ pigment {{ {} }} }}\n", name, map);
+  const auto channel = [&](const char* which, RGB color_of_it) {
+    return fmt::format(" [1 function {{ {}({}, {}, 0).{}*{}*{}/{} }} color_map {{ [0 rgb 0{}] [1 {}{}] }}]",
+                       name, s.coordinate, t.coordinate, which, s.weight, t.weight, most, filter_of(use),
+                       color(color_of_it * (3 * most)), filter_of(use));
+  };
+  return fmt::format("average pigment_map {{{}{}{} }}", channel("red", {1, 0, 0}),
+                     channel("green", {0, 1, 0}), channel("blue", {0, 0, 1}));
+}
+
 Pigment image(Context& context, const ImageTexture& texture, bool is_float, const Origin& origin,
               const Use& use) {
   const auto file = image_of(context, texture, is_float ? ImageUse::number : ImageUse::color, origin);
   if (!file) return grey(0.5, use);
-  if (texture.wrap != Wrap::repeat)
-    context.approximated("image that does not repeat: POV-Ray repeats it outside of (0,0) … (1,1)", origin);
   const Placement placement = place(context, texture.mapping, origin);
   Pigment p;
-  p.text = fmt::format("{}image_map {{ {} {}{}{}}}{}", uv_of(placement), *file, placement.map_type,
-                       texture.filter == TextureFilter::nearest ? "" : "interpolate 2 ",
-                       use.as_filter ? "filter all 1 " : "", placement.transform);
+  const char* const interpolated = texture.filter == TextureFilter::nearest ? "" : "interpolate 2 ";
+  const bool is_flat = placement.map_type.empty() || placement.map_type == "map_type 0 ";
+  const std::string map =
+      texture.wrap != Wrap::repeat && is_flat
+          ? unrepeated(context, texture, fmt::format("image_map {{ {} {}}}", *file, interpolated), use)
+          : fmt::format("image_map {{ {} {}{}{}}}", *file, placement.map_type, interpolated,
+                        use.as_filter ? "filter all 1 " : "");
+  p.text = uv_of(placement) + map + placement.transform;
   p.factor = texture.scale;
   if (!texture.invert) return p;
   if (texture.scale != 1) context.approximated("inverted image with a scale: the scale is left out", origin);
@@ -294,11 +332,16 @@ Pigment pigment_of(Context& context, const SpectrumParameter& parameter, const O
 std::optional<Pattern> pattern_of(Context& context, Id<Texture> id, const Origin& user) {
   const Texture& texture = context.scene.textures.at(id.value);
   const auto* t = std::get_if<ImageTexture>(&texture.model);
-  if (!t) return {};
+  if (!t || t->scale != 1 || t->invert || t->wrap != Wrap::repeat) {
+    const Pigment p = build(context, id, Use{Colors::factors, false, user});
+    if (p.is_constant || !p.filters.empty()) return {};
+    const std::string text = p.factor == 1 ? p.text
+                                           : fmt::format("average pigment_map {{ [{} {}] [{} rgb 0] }}",
+                                                         p.factor, p.text, 1 - p.factor);
+    return Pattern{fmt::format("pigment_pattern {{ {} }}", text), ""};
+  }
   const auto file = image_of(context, *t, ImageUse::number, texture.origin);
   if (!file) return {};
-  if (t->scale != 1 || t->invert)
-    context.approximated("image of weights with a scale or inverted: as it is in the file", user);
   const Placement placement = place(context, t->mapping, texture.origin);
   return Pattern{
       fmt::format("{}image_pattern {{ {} {}interpolate 2 }}", uv_of(placement), *file, placement.map_type),
@@ -308,14 +351,6 @@ std::optional<Pattern> pattern_of(Context& context, Id<Texture> id, const Origin
 bool uses_uvs(const Scene& scene, Id<Texture> texture) {
   return leads_to(scene.textures, texture, shows_uvs,
                   [](const TextureModel& model, auto&& f) { for_shown_inputs(model, f); });
-}
-
-double constant_of(Context& context, const FloatParameter& parameter, const char* what, const Origin& user) {
-  if (const auto* value = std::get_if<float>(&parameter)) return *value;
-  const Texture& texture = context.scene.textures.at(std::get<Id<Texture>>(parameter).value);
-  context.approximated(fmt::format("texture of the {}: 0.5", what),
-                       texture.origin.line ? texture.origin : user);
-  return 0.5;
 }
 
 }  // namespace vitrail::povray

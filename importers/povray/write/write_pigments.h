@@ -40,7 +40,7 @@ std::optional<std::string> image_of(Context& context, const ImageTexture& textur
 // Whether uvs are needed to show the texture, or any that it refers to.
 bool uses_uvs(const Scene& scene, Id<Texture> texture);
 
-// The value, or 0.5 and a note where it is a texture.
+// The value, or the mean of a texture, which is noted.
 double constant_of(Context& context, const FloatParameter& parameter, const char* what, const Origin& user);
 
 }  // namespace vitrail::povray

@@ -12,6 +12,7 @@
 #include "importers/povray/write/write_materials.h"
 #include "importers/povray/write/write_media.h"
 #include "importers/povray/write/write_meshes.h"
+#include "importers/povray/write/write_patterns.h"
 #include "importers/povray/write/write_pigments.h"
 #include "importers/writing/export_colors.h"
 #include "importers/writing/placed_quadric.h"
@@ -56,7 +57,8 @@ class Writer {
     for (const Instance& instance : scene().instances) body += instance_text(instance);
     save(std::filesystem::path(out_).replace_extension(".ini"),
          options_text(context_, out_.filename().generic_string()));
-    save(out_, header() + body);
+    if (context_.has_facets) context_.functions += facet_functions();
+    save(out_, header() + context_.functions + body);
     return context_.take();
   }
 

@@ -2,7 +2,10 @@
 // POV-Ray accepts whatever is written, and what is not exact is said.
 #include <gmock/gmock.h>
 
-#include "tests/importers/povray/povray_render.h"
+#include <numbers>
+
+#include "tests/importers/povray/povray_oracle.h"
+#include "tests/support/png.h"
 
 namespace vitrail {
 namespace {
@@ -113,7 +116,7 @@ TEST_F(PovrayMaterials, AllTexturesAreAccepted) {
   Diagnostics diagnostics;
   EXPECT_FALSE(render_povray(scene, folder_, &diagnostics).values.empty());
   for (const std::string text :
-       {"no such file", "does not read", "does not repeat", "noise", "dots", "bilinear", "mesh attribute"})
+       {"no such file", "does not read", "noise", "dots", "bilinear", "mesh attribute"})
     EXPECT_THAT(diagnostics, says(text));
 }
 
@@ -154,6 +157,122 @@ TEST_F(PovrayMaterials, MeshesWithoutAreaAreLeftOut) {
   add(scene, square(1, 1, -1, 1, 0), DiffuseMaterial{});
   add(scene, TriangleMesh{}, DiffuseMaterial{});
   EXPECT_THAT(text_of(scene), testing::Not(HasSubstr("mesh2")));
+}
+
+// ---- Materials and textures as POV-Ray shows them ------------------------------------------------
+
+// The mean over the picture of a mirror of ±.1 at the origin, seen from (0,0,4), below a disk of radius 2
+// that shines at the same height: the share of facets whose slope is below tan(atan(2/4)/2).
+TEST_F(PovrayOracle, RoughMirrorsHaveTheSlopesOfTheirFacets) {
+  using enum Roughness::Distribution;
+  for (const auto distribution : {ggx, beckmann})
+    for (const float alpha : {.1f, .3f, .5f}) {
+      Scene scene = empty_scene();
+      scene.settings.max_depth = 2;
+      scene.settings.direct_only = true;
+      scene.film.width = scene.film.height = 96;
+      scene.film.crop = {0, 96, 0, 96};
+      std::get<PerspectiveCamera>(scene.camera).screen = {-.025, .025, -.025, .025};
+      ConductorMaterial mirror{PerfectReflector{}};
+      mirror.roughness.alpha_u = mirror.roughness.alpha_v = alpha;
+      mirror.roughness.distribution = distribution;
+      add(scene, square(-5, 5, -5, 5, 0), mirror);
+      TriangleMesh disk;
+      disk.quadric = Quadric{.kind = QuadricKind::disk, .low = 0};
+      Shape& lamp = add_emitter(scene, disk, {.5, .5, .5});
+      lamp.object_to_world = translate({0, 0, 4.01}) * scale({2, 2, -1});
+      scene.area_lights.back().two_sided = true;
+      const PovPicture picture = render_povray(scene, folder_);
+      ASSERT_FALSE(picture.values.empty());
+      double sum = 0;
+      for (const double value : picture.values) sum += value;
+      const double slope = std::tan(std::atan(.5) / 2), x = slope * slope / (alpha * alpha);
+      const bool is_ggx = distribution == ggx;
+      const double share = is_ggx ? x / (1 + x) : 1 - std::exp(-x);
+      const double
+          albedo =  // of what facets reflect, some is hidden by others: with G of Smith, at 32 degrees
+          is_ggx ? (alpha == .1f   ? .986
+                    : alpha == .3f ? .862
+                                   : .682)
+                 : (alpha == .1f   ? 1
+                    : alpha == .3f ? .99
+                                   : .9);
+      EXPECT_NEAR(sum / static_cast<double>(picture.values.size()), .5 * share * albedo, .035 * .5)
+          << alpha << (is_ggx ? " GGX" : " Beckmann");
+    }
+}
+
+// From above, of a sky of one radiance: F + (1 − F)·ρ(1 − b)/(1 − ρb), b what the interface reflects inside.
+TEST_F(PovrayOracle, PlasticsLetOutWhatTheirAngleLets) {
+  Scene scene = plane();
+  PlasticMaterial plastic;
+  plastic.diffuse_reflectance = reflectance_from_rgb({.8, .4, .1});
+  plastic.eta = 1.5f, plastic.exterior_eta = 1, plastic.nonlinear = true;
+  scene.materials[0].model = plastic;
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({.8, .8, .8})}});
+  scene.settings.max_depth = 2;
+  std::get<PerspectiveCamera>(scene.camera).screen = {-.1, .1, -.1, .1};
+  constexpr double facing = .04, inside = .5963;  // of index 1.5
+  expect_plane(
+      scene,
+      [](double, double) -> std::array<double, 3> {
+        const auto seen = [](double rho) {
+          return .8 * (facing + (1 - facing) * rho * (1 - inside) / (1 - rho * inside));
+        };
+        return {seen(.8), seen(.4), seen(.1)};
+      },
+      0.02);
+}
+
+// Of 2 × 2 texels on uvs from −1 to 2, without interpolation.
+TEST_F(PovrayOracle, ImagesEndAsTheyAreWrapped) {
+  test::write_png(folder_ / "four.png", 2, 2, 1, {51, 102, 153, 255});
+  for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp, Wrap::black}) {
+    ImageTexture image{(folder_ / "four.png").string()};
+    image.encoding = Encoding::linear;
+    image.filter = TextureFilter::nearest;
+    image.wrap = wrap;
+    Scene scene = empty_scene();
+    scene.textures.push_back({image});
+    TriangleMesh mesh = square(-2, 2, -2, 2, 0);
+    mesh.uvs = {{-1, -1}, {2, -1}, {2, 2}, {-1, 2}};
+    add(scene, mesh, DiffuseMaterial{Id<Texture>{0}});
+    scene.lights.push_back({DistantLight{
+        {0, 0, -1}, emission_from_rgb({std::numbers::pi, std::numbers::pi, std::numbers::pi})}});
+    const auto texel = [&](double at) {  // of two along a side; −1: none
+      const double turn = at - 2 * std::floor(at / 2);
+      if (wrap == Wrap::clamp) return at < .5 ? 0 : 1;
+      if (wrap == Wrap::mirror) return std::min(turn, 2 - turn) < .5 ? 0 : 1;
+      if (wrap == Wrap::black && (at < 0 || at > 1)) return -1;
+      return at - std::floor(at) < .5 ? 0 : 1;
+    };
+    expect_plane(
+        scene,
+        [&](double x, double y) -> std::array<double, 3> {
+          const int s = texel(-1 + 3 * (x + 2) / 4), t = texel(-1 + 3 * (y + 2) / 4);
+          constexpr double values[2][2] = {{.6, 1}, {.2, .4}};  // the lower row first
+          const double value = s < 0 || t < 0 ? 0 : values[t][s];
+          return {value, value, value};
+        },
+        0.02);
+  }
+}
+
+// A board of weights .25 and .75 between white and black.
+TEST_F(PovrayOracle, BlendsByAnyTexture) {
+  Scene scene = plane();
+  CheckerboardTexture board{ConstantSpectrum{.25f}, ConstantSpectrum{.75f}};
+  board.mapping = UvMapping{2, 0, 0, 0, 2, 0};
+  scene.textures.push_back({board, true});
+  scene.meshes[0] = square(-2, 2, -2, 2, 0);
+  scene.materials = {{diffuse({1, 1, 1})}, {diffuse({0, 0, 0})}, {BlendMaterial{{0}, {1}, Id<Texture>{0}}}};
+  scene.shapes[0].material = {2};
+  scene.lights.push_back(
+      {DistantLight{{0, 0, -1}, emission_from_rgb({std::numbers::pi, std::numbers::pi, std::numbers::pi})}});
+  expect_plane(scene, [](double x, double y) -> std::array<double, 3> {
+    const double value = (x < 0) == (y < 0) ? .75 : .25;
+    return {value, value, value};
+  });
 }
 
 }  // namespace
