@@ -10,6 +10,7 @@
 #include <bit>
 #include <cerrno>
 #include <system_error>
+#include <thread>
 
 #include "scene/system/diagnostics.h"
 #include "scene/system/scratch_file.h"
@@ -70,10 +71,18 @@ void* FilmScratch::allocate(std::size_t bytes) {
   return at;
 }
 
+// Beside the thread that is done with it: a disk that is told which blocks are free (mounted with `discard`)
+// held munmap for minutes, in which a rank answered nobody and its job was ended.
 void FilmScratch::deallocate(void* at, std::size_t bytes) {
-  const std::lock_guard lock(giving_back_);
-  std::erase_if(mappings_, [&](const Mapping& m) { return m.at == at; });
-  ::munmap(at, bytes);
+  {
+    const std::lock_guard lock(giving_back_);
+    std::erase_if(mappings_, [&](const Mapping& m) { return m.at == at; });
+  }
+  try {
+    std::thread([at, bytes] { ::munmap(at, bytes); }).detach();
+  } catch (const std::system_error&) {
+    ::munmap(at, bytes);
+  }
 }
 
 void FilmScratch::begin_to_use(std::atomic<std::uintptr_t>& slot, std::uintptr_t place, std::uint64_t pages) {

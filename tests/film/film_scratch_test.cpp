@@ -6,10 +6,13 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -22,6 +25,22 @@
 #include "film/film_progress.h"
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
+
+namespace {
+
+// What the disk takes long to free.
+constexpr std::size_t slow_bytes = 37 * 4096;
+constexpr std::chrono::milliseconds slow{1000};
+std::atomic<bool> is_freed = false;
+
+}  // namespace
+
+extern "C" int munmap(void* at, std::size_t bytes) {
+  if (bytes == slow_bytes) std::this_thread::sleep_for(slow);
+  const int result = static_cast<int>(::syscall(SYS_munmap, at, bytes));
+  if (bytes == slow_bytes) is_freed = true;
+  return result;
+}
 
 namespace vitrail {
 namespace {
@@ -174,6 +193,15 @@ TEST(FilmScratch, WithoutAFolderSaysWhatToDo) {
                                          testing::HasSubstr("--memory")));
   }
   named ? ::setenv("TMPDIR", before.c_str(), 1) : ::unsetenv("TMPDIR");
+}
+
+TEST_F(FilmInFiles, NobodyWaitsForADiskThatFreesSlowly) {
+  FilmScratch scratch(window);
+  void* const at = scratch.allocate(slow_bytes);
+  const auto begun = std::chrono::steady_clock::now();
+  scratch.deallocate(at, slow_bytes);
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, slow / 2);
+  while (!is_freed) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 }  // namespace
