@@ -37,5 +37,25 @@ TEST_F(PovrayOracle, LampsThatAreSquaresHideTheSky) {
       0.03);
 }
 
+// Nothing shows of a ball that scatters all light, under a sky of one radiance.
+TEST_F(PovrayOracle, MediaScatterTheSky) {
+  Scene scene = empty_scene();
+  scene.settings.max_depth = 8;
+  Medium fog;
+  fog.coefficients = AbsorptionScattering{ConstantSpectrum{0}, ConstantSpectrum{1}};
+  scene.media.push_back(fog);
+  TriangleMesh ball;
+  ball.quadric = Quadric{.kind = QuadricKind::sphere};
+  add(scene, ball, InterfaceMaterial{}).interior = Id<Medium>{0};
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({.6, .5, .4})}});
+  const PovPicture picture = render_povray(scene, folder_);
+  ASSERT_FALSE(picture.values.empty());
+  for (const int x : {1, 10, 16, 20}) {
+    const std::array<double, 3> seen = picture.at(x, 16);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(seen[c], .6 - .1 * static_cast<double>(c), .02) << x << ' ' << c;
+  }
+}
+
 }  // namespace
 }  // namespace vitrail
