@@ -75,7 +75,8 @@ double SimulatedMachine::busiest_link_s() const {
 
 double SimulatedMachine::reduction_s() const {
   const double steps = std::bit_width(static_cast<unsigned>(costs_.ranks) - 1);
-  return steps * (costs_.latency_s + costs_.film_bytes / costs_.network_bytes_s);
+  const double bytes_s = std::min(costs_.network_bytes_s, costs_.reduction_bytes_s);
+  return steps * (costs_.latency_s + costs_.film_bytes / bytes_s);
 }
 
 double SimulatedMachine::write_and_read_s(std::uint64_t rays) const {

@@ -39,7 +39,8 @@ class SimulatedMachine {
   double arrival_s(int from, int to, std::uint64_t rays);
   // Of all links and ways, how long the one that has most to do was busy.
   double busiest_link_s() const;
-  // Until the films of all ranks are one: up a tree, of which every step takes a film.
+  // Until the films of all ranks are one: up a tree, of which every step takes a film, as the slower of link
+  // and rank has it.
   double reduction_s() const;
   double write_and_read_s(std::uint64_t rays) const;  // on the scratch disk
 

@@ -42,7 +42,8 @@ struct Machine {
   double patience_s = 0;  // Watch's; 0: a rank that is silent is waited for
   // Before the first ray, on each rank, and after the last.
   double setup_s = 0;
-  double film_bytes = 0;  // that come together on rank 0
+  double film_bytes = 0;           // that come together on rank 0
+  double reduction_bytes_s = 9e8;  // of a rank that adds up another's film: measured, two ranks on two cores
 };
 
 // What a checkpoint holds: whole rounds of samples, and items of the next one.

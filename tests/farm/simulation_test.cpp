@@ -255,8 +255,11 @@ TEST(Simulation, CountsTheBeginningAndTheEnd) {
   machine.domain_bytes = bytes_of_all(workload.manifest);
   const double between_s = simulate(workload, machine, {}, 1).seconds;
   machine.setup_s = 2;
-  machine.film_bytes = machine.network_bytes_s;
+  machine.film_bytes = machine.reduction_bytes_s;
   EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds, between_s + 2 + 3, 1e-3) << "a tree of three steps";
+  machine.reduction_bytes_s = 2 * machine.network_bytes_s;
+  machine.film_bytes = machine.network_bytes_s;
+  EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds, between_s + 2 + 3, 1e-3) << "the link is slower";
 }
 
 // Rays leave some thousand at a time, or when a worker has nothing to do: not after each task. What came
