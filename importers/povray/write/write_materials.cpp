@@ -185,8 +185,8 @@ class Builder {
   }
 
   Surface surface_of(const DielectricMaterial& m) {
-    const Facets facets = facets_of(m.roughness);
     const double eta = index(m.eta, m.exterior_eta);
+    const Facets facets = std::abs(eta - 1) < 1e-6 ? Facets{} : facets_of(m.roughness);  // 1: no interface
     const RGB reflected = constant_color(m.reflectance_factor, "factor of reflection");
     const Pigment through = pigment(m.transmittance_factor);
     approximated("dielectric: light of sources passes straight through it, without caustics");
