@@ -77,9 +77,10 @@ struct Aimed {
   D cosine;
 };
 
-// From `origin` beside p.
+// From `origin` beside p. `sphere`: whose end end_on_sphere finds.
 template <class D>
-VITRAIL_LANES Aimed<D> aim(Vector<D> p, Vector<FloatsLike<D>> origin, const Connected<D>& light) {
+VITRAIL_LANES Aimed<D> aim(Vector<D> p, Vector<FloatsLike<D>> origin, const Connected<D>& light,
+                           Mask<D> sphere = Mask<D>()) {
   const Mask<D> endless = light.distance > std::numeric_limits<double>::max();
   const D finite = select<D>(endless, fill<D>(1), light.distance);
   const Vector<D> way = p + light.to_light * finite - to_doubles(origin);
@@ -95,8 +96,9 @@ VITRAIL_LANES Aimed<D> aim(Vector<D> p, Vector<FloatsLike<D>> origin, const Conn
   const D low = 0.5 * there, high = 2.0 * there;
   const D clamped = select<D>(plane < low, low, select<D>(high < plane, high, plane));
   const Mask<D> meets = height * cosine > 0;
+  const D otherwise = select<D>(sphere, there, there * before_point);
   aimed.end = select<D>(endless, fill<D>(std::numeric_limits<double>::infinity()),
-                        select<D>(meets, clamped, there * before_point));
+                        select<D>(meets, clamped, otherwise));
   aimed.cosine = select<D>(no(endless) & meets, cosine, fill<D>(1));
   return aimed;
 }

@@ -13,8 +13,8 @@ namespace vitrail {
 inline constexpr double direction_rounding = 3.5e-7;
 
 // Where a shadow ray to a point of light ends, of the way: what the light stands in, as exported or rounded,
-// is beyond it. pbrt's number (its ShadowEpsilon); Mitsuba has 1 − 9·10⁻⁴, POV-Ray leaves out 10⁻³ of its
-// unit.
+// is beyond it, and so is that part of a medium. pbrt's number (its ShadowEpsilon); Mitsuba has 1 − 9·10⁻⁴,
+// POV-Ray leaves out 10⁻³ of its unit.
 inline constexpr double before_point = 1 - 1e-4;
 
 // What rounding to float can move a point by along a unit vector.

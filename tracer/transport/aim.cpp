@@ -32,13 +32,16 @@ Aimed aim(const Departure& from, const LightSample& light) {
   Aimed aimed{encode_direction(dot(way, way) > 0 ? way : light.to_light)};
   const Vector3d direction = cast<double>(aimed.rounded);
   const double distance = length(way), there = dot(way, direction) / dot(direction, direction);
-  aimed.end = there * before_point;
+  aimed.end = there;
   if (light.quadric) {
     end_on_quadric({from.origin, aimed.rounded, from.exclude}, *light.quadric, aimed);
     return aimed;
   }
   const double height = dot(way, light.normal), cosine = dot(direction, light.normal);
-  if (!(height * cosine > 0)) return aimed;
+  if (!(height * cosine > 0)) {
+    aimed.end *= before_point;
+    return aimed;
+  }
   // So much aside, a neighbour may stand out of the plane by its tilt.
   const double aside = direction_rounding * distance / std::abs(cosine);
   const double plane = (height / cosine) * (1 - 1e-12) - aside * light.tilt_rad / std::abs(cosine);

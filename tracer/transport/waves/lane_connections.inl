@@ -281,7 +281,7 @@ VITRAIL_LANES Aimed<D> aim_at(const Group& g, const Interaction<D>& at, Vector<F
   if (!any(sphere)) return aim(at.p, origin, chosen.light);
   Connected<D> light = chosen.light;
   light.normal = select<D>(sphere, fill<D>(Vector3d{}), light.normal);
-  Aimed<D> aimed = aim(at.p, origin, light);
+  Aimed<D> aimed = aim(at.p, origin, light, sphere);
   aimed.end =
       select<D>(sphere,
                 end_on_sphere(
