@@ -42,7 +42,8 @@ LANE_FUNCTION(aim_at_sphere, 9, 1) {
   const auto p = in.vector(1);
   const auto origin = lanes::to_floats(p);
   const auto nothing = lanes::fill<D>(Vector3d{});
-  const auto aimed = lanes::aim<D>(p, origin, {in.vector(4), in.d(8), nothing, lanes::fill<D>(0)});
+  const auto aimed = lanes::aim<D>(p, origin, {in.vector(4), in.d(8), nothing, lanes::fill<D>(0)},
+                                   lanes::fill<D>(0) == lanes::fill<D>(0));
   out.number(lanes::end_on_sphere(
       origin, aimed,
       [&](int j) -> const PlacedQuadric& {
