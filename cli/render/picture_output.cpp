@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render/picture_output.h"
 
-#include <utility>
-
 #include "cli/common/run_program.h"
 #include "farm/run/checkpoint.h"
 #include "film/alpha.h"
@@ -34,7 +32,7 @@ void require_own_picture(const fs::path& picture, bool force) {
 // Other formats than PNG, and denoising, need libraries that take time and memory to load: another program
 // writes them.
 void develop_film(const RenderArguments& a, const fs::path& file, const fs::path& picture,
-                  const RenderStats& stats) {
+                  int spectral_bins) {
   if (is_png(picture) && !a.denoised) {
     const FilmRows film(file, nullptr);
     require_samples(film.samples(), file);
@@ -53,7 +51,7 @@ void develop_film(const RenderArguments& a, const fs::path& file, const fs::path
   std::vector<std::string> arguments{file.string(), "-o", picture.string(), "--quiet"};
   if (picture.extension() != ".exr" && picture.extension() != ".hdr")
     arguments.insert(arguments.end(), {"--exposure", "fit"});
-  if (stats.spectral_bins > 0 && picture.extension() == ".exr") arguments.push_back("--spectral");
+  if (spectral_bins > 0 && picture.extension() == ".exr") arguments.push_back("--spectral");
   if (a.denoised) arguments.push_back("--denoise");
   run_program("vitrail-develop", arguments);
 }
@@ -91,7 +89,7 @@ void write_picture_of_film(const RenderArguments& a, const RenderStats& stats) {
   const JobOutputs& o = a.options.outputs;
   if (o.picture.empty() || o.dry_run) return;
   if (!(o.keeps_film && stats.finished_before && !o.force && is_newer(o.picture, o.film)))
-    develop_film(a, o.film, o.picture, stats);
+    develop_film(a, o.film, o.picture, stats.spectral_bins);
   else if (a.denoised && !a.quiet)
     say("vitrail: {} is newer than its film and stays; vitrail develop {} -o {} --denoise replaces it\n",
         o.picture.string(), o.film.string(), o.picture.string());
@@ -103,7 +101,7 @@ fs::path write_picture_so_far(const RenderArguments& a, const RenderStats& stats
   const fs::path& picture = a.preview.empty() ? o.picture : a.preview;
   if (picture.empty() || o.dry_run || stats.samples == 0) return {};
   if (a.preview.empty() && fs::exists(picture)) return {};
-  develop_film(a, checkpoint_path(o.film), picture, stats);
+  develop_film(a, checkpoint_path(o.film), picture, stats.spectral_bins);
   return picture;
 }
 
