@@ -344,39 +344,6 @@ TEST(Fullest, FindsMostAndFewest) {
   }
 }
 
-TEST(Memory, BudgetIsSharedOutOrRefused) {
-  constexpr std::uint64_t m = 1 << 20;
-  const MemoryPlan plan = plan_memory(200 * m, 50 * m, 60 * m, 2, 20 * m, 500 * m);
-  EXPECT_LE(plan.domains_bytes + plan.queue_bytes + 50 * m, 200 * m);
-  EXPECT_GE(plan.domains_bytes, 20 * m);
-  EXPECT_THROW(plan_memory(70 * m, 50 * m, 60 * m, 2, 20 * m, 500 * m), MachineError);
-  EXPECT_THROW(plan_memory(200 * m, 50 * m, 201 * m, 2, 20 * m, 500 * m), MachineError);
-  EXPECT_EQ(plan_memory(0, 50 * m, 60 * m, 2, 20 * m, 500 * m).domains_bytes, 500 * m);
-}
-
-TEST(Memory, FilmIsInFilesWhereItHasNoRoomBesideTheDomains) {
-  constexpr std::uint64_t m = 1 << 20, base = 20 * m, largest = 5 * m, all = 60 * m;
-  const auto placed = [&](std::uint64_t film, std::uint64_t budget) {
-    return place_film(film, budget, base, base, 2, largest, all);
-  };
-  EXPECT_EQ(placed(900 * m, 0).window, 0u) << "there is no budget";
-  EXPECT_EQ(placed(400 * m, 600 * m).window, 0u) << "everything has room";
-  EXPECT_EQ(placed(45 * m, 100 * m).window, 0u) << "it takes less than half";
-  EXPECT_GT(placed(55 * m, 100 * m).window, 0u) << "it takes more, and domains would have to come and go";
-  EXPECT_GT(placed(900 * m, 100 * m).window, 0u);
-  EXPECT_EQ(placed(32 * m, 60 * m).window, 0u) << "files would save little";
-  for (const std::uint64_t budget : {60 * m, 100 * m, 500 * m}) {
-    FilmMemory film = placed(900 * m, budget);
-    const std::uint64_t least = film.window;
-    MemoryPlan plan = plan_memory(budget, base + film.resident(), base, 2, largest, all);
-    const std::uint64_t fixed_and_rays = budget - plan.domains_bytes - film.resident();
-    widen_window(film, plan, largest, all);
-    EXPECT_GT(film.window, least);
-    EXPECT_GE(plan.domains_bytes, std::min(largest, all));
-    EXPECT_LE(film.resident() + plan.domains_bytes + fixed_and_rays, budget + film.window / 64);
-  }
-}
-
 Manifest of_domains(std::vector<std::uint64_t> bytes) {
   Manifest m;
   for (const std::uint64_t b : bytes) {

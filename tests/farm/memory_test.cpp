@@ -9,11 +9,44 @@
 #include "farm/conclude/job_report.h"
 #include "farm/rays/queues.h"
 #include "farm/rays/waiting_batches.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 namespace {
 
 constexpr std::uint64_t mib = 1 << 20, most = std::numeric_limits<std::uint64_t>::max();
+
+TEST(Memory, BudgetIsSharedOutOrRefused) {
+  const MemoryPlan plan = plan_memory(200 * mib, 50 * mib, 60 * mib, 2, 20 * mib, 500 * mib);
+  EXPECT_LE(plan.domains_bytes + plan.queue_bytes + 50 * mib, 200 * mib);
+  EXPECT_GE(plan.domains_bytes, 20 * mib);
+  EXPECT_THROW(plan_memory(70 * mib, 50 * mib, 60 * mib, 2, 20 * mib, 500 * mib), MachineError);
+  EXPECT_THROW(plan_memory(200 * mib, 50 * mib, 201 * mib, 2, 20 * mib, 500 * mib), MachineError);
+  EXPECT_EQ(plan_memory(0, 50 * mib, 60 * mib, 2, 20 * mib, 500 * mib).domains_bytes, 500 * mib);
+}
+
+TEST(Memory, FilmIsInFilesWhereItHasNoRoomBesideTheDomains) {
+  constexpr std::uint64_t base = 20 * mib, largest = 5 * mib, all = 60 * mib;
+  const auto placed = [&](std::uint64_t film, std::uint64_t budget) {
+    return place_film(film, budget, base, base, 2, largest, all);
+  };
+  EXPECT_EQ(placed(900 * mib, 0).window, 0u) << "there is no budget";
+  EXPECT_EQ(placed(400 * mib, 600 * mib).window, 0u) << "everything has room";
+  EXPECT_EQ(placed(45 * mib, 100 * mib).window, 0u) << "it takes less than half";
+  EXPECT_GT(placed(55 * mib, 100 * mib).window, 0u) << "it takes more, and domains would have to come and go";
+  EXPECT_GT(placed(900 * mib, 100 * mib).window, 0u);
+  EXPECT_EQ(placed(32 * mib, 60 * mib).window, 0u) << "files would save little";
+  for (const std::uint64_t budget : {60 * mib, 100 * mib, 500 * mib}) {
+    FilmMemory film = placed(900 * mib, budget);
+    const std::uint64_t least = film.window;
+    MemoryPlan plan = plan_memory(budget, base + film.resident(), base, 2, largest, all);
+    const std::uint64_t fixed_and_rays = budget - plan.domains_bytes - film.resident();
+    widen_window(film, plan, largest, all);
+    EXPECT_GT(film.window, least);
+    EXPECT_GE(plan.domains_bytes, std::min(largest, all));
+    EXPECT_LE(film.resident() + plan.domains_bytes + fixed_and_rays, budget + film.window / 64);
+  }
+}
 
 TEST(QueueBounds, AreTogetherWhatThereIsForRays) {
   for (const std::uint64_t bytes : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{3}, std::uint64_t{7},
