@@ -10,7 +10,6 @@
 #include "farm/conclude/gather_profile.h"
 #include "farm/files/reserved_space.h"
 #include "farm/plan/ending_time.h"
-#include "farm/plan/memory.h"
 #include "farm/plan/rounds.h"
 #include "farm/plan/work.h"
 #include "farm/rays/parcel.h"
