@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which prototypes become objects, and where they stand. It depends on the scene alone: a scene whose
-// instances are kept and the same scene flattened are made of the same objects.
+// What a scene is placed as: objects, what each is made of, and where they stand (plan_scene.h makes it).
 #pragma once
 
 #include <functional>
@@ -9,7 +8,6 @@
 #include <vector>
 
 #include "partitioner/placing/placement.h"
-#include "scene/records/scene.h"
 #include "scene/shapes/quadric_places.h"
 
 namespace vitrail {
@@ -61,18 +59,6 @@ struct ScenePlan {
   std::uint64_t coarse =
       0;  // shapes and instances that rounding moves by more than a thousandth of their size
 };
-
-// A prototype becomes an object where it moves, or where references to it take fewer bytes than copies of it,
-// and so do shapes that share a mesh (shared_shapes.h). What a singular, projective or extreme transform
-// places is copied, of quadrics as triangles; all others are objects, one for all that are alike but for
-// where they stand. Throws Error for vertices that are not finite where they stand, and for 2³² − 1 triangles
-// or more.
-ScenePlan plan_scene(const Scene& scene);
-
-Bounds3f placed_bounds(const Quadric& quadric, const Affine& to_parent);
-Bounds3f swept(const Motion& motion, const Bounds3d& box);
-// Where the object stands, or moves, that a use of the scene, or a use within its object, is of.
-Bounds3f placed_bounds(const Assembly& object, const Affine& to_parent);
 
 // The placements of every use of the scene that does not move, as `select` chooses them, in the order of ids.
 // It is asked once for each placement of an object, however often that is used.

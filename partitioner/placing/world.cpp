@@ -11,6 +11,8 @@
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/appearance/requirements.h"
 #include "partitioner/placing/decimals.h"
+#include "partitioner/placing/object_bounds.h"
+#include "partitioner/placing/plan_scene.h"
 #include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {

@@ -14,6 +14,7 @@
 #include "bundle/checksum.h"
 #include "partitioner/hierarchy/build_bvh.h"
 #include "partitioner/memory_plan.h"
+#include "partitioner/placing/object_bounds.h"
 #include "partitioner/writing/write_domain.h"
 #include "scene/shapes/deferred_mesh.h"
 #include "scene/system/diagnostics.h"

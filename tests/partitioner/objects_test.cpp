@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "partitioner/placing/plan_scene.h"
 #include "scene/shapes/curve_meshes.h"
 #include "scene/system/diagnostics.h"
 #include "tests/support/test_scenes.h"

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which prototypes become objects, and where they stand. It depends on the scene alone: a scene whose
+// instances are kept and the same scene flattened are made of the same objects.
+#pragma once
+
+#include "partitioner/placing/objects.h"
+#include "scene/records/scene.h"
+
+namespace vitrail {
+
+// A prototype becomes an object where it moves, or where references to it take fewer bytes than copies of it,
+// and so do shapes that share a mesh (shared_shapes.h). What a singular, projective or extreme transform
+// places is copied, of quadrics as triangles; all others are objects, one for all that are alike but for
+// where they stand. Throws Error for vertices that are not finite where they stand, and for 2³² − 1 triangles
+// or more.
+ScenePlan plan_scene(const Scene& scene);
+
+}  // namespace vitrail
