@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "cli/common/run_program.h"
-#include "cli/common/temporary_folder.h"
+#include "scene/system/temporary_folder.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {

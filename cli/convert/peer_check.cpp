@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "cli/common/run_program.h"
-#include "cli/common/temporary_folder.h"
+#include "scene/system/temporary_folder.h"
 #include "cli/convert/block_luminances.h"
 #include "scene/system/diagnostics.h"
 

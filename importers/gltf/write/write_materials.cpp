@@ -103,6 +103,11 @@ MaterialWriter::Color MaterialWriter::color(const SpectrumParameter& parameter, 
     const double s = static_cast<double>(attribute->scale);
     return {{s, s, s}, nullptr};
   }
+  if (const BakedTexture* baked = baked_.bake(id)) {
+    notes_.approximated(baked->note);
+    const double s = static_cast<double>(baked->image.scale);
+    return {{s, s, s}, &baked->image};
+  }
   if (const auto* product = std::get_if<ProductTexture>(&scene_.textures.at(id.value).model)) {
     const Color a = color(product->first, what), b = color(product->second, what);
     if (a.image && b.image)
@@ -117,6 +122,14 @@ MaterialWriter::Color MaterialWriter::color(const SpectrumParameter& parameter, 
 const ImageTexture* MaterialWriter::image_of(const FloatParameter& parameter) const {
   const auto* id = std::get_if<Id<Texture>>(&parameter);
   return id ? std::get_if<ImageTexture>(&scene_.textures.at(id->value).model) : nullptr;
+}
+
+const ImageTexture* MaterialWriter::image_of_numbers(const FloatParameter& parameter) {
+  const auto* id = std::get_if<Id<Texture>>(&parameter);
+  if (!id || image_of(parameter)) return image_of(parameter);
+  const BakedTexture* baked = baked_.bake(*id);
+  if (baked) notes_.approximated(baked->note);
+  return baked ? &baked->image : nullptr;
 }
 
 double MaterialWriter::number(const FloatParameter& parameter, const char* what) {
@@ -148,7 +161,7 @@ void MaterialWriter::roughness(const Roughness& r) {
 // Both from one image, roughness from its green and metal from its blue channel.
 void MaterialWriter::roughness_and_metal(const FloatParameter& rough, const FloatParameter& metallic) {
   auto& pbr = out_.pbrMetallicRoughness;
-  const ImageTexture *r = image_of(rough), *m = image_of(metallic);
+  const ImageTexture *r = image_of_numbers(rough), *m = image_of_numbers(metallic);
   const bool as_they_are = (!r || r->number == ImageNumber::green) &&
                            (!m || m->number == ImageNumber::blue) &&
                            (!r || !m || (r->filename == m->filename && r->mapping == m->mapping));
@@ -211,7 +224,7 @@ void MaterialWriter::opacity(const FloatParameter& parameter) {
   if (out_.alphaMode == "OPAQUE") out_.alphaMode = "BLEND";
   auto& pbr = out_.pbrMetallicRoughness;
   if (pbr.baseColorFactor.size() < 4) pbr.baseColorFactor = {1, 1, 1, 1};
-  const ImageTexture* image = image_of(alpha);
+  const ImageTexture* image = image_of_numbers(alpha);
   if (!image) {
     pbr.baseColorFactor[3] = number(alpha, "opacity");
     return;

@@ -9,8 +9,10 @@
 #include <tuple>
 
 #include "importers/gltf/write/pictures.h"
+#include "importers/images/baked_textures.h"
 #include "importers/writing/opacity_key.h"
 #include "scene/spectra/color.h"
+#include "scene/system/temporary_folder.h"
 
 namespace vitrail::gltf {
 
@@ -42,6 +44,8 @@ class MaterialWriter {
   Color color(const SpectrumParameter& parameter, const char* what);
   double number(const FloatParameter& parameter, const char* what);
   const ImageTexture* image_of(const FloatParameter& parameter) const;
+  // The same, also of a texture that an image can stand for.
+  const ImageTexture* image_of_numbers(const FloatParameter& parameter);
   void base(const SpectrumParameter& parameter);
   void roughness(const Roughness& roughness);
   void roughness_and_metal(const FloatParameter& roughness, const FloatParameter& metallic);
@@ -83,6 +87,12 @@ class MaterialWriter {
   const Scene& scene_;
   const std::vector<AreaLight>& area_lights_;
   Pictures pictures_;
+  std::optional<TemporaryFolder> folder_;  // of images that textures are baked to: the file embeds them
+  std::size_t images_ = 0;
+  BakedTextures baked_{scene_, [this] {
+                         if (!folder_) folder_.emplace();
+                         return std::filesystem::path(folder_->file(std::to_string(images_++) + ".png"));
+                       }};
   std::map<Key, int> known_;
   std::map<int, std::string> attributes_;
 

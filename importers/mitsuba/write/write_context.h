@@ -13,6 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "importers/images/baked_textures.h"
 #include "importers/images/converted_images.h"
 #include "importers/mitsuba/material_parts.h"
 #include "importers/writing/conversion_notes.h"
@@ -90,6 +91,7 @@ struct Context : ConversionNotes {
   std::size_t unseen_lamps = 0;     // of the written scene (is_unseen_lamp), with those of instances
   std::size_t curve_files = 0, derived_meshes = 0, derived_images = 0, derived_volumes = 0;
   ConvertedImages images{[this] { return file.parent_path() / new_file("images", "exr", derived_images); }};
+  BakedTextures baked{scene, [this] { return images.new_file(); }};
 
   // An id for a record called `name`; a record without a name gets one that starts with "_unnamed_".
   std::string new_id(const std::string& name, const char* kind, std::size_t index);

@@ -252,6 +252,12 @@ WrittenTexture write_texture(Context& context, Element root, const Texture& text
     add_float(element, "scale", attribute->scale);
     return id;
   }
+  if (const BakedTexture* baked = context.baked.bake({static_cast<std::uint32_t>(index)})) {
+    context.approximated(baked->note);
+    const std::string id = new_id();
+    write_image(context, root, {context.relative(baked->image.filename), texture.is_float}, baked->image, id);
+    return id;
+  }
   const RGB mean = mean_of(context, texture.model);
   context.approximated(fmt::format(
       "texture{}: Mitsuba has none of its kind ({}): replaced by its mean, rgb {:.4g} {:.4g} {:.4g}",

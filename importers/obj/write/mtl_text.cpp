@@ -76,6 +76,12 @@ void MtlText::color(const char* keyword, const char* map_keyword, const Spectrum
     line(keyword, RGB{c.r * scale, c.g * scale, c.b * scale});
     return map(map_keyword, tinted->image, ImageUse::color, nullptr);
   }
+  if (const BakedTexture* baked = baked_.bake(std::get<Id<Texture>>(parameter))) {
+    approximated(baked->note);
+    const double scale = static_cast<double>(baked->image.scale) * factor;
+    line(keyword, RGB{scale, scale, scale});
+    return map(map_keyword, baked->image, ImageUse::color, nullptr);
+  }
   approximated(fmt::format("texture of {} that is no image: 0.5", keyword));
   line(keyword, RGB{0.5 * factor, 0.5 * factor, 0.5 * factor});
 }
@@ -88,7 +94,12 @@ double MtlText::constant(const FloatParameter& parameter, const char* what) {
 
 void MtlText::number(const char* keyword, const char* map_keyword, const FloatParameter& parameter) {
   if (const auto* value = std::get_if<float>(&parameter)) return line(keyword, *value);
-  if (map_keyword && map(map_keyword, std::get<Id<Texture>>(parameter), ImageUse::number, "-mm 0")) return;
+  const Id<Texture> id = std::get<Id<Texture>>(parameter);
+  if (map_keyword && map(map_keyword, id, ImageUse::number, "-mm 0")) return;
+  if (const BakedTexture* baked = map_keyword ? baked_.bake(id) : nullptr) {
+    approximated(baked->note);
+    return map(map_keyword, baked->image, ImageUse::number, "-mm 0");
+  }
   approximated(fmt::format("texture of {}: 0.5", keyword));
   line(keyword, 0.5);
 }

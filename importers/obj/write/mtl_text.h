@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <string>
 
+#include "importers/images/baked_textures.h"
 #include "importers/images/converted_images.h"
 #include "importers/writing/conversion_notes.h"
 #include "importers/writing/export_colors.h"
+#include "importers/writing/side_files.h"
 #include "scene/records/scene.h"
 
 namespace vitrail {
@@ -14,8 +16,9 @@ namespace vitrail {
 // The statements of MTL materials, and what they do not say exactly.
 class MtlText {
  public:
-  MtlText(std::filesystem::path folder, ConversionNotes& of_record)
-      : notes(of_record), scene_(of_record.scene), folder_(std::move(folder)) {}
+  // The text of `file`, with images beside it.
+  MtlText(const std::filesystem::path& file, ConversionNotes& of_record)
+      : notes(of_record), scene_(of_record.scene), folder_(file.parent_path()), side_files_(file) {}
 
   std::string text;
   ConversionNotes& notes;
@@ -41,6 +44,9 @@ class MtlText {
 
   const Scene& scene_;
   std::filesystem::path folder_;
+  SideFiles side_files_;
+  std::size_t images_ = 0;
+  BakedTextures baked_{scene_, [this] { return folder_ / side_files_.name("images", images_++, "png"); }};
 };
 
 }  // namespace vitrail

@@ -22,8 +22,8 @@ namespace {
 // The text of one material.
 class Writer : MtlText {
  public:
-  Writer(const std::filesystem::path& folder, ConversionNotes& conversion)
-      : MtlText(folder, conversion), scene_(conversion.scene) {}
+  Writer(const std::filesystem::path& file, ConversionNotes& conversion)
+      : MtlText(file, conversion), scene_(conversion.scene) {}
 
   std::string write(const std::string& name, const Shape& shape) {
     text = fmt::format("newmtl {}\n", name);
@@ -316,7 +316,7 @@ MtlNames write_mtl(const std::vector<FlatShape>& shapes, const std::filesystem::
   MtlNames names;
   UniqueNames taken;
   std::string text;
-  Writer writer(path.parent_path(), notes);
+  Writer writer(path, notes);
   for (const FlatShape& flat : shapes) {
     const MtlKey key = surface_key(flat.shape);
     if (names.contains(key)) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common/temporary_folder.h"
+#include "scene/system/temporary_folder.h"
 
 #include <unistd.h>
 
@@ -11,7 +11,7 @@
 namespace vitrail {
 
 TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "vitrail-check-XXXXXX").string();
+  std::string name = (std::filesystem::temp_directory_path() / "vitrail-XXXXXX").string();
   if (!::mkdtemp(name.data())) throw MachineError("cannot make " + name + ": " + std::strerror(errno));
   path_ = name;
 }
