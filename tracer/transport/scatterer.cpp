@@ -26,8 +26,8 @@ double cone_unit(const Manifest& manifest) {
   return greatest;
 }
 
-bool lives_on(const Tracing& tracing, Scatterer& s, float u, bool specular, bool no_more) {
-  const float lives = specular ? 1 : survival(tracing, s);
+// By `lives`, the chance of it unless it is `specular`.
+bool lives_on(Scatterer& s, float lives, float u, bool specular, bool no_more) {
   ++s.depth;
   s.passed = false;
   if (specular) {
@@ -112,6 +112,8 @@ void count_straight(const Tracing& tracing, PhotonPath& photon) {
   photon.counted = true;
 }
 
+namespace {
+
 float survival(const Tracing& tracing, const Scatterer& s) {
   constexpr std::uint32_t longest = 254;
   const Roulette roulette = tracing.scene.sampling.roulette;
@@ -120,12 +122,20 @@ float survival(const Tracing& tracing, const Scatterer& s) {
   return static_cast<float>(attainable(static_cast<double>(brightest / worth_going_on(roulette))));
 }
 
+}  // namespace
+
+float survival(const Tracing& tracing, const CameraPath& path) {
+  return path.connected ? survival(tracing, static_cast<const Scatterer&>(path)) : 1;
+}
+
 bool go_on(const Tracing& tracing, CameraPath& path, float u, bool specular, bool no_more) {
   path.travelled = 0;
-  return lives_on(tracing, path, u, specular, no_more || tracing.settings().direct_only);
+  const float lives = survival(tracing, path);
+  if (!specular) path.connected = true;
+  return lives_on(path, lives, u, specular, no_more || tracing.settings().direct_only);
 }
 bool go_on(const Tracing& tracing, PhotonPath& photon, float u, bool specular) {
-  return lives_on(tracing, photon, u, specular, false);
+  return lives_on(photon, survival(tracing, photon), u, specular, false);
 }
 
 bool is_spent(const Tracing& tracing, const CameraPath& path) {

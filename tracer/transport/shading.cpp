@@ -55,7 +55,6 @@ bool scatter_in_medium(Tracing& tracing, CameraPath& path, double g, Point3d p, 
   const std::array<float, 4> u = numbers_for_scattering(path);
   const Vector3d in = sample_phase(g, out, u[0], u[1]);
   path.pdf = density_beside(phase(g, out, in), candidates);
-  path.connected = true;
   if (!(path.pdf > 0) || !go_on(tracing, path, u[3], false)) return false;
   depart(path, from, in);
   return true;
@@ -122,7 +121,6 @@ bool scatter_path(Tracing& tracing, CameraPath& path, const Event& event, Shadow
   if (!kept) return false;
   path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, candidates);
   if (!chosen->specular && ends_lit(tracing)) return false;
-  if (!chosen->specular) path.connected = true;
   if (!chosen->specular && !(path.pdf > 0)) return false;
   if (one_lobe && survival(tracing, path) < 1) u = numbers_for_scattering(path);
   if (!go_on(tracing, path, u[3], chosen->specular, gathered)) return false;

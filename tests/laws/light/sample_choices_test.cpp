@@ -110,6 +110,17 @@ TEST(SampleChoices, SmoothLightHasLittleNoise) {
   EXPECT_LT(measured(true), 2e-3);
 }
 
+// A floor of a tenth shows the sky all the same: half of its light comes by the rays that leave it, and none
+// of these ends by chance (24 times the noise otherwise).
+TEST(SampleChoices, DarkFloorsHaveLittleNoise) {
+  Scene scene;
+  add_shape(scene, add_quads(scene, {{{{-10, 0, -10}, {-10, 0, 10}, {10, 0, 10}, {10, 0, -10}}}}),
+            Material{DiffuseMaterial{ConstantSpectrum{0.1f}}});
+  scene.lights.push_back(Light{InfiniteLight{ConstantSpectrum{1}}, {}});
+  set_camera(scene, {0, 2, 0}, {0, 0, 0}, {0, 0, 1}, 0.7, 32, 32);
+  EXPECT_LT(noise(rendered(scene, 64, {}, 1), rendered(scene, 64, {}, 2)), 1e-4);
+}
+
 struct Way {
   const char* name;
   SamplingChoices sampling;

@@ -10,8 +10,8 @@
 namespace vitrail::test {
 namespace {
 
-constexpr std::uint32_t known_revision = 11;
-constexpr const char* known_pictures = "945667027c196899";
+constexpr std::uint32_t known_revision = 12;
+constexpr const char* known_pictures = "19a60df56b5bc479";
 
 std::array<Point3f, 4> tile(float x, float z) {
   return {{{x, 0, z}, {x + 1, 0, z}, {x + 1, 1, z + 0.2f}, {x, 1, z + 0.2f}}};

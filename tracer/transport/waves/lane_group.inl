@@ -41,12 +41,16 @@ VITRAIL_LANES Four<F> values_of(const Group& g, const SpectrumOf& of) {
 // What a path carries, and what its random numbers are functions of.
 struct Carried {
   Four<F> throughput;
-  F brightness;  // 1, or 1/hero_count of a path that has its hero wavelength alone
+  // 1, or 1/hero_count of a path that has its hero wavelength alone. A path that goes on without roulette, as
+  // survival has it, is as good as infinitely bright.
+  F brightness;
   U pixel, sample, depth;
 
   VITRAIL_LANES explicit Carried(const Group& g) {
     for (int i = 0; i < 4; ++i) throughput[i] = gather<F>(VITRAIL_EACH(g.path[j]->throughput.v[i]));
-    brightness = gather<F>(VITRAIL_EACH(g.path[j]->dispersed ? 1.0f / hero_count : 1.0f));
+    brightness = gather<F>(VITRAIL_EACH(!g.path[j]->connected  ? 1e30f
+                                        : g.path[j]->dispersed ? 1.0f / hero_count
+                                                               : 1.0f));
     pixel = gather<U>(VITRAIL_EACH(g.path[j]->key.pixel));
     sample = gather<U>(VITRAIL_EACH(g.path[j]->key.sample));
     depth = gather<U>(VITRAIL_EACH(g.path[j]->depth));
