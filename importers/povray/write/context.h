@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct Context : ConversionNotes {
   std::map<std::uint32_t, std::string> media = {};      // as they were written
   bool has_scattering = false;                          // of a medium
   bool has_facets = false;                              // of rough materials
+  std::set<std::uint32_t> sheets = {};                  // materials that only rectangles have
+  bool has_caustics = false;                            // of lamps with an extent, by photons
   std::string functions = {};                           // of images, which their pigments call
   int image_functions = 0;
 };

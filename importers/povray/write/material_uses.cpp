@@ -33,7 +33,8 @@ std::vector<Id<Texture>> textures_of(const MaterialModel& model) {
   if (const auto* m = std::get_if<DiffuseMaterial>(&model)) return textures_among(m->reflectance);
   if (const auto* m = std::get_if<PlasticMaterial>(&model)) return textures_among(m->diffuse_reflectance);
   if (const auto* m = std::get_if<CoatedDiffuseMaterial>(&model)) return textures_among(m->reflectance);
-  if (const auto* m = std::get_if<PrincipledMaterial>(&model)) return textures_among(m->base_color);
+  if (const auto* m = std::get_if<PrincipledMaterial>(&model))
+    return textures_among(m->base_color, m->spec_trans, m->metallic);
   if (const auto* m = std::get_if<DiffuseTransmissionMaterial>(&model)) return textures_among(m->reflectance);
   if (const auto* m = std::get_if<BlendMaterial>(&model)) return textures_among(m->amount);
   if (const auto* m = std::get_if<MaskMaterial>(&model)) return textures_among(m->opacity);
@@ -58,6 +59,26 @@ std::vector<Id<Material>> parts_of(const Scene& scene, Id<Material> material) {
   std::vector<Id<Material>> ids;
   for (const std::uint32_t value : found) ids.push_back({value});
   return ids;
+}
+
+Caustics caustics_of(const Scene& scene, Id<Material> material) {
+  // What rough metals throw on is faint: without it the floors around them are nearer (measured).
+  const auto is_smooth = [](const Roughness& roughness) {
+    const auto* alpha = std::get_if<float>(&roughness.alpha_u);
+    return alpha && *alpha < smooth_alpha && roughness.alpha_v == roughness.alpha_u;
+  };
+  Caustics caustics;
+  for (const Id<Material> part : parts_of(scene, material)) {
+    const MaterialModel& model = scene.materials[part.value].model;
+    const auto* principled = std::get_if<PrincipledMaterial>(&model);
+    const auto* metal = std::get_if<ConductorMaterial>(&model);
+    const auto* coated = std::get_if<CoatedConductorMaterial>(&model);
+    caustics.refracted |= std::holds_alternative<DielectricMaterial>(model) ||
+                          (principled && principled->spec_trans != FloatParameter{0.0f});
+    caustics.reflected |= caustics.refracted || (metal && is_smooth(metal->roughness)) ||
+                          (coated && is_smooth(coated->conductor_roughness));
+  }
+  return caustics;
 }
 
 std::vector<Id<Texture>> textures_of(const Material& material) {

@@ -94,7 +94,7 @@ double mean_of(const Context& context, const FloatParameter& parameter) {
     return std::lerp(mean_of(context, t->first), mean_of(context, t->second), mean_of(context, t->amount));
   if (const auto* t = std::get_if<NoiseTexture>(&model)) return mean(mean_of_noise(*t));
   if (const auto* t = std::get_if<MeshAttributeTexture>(&model))
-    if (const auto found = mean_of_attribute(context.scene, *t)) return mean(*found);
+    return mean(mean_of_attribute(context.scene, *t).value_or(RGB{0, 0, 0}));  // 0 where no mesh has it
   return 0.5;
 }
 

@@ -12,15 +12,14 @@ namespace vitrail::povray {
 
 namespace {
 
-constexpr double smooth_alpha = 0.01;  // below it, microfacets do not show
-
 class Builder {
  public:
   Builder(Context& context, Id<Material> material)
       : context_(context),
         material_(context.scene.materials.at(material.value)),
-        transmits_(context.traits[material.value].transmits) {
-    normal_ = displacement();
+        transmits_(context.traits[material.value].transmits),
+        is_sheet_(context.sheets.contains(material.value)) {
+    normal_ = bumps_of(context, material_);
   }
 
   Surface build() {
@@ -52,29 +51,6 @@ class Builder {
   double index(const Spectrum& eta, const Spectrum& exterior) {
     const double outside = index_of_refraction(exterior);
     return outside > 0 ? index_of_refraction(eta) / outside : index_of_refraction(eta);
-  }
-
-  std::string displacement() {
-    if (material_.normal_map)
-      context_.dropped("normal map: POV-Ray tilts normals by heights only", material_.origin);
-    if (!material_.displacement) return "";
-    const auto* id = std::get_if<Id<Texture>>(&*material_.displacement);
-    if (!id) return "";  // a constant height tilts nothing
-    const TextureModel& model = context_.scene.textures.at(id->value).model;
-    if (const auto* pattern = std::get_if<PatternTexture>(&model))
-      if (const auto text = normal_text(*pattern))
-        return fmt::format(" normal {{ {} {} }}", *text,
-                           matrix(context_.units.to_pov * pattern->texture_to_world));
-    const auto* image = std::get_if<ImageTexture>(&model);
-    const auto file =
-        image ? image_of(context_, *image, ImageUse::number, material_.origin) : std::optional<std::string>{};
-    if (!file || !std::holds_alternative<UvMapping>(image->mapping)) {
-      context_.dropped("displacement that is not an image by uv", material_.origin);
-      return "";
-    }
-    approximated("displacement: as a bump map, whose heights POV-Ray measures in its own way");
-    return fmt::format(" normal {{ uv_mapping bump_map {{ {} interpolate 2 bump_size {} }} }}", *file,
-                       image->scale);
   }
 
   // α, and whether its slopes are Beckmann's.
@@ -189,7 +165,10 @@ class Builder {
     const Facets facets = std::abs(eta - 1) < 1e-6 ? Facets{} : facets_of(m.roughness);  // 1: no interface
     const RGB reflected = constant_color(m.reflectance_factor, "factor of reflection");
     const Pigment through = pigment(m.transmittance_factor);
-    approximated("dielectric: light of sources passes straight through it, without caustics");
+    if (context_.has_caustics)
+      approximated("dielectric: caustics by 100,000 photons, of lamps that are rectangles alone");
+    else
+      approximated("dielectric: light of sources passes straight through it, without caustics");
     const double ratio = dispersion_ratio(m.eta);
     const bool disperses = std::abs(ratio - 1) > 1e-4;
     if (disperses) approximated("dispersion: POV-Ray's seven colours between n(700 nm) and n(400 nm)");
@@ -200,14 +179,16 @@ class Builder {
     const std::string finish =
         fmt::format("diffuse 0 reflection {{ rgb 0, {} fresnel on }} conserve_energy", color(reflected));
     const double passes = std::cbrt(facets.albedo());  // measured at α = .1 and .45
-    std::string filter =
-        through.is_constant ? color(through.constant * (through.factor * passes)) + " filter 1" : "";
-    if (filter.empty()) {
-      approximated("texture of the transmitted light: clear");
-      filter = "rgb 1 filter 1";
-    }
-    return {layer(filter, finish, rough_normal(facets)) + shining(highlight(facets, 0.04, false)), "",
-            interior(eta, ratio), interior(1 / eta, 1 / ratio)};
+    if (!through.is_constant) approximated("texture of the transmitted light: clear");
+    const RGB filter = through.is_constant ? through.constant * through.factor : RGB{1, 1, 1};
+    const auto side = [&](double factor) {
+      return layer(color(filter * (passes * factor)) + " filter 1", finish, rough_normal(facets)) +
+             shining(highlight(facets, 0.04, false));
+    };
+    // Radiance is n² times as high within glass. POV-Ray has the same inside and outside.
+    const double squared = is_sheet_ ? eta * eta : 1;
+    return {side(1 / squared), is_sheet_ ? side(squared) : "", interior(eta, ratio),
+            interior(1 / eta, 1 / ratio)};
   }
 
   Surface surface_of(const ThinDielectricMaterial& m) {
@@ -269,22 +250,13 @@ class Builder {
       for (SpectrumParameter* part : {&index->eta, &index->k})
         if (const auto* spectrum = std::get_if<Spectrum>(part)) *part = scaled(resolved(*spectrum), 1 / eta);
     approximated("coated conductor: a metal of the colour that both have at normal incidence");
-    // Of the light that the metal reflects from one facet, so much does not leave: what meets the interface
-    // beyond the critical angle, and Fresnel's share of the rest.
     const Facets facets = facets_of(m.conductor_roughness);
-    const double normal = (eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1)), albedo = facets.albedo();
-    const double slope = std::tan(std::asin(std::min(1.0, 1 / eta)) / 2),
-                 squared = facets.alpha * facets.alpha;
-    const double beyond = squared / (squared + slope * slope), back = beyond + (1 - beyond) * normal;
-    const double interface = facets_of(m.interface_roughness).albedo();
-    const Passes passes = passes_of(m.volume);
-    const double way = std::cbrt(interface) * passes.entering,
-                 again = interface * passes.entering * passes.entering;
-    const auto whole = [&](double r) {
-      return normal + (1 - normal) * way * way * albedo * r * (1 - back) / (1 - back * again * albedo * r);
-    };
-    const RGB bare = normal_reflectance_rgb(metal);
-    const RGB both{whole(bare.r) / albedo, whole(bare.g) / albedo, whole(bare.b) / albedo};
+    const RGB both = with_interface(normal_reflectance_rgb(metal),
+                                    {.eta = eta,
+                                     .alpha = facets.alpha,
+                                     .albedo = facets.albedo(),
+                                     .interface_albedo = facets_of(m.interface_roughness).albedo(),
+                                     .entering = passes_of(m.volume).entering});
     return conductor(NormalReflectance{reflectance_from_rgb(both)}, m.conductor_roughness,
                      ConstantSpectrum{1});
   }
@@ -299,25 +271,68 @@ class Builder {
     return {layer(p.text, fmt::format("diffuse {}, {}", p.factor * m.scale, forth / back * m.scale)), "", ""};
   }
 
+  // Plastic, glass and metal in their proportions, under a coat.
   Surface surface_of(const PrincipledMaterial& m) {
     const double rough = constant(m.roughness, "roughness");
     const Facets facets{std::max(0.001, rough * rough)};
-    const double metallic = constant(m.metallic, "metallic"), glass = constant(m.spec_trans, "spec_trans");
-    const char* const kind = metallic >= 0.5 ? "conductor" : glass >= 0.5 ? "dielectric" : "plastic";
-    approximated(fmt::format("principled material: a {}; sheen, tints and clearcoat are left out", kind));
     Roughness roughness;
     roughness.alpha_u = roughness.alpha_v = static_cast<float>(facets.alpha);
-    if (metallic >= 0.5) return conductor(NormalReflectance{m.base_color}, roughness, ConstantSpectrum{1});
-    if (glass >= 0.5) {
-      DielectricMaterial dielectric;
-      dielectric.eta = ConstantSpectrum{m.eta};
-      dielectric.transmittance_factor = m.base_color;
-      dielectric.roughness = roughness;
-      return surface_of(dielectric);
-    }
-    const Pigment base = pigment(m.base_color);
-    return coated(base, 1 - diffuse_fresnel_outside(m.eta), m.eta, facets,
-                  {1, 1, 1});  // its gloss is added to its colour
+    approximated(
+        "principled material: plastic, glass and metal by their amounts; its sheen, tints and "
+        "flatness are left out");
+    const std::string coat = clearcoat(m);
+    DielectricMaterial glass{ConstantSpectrum{m.eta}, ConstantSpectrum{1}, roughness};
+    glass.transmittance_factor = passes_once(m.base_color);
+    Surface whole = share(
+        m.spec_trans, "Glass", [&] { return plastic(m, facets); }, [&] { return surface_of(glass); });
+    whole = share(
+        m.metallic, "Metal", [&] { return whole; },
+        [&] { return conductor(NormalReflectance{m.base_color}, roughness, ConstantSpectrum{1}); });
+    whole.texture += coat;
+    return whole;
+  }
+
+  // Its gloss is added to its colour.
+  Surface plastic(const PrincipledMaterial& m, const Facets& facets) {
+    return coated(pigment(m.base_color), 1 - diffuse_fresnel_outside(m.eta), m.eta, facets, {1, 1, 1});
+  }
+
+  // Light of the colour passes the surface twice.
+  static SpectrumParameter passes_once(const SpectrumParameter& color) {
+    const auto* spectrum = std::get_if<Spectrum>(&color);
+    if (!spectrum) return color;
+    const RGB c = factor_rgb(*spectrum);
+    return reflectance_from_rgb({std::sqrt(c.r), std::sqrt(c.g), std::sqrt(c.b)});
+  }
+
+  // Burley's coat reflects F·cos²θ of its amount where its facets are small: within .002 of this.
+  std::string clearcoat(const PrincipledMaterial& m) {
+    if (m.clearcoat == FloatParameter{0.0f}) return "";
+    const double amount = constant(m.clearcoat, "clearcoat"), gloss = constant(m.clearcoat_gloss, "gloss");
+    approximated(fmt::format("clearcoat: a smooth one, which adds {:.2g} % of mirrored light", 4 * amount));
+    return shining(highlight({std::lerp(0.1, 0.001, gloss)}, 0.04 * amount, false)) +
+           layer("rgbt 1", fmt::format("diffuse 0 reflection {{ rgb {}, rgb {} falloff 0.4 }}", 0.04 * amount,
+                                       0.012 * amount));
+  }
+
+  // The second in the proportion of `amount`; either is made where some of it shows.
+  template <class First, class Second>
+  Surface share(const FloatParameter& amount, const char* second_name, First&& first, Second&& second) {
+    if (amount == FloatParameter{0.0f}) return first();
+    if (amount == FloatParameter{1.0f}) return second();
+    const auto number = static_cast<std::size_t>(&material_ - context_.scene.materials.data());
+    const Surface one = first(), other = second();
+    const auto both = [&](const char* side, const std::string& without, const std::string& with) {
+      const std::string name = fmt::format("{}{}_{}", side, second_name, number);
+      context_.functions += fmt::format("#declare Without_{0} = {1}#declare {0} = {2}", name, without, with);
+      return weighted(context_, amount, "Without_" + name, name, material_.origin);
+    };
+    const auto or_black = [](const std::string& text) { return text.empty() ? "texture { Black }\n" : text; };
+    const bool has_back = !one.back.empty() || !other.back.empty();
+    return {both("", one.texture, other.texture),
+            has_back ? both("Back_", or_black(one.back), or_black(other.back)) : "",
+            one.interior.empty() ? other.interior : one.interior,
+            one.turned.empty() ? other.turned : one.turned};
   }
 
   Surface opaque_instead(const char* what, double grey) {
@@ -389,7 +404,7 @@ class Builder {
 
   Context& context_;
   const Material& material_;
-  const bool transmits_;
+  const bool transmits_, is_sheet_;
   std::string normal_;
 };
 

@@ -7,6 +7,8 @@
 
 namespace vitrail::povray {
 
+constexpr double smooth_alpha = 0.01;  // below it, microfacets do not show
+
 // A material as POV-Ray has it, in its own words: whole statements, or "".
 struct Surface {
   std::string texture;  // one or more layers: texture { … } texture { … }

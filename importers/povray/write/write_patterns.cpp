@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "importers/povray/write/write_pigments.h"
 #include "scene/models/pattern_normal.h"
 
 namespace vitrail::povray {
@@ -109,6 +110,30 @@ std::optional<std::string> normal_text(const PatternTexture& t) {
   return text + tiles(t.repeat);
 }
 
+std::string bumps_of(Context& context, const Material& material) {
+  if (material.normal_map)
+    context.dropped("normal map: POV-Ray tilts normals by heights only", material.origin);
+  if (!material.displacement) return "";
+  const auto* id = std::get_if<Id<Texture>>(&*material.displacement);
+  if (!id) return "";  // a constant height tilts nothing
+  const TextureModel& model = context.scene.textures.at(id->value).model;
+  if (const auto* pattern = std::get_if<PatternTexture>(&model))
+    if (const auto text = normal_text(*pattern))
+      return fmt::format(" normal {{ {} {} }}", *text,
+                         matrix(context.units.to_pov * pattern->texture_to_world));
+  const auto* image = std::get_if<ImageTexture>(&model);
+  const auto file =
+      image ? image_of(context, *image, ImageUse::number, material.origin) : std::optional<std::string>{};
+  if (!file || !std::holds_alternative<UvMapping>(image->mapping)) {
+    context.dropped("displacement that is not an image by uv", material.origin);
+    return "";
+  }
+  context.approximated("displacement: as a bump map, whose heights POV-Ray measures in its own way",
+                       material.origin);
+  return fmt::format(" normal {{ uv_mapping bump_map {{ {} interpolate 2 bump_size {} }} }}", *file,
+                     image->scale);
+}
+
 // A vector of length r and any direction is added to the normal. Its part along the surface has the slopes of
 // GGX, α²·u/(1 − u) squared, if r² is α² times a gamma variable of shape 3/2 over an exponential one; without
 // the latter, those of Beckmann. Sines and cosines of r ≤ 1 suffice for α = 1 of GGX, where r = 1.
@@ -139,6 +164,22 @@ std::string facet_text(double alpha, bool beckmann, double size) {
 double facet_albedo(double alpha, bool beckmann) {
   const double squared = alpha * alpha;
   return 1 / (1 + (beckmann ? 0.9 * squared * std::exp(-0.16 / squared) : 1.9 * squared));
+}
+
+// Of the light that the metal reflects from one facet, so much does not leave: what meets the interface
+// beyond the critical angle, and Fresnel's share of the rest.
+RGB with_interface(RGB bare, const CoatedFacets& f) {
+  const double normal = (f.eta - 1) * (f.eta - 1) / ((f.eta + 1) * (f.eta + 1)), squared = f.alpha * f.alpha;
+  const double slope = std::tan(std::asin(std::min(1.0, 1 / f.eta)) / 2);
+  const double beyond = squared / (squared + slope * slope), back = beyond + (1 - beyond) * normal;
+  const double way = std::cbrt(f.interface_albedo) * f.entering,
+               again = f.interface_albedo * f.entering * f.entering;
+  const auto whole = [&](double r) {
+    return (normal +
+            (1 - normal) * way * way * f.albedo * r * (1 - back) / (1 - back * again * f.albedo * r)) /
+           f.albedo;
+  };
+  return {whole(bare.r), whole(bare.g), whole(bare.b)};
 }
 
 }  // namespace vitrail::povray

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "importers/povray/write/context.h"
 #include "scene/records/pattern_texture.h"
 
 namespace vitrail::povray {
@@ -17,6 +18,9 @@ std::string pattern_text(const PatternTexture& pattern, const std::vector<std::s
 // is one of a slope_map. None where its values are textures.
 std::optional<std::string> normal_text(const PatternTexture& texture);
 
+// " normal { … }" of the material's heights, "" where nothing tilts.
+std::string bumps_of(Context& context, const Material& material);
+
 // Functions of POV-Ray's language that facet_text calls.
 const char* facet_functions();
 // Behind `normal {`: each small cube of space tilts normals at random, with the slopes of microfacets of that
@@ -24,5 +28,13 @@ const char* facet_functions();
 std::string facet_text(double alpha, bool beckmann, double size);
 // About the share of light that rough mirrors reflect from one facet alone, and not into the surface.
 double facet_albedo(double alpha, bool beckmann);
+
+// A rough metal under an interface: its facets, and the shares of light that either's facets keep, and that
+// passes the coating once.
+struct CoatedFacets {
+  double eta = 1.5, alpha = 0, albedo = 1, interface_albedo = 1, entering = 1;
+};
+// What both show at normal incidence, before `albedo` is taken off, of a metal that reflects `bare`.
+RGB with_interface(RGB bare, const CoatedFacets& facets);
 
 }  // namespace vitrail::povray

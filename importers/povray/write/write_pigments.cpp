@@ -249,11 +249,15 @@ Pigment bilinear(Context& context, const BilinearTexture& texture, const Origin&
   return p;
 }
 
-Pigment attribute(Context& context, const MeshAttributeTexture& texture, const Origin& origin,
+// What no mesh has is rendered as the number 0, and as the reflectance whose coefficients are 0.
+Pigment attribute(Context& context, const MeshAttributeTexture& texture, bool is_float, const Origin& origin,
                   const Use& use) {
-  context.approximated(fmt::format("mesh attribute {}: its mean", texture.name), origin);
+  const double absent = is_float ? 0 : 0.5;
   const auto mean = mean_of_attribute(context.scene, texture);
-  return mean ? constant(*mean, use) : grey(0.5, use);
+  context.approximated(mean ? fmt::format("mesh attribute {}: its mean", texture.name)
+                            : fmt::format("mesh attribute {}, which no mesh has: {}", texture.name, absent),
+                       origin);
+  return mean ? constant(*mean, use) : grey(absent, use);
 }
 
 Pigment build(Context& context, Id<Texture> id, const Use& use) {
@@ -275,7 +279,7 @@ Pigment build(Context& context, Id<Texture> id, const Use& use) {
   if (const auto* t = std::get_if<MixTexture>(&texture.model)) return mix(context, *t, use);
   if (const auto* t = std::get_if<BilinearTexture>(&texture.model)) return bilinear(context, *t, origin, use);
   if (const auto* t = std::get_if<MeshAttributeTexture>(&texture.model))
-    return attribute(context, *t, origin, use);
+    return attribute(context, *t, texture.is_float, origin, use);
   if (const auto* t = std::get_if<DotsTexture>(&texture.model)) {
     context.approximated("texture of dots: what is outside of them", origin);
     return build(context, t->outside, use);

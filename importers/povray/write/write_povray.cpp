@@ -49,6 +49,7 @@ class Writer {
     });
     join_surroundings(context_, context_.exposed.lights, "POV-Ray", context_.images, context_.directory);
     std::string body = camera_text(context_) + surroundings();
+    context_.has_caustics = has_caustics();
     for (const Light& light : context_.exposed.lights)
       if (shows_reflection() || traits_of(light.model).surrounds) body += light_text(context_, light);
     body += materials();
@@ -57,7 +58,7 @@ class Writer {
     for (const Instance& instance : scene().instances) body += instance_text(instance);
     save(std::filesystem::path(out_).replace_extension(".ini"),
          options_text(context_, out_.filename().generic_string()));
-    if (context_.has_facets) context_.functions += facet_functions();
+    if (context_.has_facets) context_.functions = facet_functions() + context_.functions;
     save(out_, header() + context_.functions + body);
     return context_.take();
   }
@@ -92,13 +93,35 @@ class Writer {
     std::string text = fmt::format(
         "// {} x {} pixels; the options are in the .ini file of the same name.\n#version "
         "3.7;\nglobal_settings "
-        "{{\n  assumed_gamma 1.0\n  max_trace_level {}\n  adc_bailout 0.001\n{}}}\n"
-        "#default {{ finish {{ ambient 0 diffuse 1 specular 0 reflection 0 }} }}\n",
-        film.width, film.height, levels, radiosity());
+        "{{\n  assumed_gamma 1.0\n  max_trace_level {}\n  adc_bailout 0.001\n{}{}}}\n"
+        "#default {{ finish {{ ambient 0 diffuse 1 specular 0 reflection 0 }} }}\n"
+        "#declare Clear = texture {{ pigment {{ rgbt 1 }} finish {{ diffuse 0 }} }}\n"
+        "#declare Black = texture {{ pigment {{ rgb 0 }} finish {{ diffuse 0 }} }}\n",
+        film.width, film.height, levels,
+        context_.has_caustics ? "  photons { count 100000 gather 20, 50 }\n" : "", radiosity());
     if (!context_.units.is_identity())
       text += fmt::format("// A point p of the scene is {} (p - {}) here.\n", context_.units.scale,
                           vector(transform_point(inverse(context_.units.to_pov), {0, 0, 0})));
     return text;
+  }
+
+  // Lamps with an extent, and what throws their light on where no medium scatters it. Paths do not find that
+  // of lights without extent: their light goes straight through, as it does without photons.
+  bool has_caustics() const {
+    const RenderSettings& settings = scene().settings;
+    if (settings.direct_only || settings.max_depth < 3 || context_.has_scattering) return false;
+    if (context_.exposed.area_lights.empty()) return false;
+    for (std::uint32_t i = 0; i < scene().materials.size(); ++i)
+      if (caustics_of(scene(), Id<Material>{i}).reflected) return true;
+    return false;
+  }
+
+  // What photons are shot at.
+  std::string target(Id<Material> material) const {
+    if (!context_.has_caustics) return "";
+    const Caustics caustics = caustics_of(scene(), material);
+    if (!caustics.reflected) return "";
+    return fmt::format("photons {{ target reflection on {}}}\n", caustics.refracted ? "refraction on " : "");
   }
 
   // Light that no light source brings: it takes one bounce of radiosity to reach the first surface.
@@ -148,16 +171,19 @@ class Writer {
   // ---- Materials --------------------------------------------------------------------------------
 
   std::string materials() {
-    std::set<std::uint32_t> used;
+    std::set<std::uint32_t> used, solid;
     const auto add = [&](const Shape& shape) {
-      for (const Id<Material> part : parts_of(scene(), shape.material)) used.insert(part.value);
+      const bool is_sheet = rectangle_of(text_of(shape, {})).has_value();
+      for (const Id<Material> part : parts_of(scene(), shape.material)) {
+        used.insert(part.value);
+        if (!is_sheet || part != shape.material) solid.insert(part.value);
+      }
     };
     std::ranges::for_each(scene().shapes, add);
     for (const Prototype& prototype : scene().prototypes) std::ranges::for_each(prototype.shapes, add);
+    std::ranges::set_difference(used, solid, std::inserter(context_.sheets, context_.sheets.end()));
     surfaces_.resize(scene().materials.size());
-    std::string text =
-        "#declare Clear = texture { pigment { rgbt 1 } finish { diffuse 0 } }\n"
-        "#declare Black = texture { pigment { rgb 0 } finish { diffuse 0 } }\n";
+    std::string text;
     for (const std::uint32_t i : used) {
       Surface& surface = surfaces_[i] = surface_of(context_, {i});
       const std::string& name = scene().materials[i].name;
@@ -240,7 +266,7 @@ class Writer {
     if (is_gone(shape)) shining.opacity = 1.0f;  // of a light that nothing meets
     text += light ? emitter_of(context_, shining, surface, *light)
                   : use_of(context_, shape, surface, !surface.turned.empty() && is_inside_out(mesh), media);
-    return text + flags + "}\n";
+    return text + flags + target(shape.material) + "}\n";
   }
 
   // What fills a shape that light gets into.

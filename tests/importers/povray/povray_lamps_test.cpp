@@ -37,6 +37,42 @@ TEST_F(PovrayOracle, LampsThatAreSquaresHideTheSky) {
       0.03);
 }
 
+// A floor beside a mirror has the light of the lamp and of its image.
+TEST_F(PovrayOracle, MirrorsThrowTheLightOfLamps) {
+  Scene scene = plane();
+  scene.settings.max_depth = 3;
+  TriangleMesh lamp = square(-1, 1, -1, 1, 5);
+  std::swap(lamp.positions[1], lamp.positions[3]);
+  add_emitter(scene, lamp, {8, 8, 8});
+  add(scene, quad_mesh({-3, -9, 0}, {-3, 9, 0}, {-3, 9, 9}, {-3, -9, 9}),
+      ConductorMaterial{PerfectReflector{}});
+  expect_plane(
+      scene,
+      [](double x, double y) -> std::array<double, 3> {
+        const double light = 8 * (share_of_square(x, y, 1, 5) + share_of_square(x + 6, y, 1, 5));
+        return {.8 * light, .5 * light, .25 * light};
+      },
+      0.06);
+}
+
+// A ball of radius 1.2 and index 1.5 gathers the light of a small lamp in the middle of the plane: there is
+// 31 times as much as without it by paraxial rays, less what the lamp's size blurs.
+TEST_F(PovrayOracle, GlassGathersTheLightOfLamps) {
+  Scene scene = plane();
+  scene.settings.max_depth = 6;
+  const auto middle = [&] { return render_povray(scene, folder_).at(16, 16)[0]; };
+  Shape& lamp = add_emitter(scene, square(-.1f, .1f, -.1f, .1f, 0), {200, 200, 200});
+  lamp.object_to_world = look_at({-6, 0, 6}, {0, 0, 0}, {0, 1, 0});
+  const double without = middle();
+  ASSERT_GT(without, 0.001);
+  TriangleMesh ball;
+  ball.quadric = Quadric{.kind = QuadricKind::sphere};
+  add(scene, ball, DielectricMaterial{ConstantSpectrum{1.5f}}).object_to_world =
+      translate({-3, 0, 3}) * scale({1.2, 1.2, 1.2});
+  EXPECT_GT(middle(), 8 * without);
+  EXPECT_LT(middle(), 31 * without);
+}
+
 // Nothing shows of a ball that scatters all light, under a sky of one radiance.
 TEST_F(PovrayOracle, MediaScatterTheSky) {
   Scene scene = empty_scene();

@@ -14,6 +14,7 @@ using testing::Contains;
 using testing::Field;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 auto says(const std::string& text) { return Contains(Field(&Diagnostic::message, HasSubstr(text))); }
 
@@ -222,6 +223,73 @@ TEST_F(PovrayOracle, PlasticsLetOutWhatTheirAngleLets) {
         return {seen(.8), seen(.4), seen(.1)};
       },
       0.02);
+}
+
+// Under a sky of one radiance and over nothing, from above. One surface of glass shows (1 − F)/n² of it.
+TEST_F(PovrayOracle, PrincipledMaterialsHaveAllTheirParts) {
+  const auto seen = [&](const PrincipledMaterial& principled) {
+    Scene scene = plane();
+    scene.materials[0].model = principled;
+    scene.materials[0].two_sided = false;
+    scene.lights.push_back({InfiniteLight{emission_from_rgb({.5, .5, .5})}});
+    scene.settings.max_depth = 4;
+    std::get<PerspectiveCamera>(scene.camera).screen = {-.1, .1, -.1, .1};
+    return render_povray(scene, folder_).at(16, 16)[0];
+  };
+  constexpr double facing = .04, glass = facing + (1 - facing) / 2.25;
+  PrincipledMaterial m;
+  m.eta = 1.5f, m.roughness = 0.02f;
+  m.base_color = ConstantSpectrum{0};
+  const double bare = seen(m);
+  EXPECT_NEAR(bare, .5 * facing, .001);
+  m.clearcoat = 1.0f, m.clearcoat_gloss = 1.0f;
+  EXPECT_NEAR(seen(m), bare + .5 * .04, .002);
+  m.clearcoat = 0.0f;
+  m.base_color = ConstantSpectrum{1};
+  const double plastic = seen(m);
+  m.spec_trans = 1.0f;
+  EXPECT_NEAR(seen(m), .5 * glass, .005);
+  m.spec_trans = 0.25f;
+  EXPECT_NEAR(seen(m), .75 * plastic + .25 * .5 * glass, .01);
+  m.spec_trans = 0.0f, m.metallic = 0.5f;
+  EXPECT_NEAR(seen(m), .5 * plastic + .5 * .5, .01);
+}
+
+// A pane of two sheets is as bright as what is behind it, less what both reflect, to and fro: of that POV-Ray
+// shows about one half.
+TEST_F(PovrayOracle, SheetsOfGlassMakePanes) {
+  Scene scene = empty_scene();
+  add(scene, square(-5, 5, -5, 5, 0), DielectricMaterial{ConstantSpectrum{1.5f}});
+  TriangleMesh below = square(-5, 5, -5, 5, -.1f);
+  std::swap(below.positions[1], below.positions[3]);
+  Shape second = make_shape(scene, below, DielectricMaterial{ConstantSpectrum{1.5f}});
+  second.material = scene.shapes[0].material;
+  scene.shapes.push_back(second);
+  TriangleMesh lamp = square(-5, 5, -5, 5, -1);
+  add_emitter(scene, lamp, {.5, .5, .5});
+  scene.settings.max_depth = 8;
+  std::get<PerspectiveCamera>(scene.camera).screen = {-.1, .1, -.1, .1};
+  expect_plane(
+      scene,
+      [](double, double) -> std::array<double, 3> {
+        constexpr double seen = .5 * .96 / 1.04;
+        return {seen, seen, seen};
+      },
+      .05);
+}
+
+// As they are rendered: numbers are 0, colours .5.
+TEST_F(PovrayMaterials, AttributesThatNoMeshHas) {
+  Scene scene = empty_scene();
+  const Id<Texture> nothing = add_texture(scene, MeshAttributeTexture{.name = "nothing"});
+  ConductorMaterial mirror{PerfectReflector{}};
+  mirror.roughness.alpha_u = mirror.roughness.alpha_v = nothing;
+  scene.materials = {{DiffuseMaterial{nothing}}, {mirror}};
+  show_all(scene);
+  const std::string text = text_of(scene);
+  EXPECT_THAT(text, HasSubstr("Material_0 = texture { pigment { rgb <0.5,0.5,0.5> } }"));
+  EXPECT_THAT(text, Not(HasSubstr("normal {")));
+  EXPECT_THAT(diagnostics_, says("mesh attribute nothing, which no mesh has: 0.5"));
 }
 
 // Of 2 × 2 texels on uvs from −1 to 2, without interpolation.
