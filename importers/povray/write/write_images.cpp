@@ -68,34 +68,57 @@ bool is_seen_as_meant(const ImageTexture& texture, ImageUse use) {
   return have_same_values(texture, taken, use) && (use != ImageUse::number || is_grey(texture));
 }
 
-double mean_of(const Context& context, const FloatParameter& parameter);
+// What a texture's numbers are in the mean, and between.
+struct Numbers {
+  double mean = 0.5, low = 0, high = 1;
+};
 
-double mean_of(const Context& context, const SpectrumParameter& parameter) {
+Numbers numbers_of(const Context& context, const FloatParameter& parameter);
+
+Numbers numbers_of(const Context& context, const SpectrumParameter& parameter) {
   const auto* spectrum = std::get_if<Spectrum>(&parameter);
-  return spectrum ? mean(factor_rgb(*spectrum))
-                  : mean_of(context, FloatParameter{std::get<Id<Texture>>(parameter)});
+  if (!spectrum) return numbers_of(context, FloatParameter{std::get<Id<Texture>>(parameter)});
+  const double value = mean(factor_rgb(*spectrum));
+  return {value, value, value};
 }
 
-// The mean number of a texture over all of it: 0.5 of those whose mean is not known.
-double mean_of(const Context& context, const FloatParameter& parameter) {
-  if (const auto* value = std::get_if<float>(&parameter)) return *value;
-  const TextureModel& model = context.scene.textures.at(std::get<Id<Texture>>(parameter).value).model;
-  if (const auto* t = std::get_if<ImageTexture>(&model)) {
-    const Image numbers = texture_values(*t, read_stored_image(t->filename), ImageUse::number);
-    double sum = 0;
-    for (const float number : numbers.values) sum += static_cast<double>(number);
-    return sum / static_cast<double>(std::max<std::size_t>(numbers.values.size(), 1));
+Numbers numbers_of(const Image& image) {
+  if (image.values.empty()) return {};
+  const auto [low, high] = std::ranges::minmax(image.values);
+  double sum = 0;
+  for (const float number : image.values) sum += static_cast<double>(number);
+  return {sum / static_cast<double>(image.values.size()), static_cast<double>(low),
+          static_cast<double>(high)};
+}
+
+Numbers blended(const Numbers& a, const Numbers& b, double amount) {
+  return {std::lerp(a.mean, b.mean, amount), std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+
+// Over all of it: 0.5 of those whose mean is not known.
+Numbers numbers_of(const Context& context, const FloatParameter& parameter) {
+  if (const auto* value = std::get_if<float>(&parameter)) {
+    const auto v = static_cast<double>(*value);
+    return {v, v, v};
   }
+  const TextureModel& model = context.scene.textures.at(std::get<Id<Texture>>(parameter).value).model;
+  if (const auto* t = std::get_if<ImageTexture>(&model))
+    return numbers_of(texture_values(*t, read_stored_image(t->filename), ImageUse::number));
   if (const auto* t = std::get_if<CheckerboardTexture>(&model))
-    return (mean_of(context, t->even) + mean_of(context, t->odd)) / 2;
-  if (const auto* t = std::get_if<ProductTexture>(&model))
-    return mean_of(context, t->first) * mean_of(context, t->second);
+    return blended(numbers_of(context, t->even), numbers_of(context, t->odd), 0.5);
+  if (const auto* t = std::get_if<ProductTexture>(&model)) {
+    const Numbers a = numbers_of(context, t->first), b = numbers_of(context, t->second);
+    return {a.mean * b.mean, a.low * b.low, a.high * b.high};
+  }
   if (const auto* t = std::get_if<MixTexture>(&model))
-    return std::lerp(mean_of(context, t->first), mean_of(context, t->second), mean_of(context, t->amount));
-  if (const auto* t = std::get_if<NoiseTexture>(&model)) return mean(mean_of_noise(*t));
-  if (const auto* t = std::get_if<MeshAttributeTexture>(&model))
-    return mean(mean_of_attribute(context.scene, *t).value_or(RGB{0, 0, 0}));  // 0 where no mesh has it
-  return 0.5;
+    return blended(numbers_of(context, t->first), numbers_of(context, t->second),
+                   numbers_of(context, t->amount).mean);
+  if (const auto* t = std::get_if<NoiseTexture>(&model)) return {mean(mean_of_noise(*t))};
+  if (const auto* t = std::get_if<MeshAttributeTexture>(&model)) {
+    const auto found = mean_of_attribute(context.scene, *t);
+    return found ? Numbers{mean(*found)} : Numbers{0, 0, 0};  // as it is rendered
+  }
+  return {};
 }
 
 }  // namespace
@@ -105,9 +128,11 @@ double constant_of(Context& context, const FloatParameter& parameter, const char
   const Texture& texture = context.scene.textures.at(std::get<Id<Texture>>(parameter).value);
   const Origin& place = texture.origin.line ? texture.origin : user;
   try {
-    const double value = mean_of(context, parameter);
-    context.approximated(fmt::format("texture of the {}: its mean, {:.3g}", what, value), place);
-    return value;
+    const Numbers numbers = numbers_of(context, parameter);
+    context.approximated(fmt::format("texture of the {}: its mean, {:.3g}, of {:.3g} to {:.3g}", what,
+                                     numbers.mean, numbers.low, numbers.high),
+                         place);
+    return numbers.mean;
   } catch (const Error& error) {
     context.approximated(fmt::format("texture of the {}: 0.5: {}", what, error.what()), place);
     return 0.5;

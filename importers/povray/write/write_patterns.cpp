@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
+#include "images/texture_values.h"
 #include "importers/povray/write/write_pigments.h"
 #include "scene/models/pattern_normal.h"
 
@@ -64,6 +66,25 @@ std::string turbulence_text(const PatternTexture& t) {
                      u.omega);
 }
 
+// How far a normal map tilts, where its image can be read.
+std::string mean_tilt(const TextureModel& model) {
+  const auto* texture = std::get_if<ImageTexture>(&model);
+  if (!texture) return "";
+  try {
+    const Image image = texture_values(*texture, read_stored_image(texture->filename), ImageUse::vector);
+    if (image.channels < 3) return "";
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i + 2 < image.values.size();
+         i += static_cast<std::size_t>(image.channels), ++count) {
+      const auto part = [&](std::size_t c) { return 2 * static_cast<double>(image.values[i + c]) - 1; };
+      sum += std::atan2(std::hypot(part(0), part(1)), part(2));
+    }
+    return fmt::format("; it tilts them by {:.2g} degrees in the mean", sum / count * 180 / std::numbers::pi);
+  } catch (const Error&) {  // which the texture says
+    return "";
+  }
+}
+
 }  // namespace
 
 std::string pattern_text(const PatternTexture& t, const std::vector<std::string>& values) {
@@ -112,7 +133,9 @@ std::optional<std::string> normal_text(const PatternTexture& t) {
 
 std::string bumps_of(Context& context, const Material& material) {
   if (material.normal_map)
-    context.dropped("normal map: POV-Ray tilts normals by heights only", material.origin);
+    context.dropped(fmt::format("normal map: POV-Ray tilts normals by heights only{}",
+                                mean_tilt(context.scene.textures.at(material.normal_map->value).model)),
+                    material.origin);
   if (!material.displacement) return "";
   const auto* id = std::get_if<Id<Texture>>(&*material.displacement);
   if (!id) return "";  // a constant height tilts nothing

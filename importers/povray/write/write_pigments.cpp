@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/povray/write/write_pigments.h"
 
+#include <array>
 #include <cmath>
 
 #include "images/ptex_means.h"
 #include "importers/povray/write/write_patterns.h"
 #include "importers/writing/export_colors.h"
 #include "scene/records/texture_inputs.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail::povray {
 
@@ -249,14 +251,36 @@ Pigment bilinear(Context& context, const BilinearTexture& texture, const Origin&
   return p;
 }
 
+double farthest_from(const Scene& scene, const MeshAttributeTexture& texture, RGB mean) {
+  double farthest = 0;
+  for (const TriangleMesh& stored : scene.meshes) {
+    TriangleMesh storage;
+    for (const MeshAttribute& a : loaded(stored, storage).attributes) {
+      if (a.name != texture.name) continue;
+      const std::array<double, 3> means =
+          a.channels == 3 ? std::array{mean.r, mean.g, mean.b} : std::array{mean.r, mean.r, mean.r};
+      for (std::size_t i = 0; i < a.values.size(); ++i)
+        farthest =
+            std::max(farthest, std::abs(static_cast<double>(a.values[i] * texture.scale) - means[i % 3]));
+    }
+  }
+  return farthest;
+}
+
 // What no mesh has is rendered as the number 0, and as the reflectance whose coefficients are 0.
 Pigment attribute(Context& context, const MeshAttributeTexture& texture, bool is_float, const Origin& origin,
                   const Use& use) {
   const double absent = is_float ? 0 : 0.5;
   const auto mean = mean_of_attribute(context.scene, texture);
-  context.approximated(mean ? fmt::format("mesh attribute {}: its mean", texture.name)
-                            : fmt::format("mesh attribute {}, which no mesh has: {}", texture.name, absent),
-                       origin);
+  if (!mean)
+    context.approximated(fmt::format("mesh attribute {}, which no mesh has: {}", texture.name, absent),
+                         origin);
+  else
+    context.approximated(
+        fmt::format("mesh attribute {}: its mean, ({:.2g}, {:.2g}, {:.2g}), from which its values go up to "
+                    "{:.2g} away",
+                    texture.name, mean->r, mean->g, mean->b, farthest_from(context.scene, texture, *mean)),
+        origin);
   return mean ? constant(*mean, use) : grey(absent, use);
 }
 

@@ -137,7 +137,9 @@ class Writer {
     const int bounces = depth - (has_indirect_sources() ? 0 : 1);
     if (bounces < 1) return "";
     context_.approximated(
-        "light between surfaces, and from sources that are no points or rectangles: POV-Ray's radiosity", {});
+        "light between surfaces, and from sources that are no points or rectangles: POV-Ray's radiosity, "
+        "within 1 % of the mean and 10 % of a block where it was measured",
+        {});
     return fmt::format(
         "  radiosity {{\n    count 400 nearest_count 10 error_bound 0.25 low_error_factor 0.5\n"
         "    pretrace_start 0.08 pretrace_end 0.01 minimum_reuse 0.005 recursion_limit {}\n"

@@ -143,6 +143,29 @@ TEST_F(PovrayMaterials, WhatIsNotExactIsSaid) {
     }
 }
 
+// Notes say how much, where it can be computed.
+TEST_F(PovrayMaterials, NotesSayTheSize) {
+  test::write_png(folder_ / "ramp.png", 4, 1, 1, {0, 51, 102, 255});
+  test::write_png(folder_ / "tilted.png", 1, 1, 3, {218, 128, 218});  // 45 degrees
+  Scene scene = empty_scene();
+  ImageTexture ramp{(folder_ / "ramp.png").string()}, tilted{(folder_ / "tilted.png").string()};
+  ramp.encoding = tilted.encoding = Encoding::linear;
+  ConductorMaterial mirror{PerfectReflector{}};
+  mirror.roughness.alpha_u = mirror.roughness.alpha_v = add_texture(scene, ramp);
+  Material bumpy{DiffuseMaterial{}};
+  bumpy.normal_map = add_texture(scene, tilted);
+  const Id<Texture> attribute = add_texture(scene, MeshAttributeTexture{"vertex_color"});
+  scene.materials = {{mirror}, bumpy, {DiffuseMaterial{attribute}}};
+  show_all(scene);
+  scene.meshes.back().attributes.push_back({"vertex_color", false, 3, {0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1}});
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({1, 1, 1})}});
+  text_of(scene);
+  EXPECT_THAT(diagnostics_, says("its mean, 0.4, of 0 to 1"));
+  EXPECT_THAT(diagnostics_, says("tilts them by 45 degrees in the mean"));
+  EXPECT_THAT(diagnostics_, says("its mean, (0.5, 0.5, 0.5), from which its values go up to 0.5 away"));
+  EXPECT_THAT(diagnostics_, says("within 1 % of the mean and 10 % of a block"));
+}
+
 TEST_F(PovrayMaterials, ExactScenesNeedNoWords) {
   Scene scene = empty_scene();
   add(scene, square(-1, 1, -1, 1, 0), DiffuseMaterial{reflectance_from_rgb({.2, .4, .6})});
