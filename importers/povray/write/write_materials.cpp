@@ -168,7 +168,10 @@ class Builder {
     if (context_.has_caustics)
       approximated("dielectric: caustics by 100,000 photons, of lamps that are rectangles alone");
     else
-      approximated("dielectric: light of sources passes straight through it, without caustics");
+      approximated(
+          fmt::format("dielectric: light of sources passes straight through it, without caustics and "
+                      "without the {:.2g} % that a surface mirrors",
+                      100 * (eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1))));
     const double ratio = dispersion_ratio(m.eta);
     const bool disperses = std::abs(ratio - 1) > 1e-4;
     if (disperses) approximated("dispersion: POV-Ray's seven colours between n(700 nm) and n(400 nm)");
@@ -195,7 +198,10 @@ class Builder {
     const double eta = index(m.eta, m.exterior_eta);
     const double once = (eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1));
     const double sheet = 2 * once / (1 + once);  // to and fro
-    approximated("thin dielectric: reflects by Schlick's approximation");
+    approximated(
+        fmt::format("thin dielectric: reflects by Schlick's approximation; light of sources passes "
+                    "without the {:.2g} % that it mirrors",
+                    100 * sheet));
     const RGB reflected = constant_color(m.reflectance_factor, "factor of reflection");
     return {layer(color(constant_color(m.transmittance_factor, "factor of transmission")) + " filter 1",
                   fmt::format("diffuse 0 reflection {{ {}, {} falloff 5 }} conserve_energy",

@@ -155,7 +155,12 @@ TEST_F(PovrayMaterials, NotesSayTheSize) {
   Material bumpy{DiffuseMaterial{}};
   bumpy.normal_map = add_texture(scene, tilted);
   const Id<Texture> attribute = add_texture(scene, MeshAttributeTexture{"vertex_color"});
-  scene.materials = {{mirror}, bumpy, {DiffuseMaterial{attribute}}};
+  const ConstantSpectrum glass{1.5f}, air{1};
+  scene.materials = {{mirror},
+                     {ThinDielectricMaterial{glass, air}},
+                     {DielectricMaterial{glass, air}},
+                     bumpy,
+                     {DiffuseMaterial{attribute}}};
   show_all(scene);
   scene.meshes.back().attributes.push_back({"vertex_color", false, 3, {0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1}});
   scene.lights.push_back({InfiniteLight{emission_from_rgb({1, 1, 1})}});
@@ -163,6 +168,8 @@ TEST_F(PovrayMaterials, NotesSayTheSize) {
   EXPECT_THAT(diagnostics_, says("its mean, 0.4, of 0 to 1"));
   EXPECT_THAT(diagnostics_, says("tilts them by 45 degrees in the mean"));
   EXPECT_THAT(diagnostics_, says("its mean, (0.5, 0.5, 0.5), from which its values go up to 0.5 away"));
+  EXPECT_THAT(diagnostics_, says("without the 7.7 % that it mirrors"));
+  EXPECT_THAT(diagnostics_, says("without the 4 % that a surface mirrors"));
   EXPECT_THAT(diagnostics_, says("within 1 % of the mean and 10 % of a block"));
 }
 
