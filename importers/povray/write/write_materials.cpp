@@ -166,7 +166,7 @@ class Builder {
     const RGB reflected = constant_color(m.reflectance_factor, "factor of reflection");
     const Pigment through = pigment(m.transmittance_factor);
     if (context_.has_caustics)
-      approximated("dielectric: caustics by 100,000 photons, of lamps that are rectangles alone");
+      approximated("dielectric: caustics by 400,000 photons, of lamps that are rectangles alone");
     else
       approximated(
           fmt::format("dielectric: light of sources passes straight through it, without caustics and "

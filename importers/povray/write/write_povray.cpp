@@ -98,7 +98,7 @@ class Writer {
         "#declare Clear = texture {{ pigment {{ rgbt 1 }} finish {{ diffuse 0 }} }}\n"
         "#declare Black = texture {{ pigment {{ rgb 0 }} finish {{ diffuse 0 }} }}\n",
         film.width, film.height, levels,
-        context_.has_caustics ? "  photons { count 100000 gather 20, 50 }\n" : "", radiosity());
+        context_.has_caustics ? "  photons { count 400000 gather 20, 50 }\n" : "", radiosity());
     if (!context_.units.is_identity())
       text += fmt::format("// A point p of the scene is {} (p - {}) here.\n", context_.units.scale,
                           vector(transform_point(inverse(context_.units.to_pov), {0, 0, 0})));
