@@ -1,139 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/bsdf/dielectric.h"
 
+#include "tracer/bsdf/dielectric_lanes.h"
 #include "tracer/bsdf/local.h"
 
 namespace vitrail {
 
 namespace {
 
-// The interface as seen with `out` above it.
-struct Sighting {
-  Vector3d out;
-  double eta;   // index on the other side / on this one
-  double side;  // −1 where the picture is upside down
-  Vector3d turned(Vector3d v) const { return {v.x, v.y, v.z * side}; }
-};
-
-Sighting sight(const DielectricBsdf& bsdf, Vector3d out) {
-  return out.z > 0 ? Sighting{out, bsdf.eta, 1} : Sighting{{out.x, out.y, -out.z}, 1 / bsdf.eta, -1};
+lanes::RoughDielectric<double> in_one_lane(const DielectricBsdf& bsdf) {
+  return {bsdf.eta, lanes::fill(bsdf.microfacets), lanes::fill<float>(bsdf.reflectance_factor),
+          lanes::fill<float>(bsdf.transmittance_factor)};
 }
 
-// How likely `sample` is to reflect, and what it then multiplies the reflectance and the transmittance by.
-struct Choice {
-  double reflectance, transmittance, reflection_probability;
-  float reflection_weight() const { return static_cast<float>(reflectance / reflection_probability); }
-  float transmission_weight() const {
-    return static_cast<float>(transmittance / (1 - reflection_probability));
-  }
-};
-
-// Nothing where both factors are black.
-std::optional<Choice> choose(const DielectricBsdf& bsdf, double cosine, double eta) {
-  const double r = fresnel_dielectric(std::min(cosine, 1.0), eta);
-  const double bright_r = r * static_cast<double>(max_value(bsdf.reflectance_factor));
-  const double bright_t = (1 - r) * static_cast<double>(max_value(bsdf.transmittance_factor));
-  if (!(bright_r + bright_t > 0)) return std::nullopt;
-  return Choice{r, 1 - r, attainable(bright_r / (bright_r + bright_t))};
-}
-
-bool matched(double eta) { return std::abs(eta - 1) < 1e-6; }
-
-bool scatters(const DielectricBsdf& bsdf, Vector3d out, Vector3d in) {
-  return out.z != 0 && in.z != 0 && !bsdf.microfacets.smooth() && !matched(bsdf.eta);
-}
-
-// One pair of directions, out.z > 0, joined by a facet of normal m.
-struct Facet {
-  Vector3d m;
-  double out_m, in_m;  // cosines; in_m < 0 for transmission
-  double jacobian;     // dm/d in
-  bool valid;          // both directions see the sides of the facet that they see of the surface
-};
-
-Facet facet_of(Vector3d out, Vector3d in, Vector3d m, double eta) {
-  const bool reflected = in.z > 0;
-  const double out_m = dot(out, m), in_m = dot(in, m);
-  const double sum = out_m + eta * in_m;  // ≠ 0 as eta ≠ 1
-  const double jacobian = reflected ? 1 / (4 * out_m) : eta * eta * std::abs(in_m) / (sum * sum);
-  return {m, out_m, in_m, jacobian, m.z > 0 && out_m > 0 && (reflected ? in_m > 0 : in_m < 0)};
-}
-
-Facet facet_between(Vector3d out, Vector3d in, double eta) {
-  const Vector3d m = normalize(in.z > 0 ? out + in : out + in * eta);
-  return facet_of(out, in, m.z < 0 ? -m : m, eta);
-}
-
-// area = σ(out).
-double facet_pdf(const Microfacets& mf, double area, const Facet& facet) {
-  return facet.out_m * normal_density(mf, facet.m) / area * facet.jacobian;
-}
-
-// G₂/G₁(out): what part of the light from a visible facet is seen by `in` too.
-double seen(const Microfacets& mf, Vector3d out, double area, Vector3d in) {
-  return shadowing_over_cosines(mf, out, area, in) * std::abs(in.z) * area;
+// Seen from above, where the index on the other side over that on this one is `eta`.
+std::optional<BsdfSample> sample_smooth(const DielectricBsdf& bsdf, Vector3d out, double eta, float u_lobe) {
+  const lanes::detail::Reflecting<double> choice = lanes::detail::reflecting(in_one_lane(bsdf), out.z, eta);
+  if (!choice.some) return std::nullopt;
+  if (static_cast<double>(u_lobe) < choice.probability)
+    return BsdfSample{
+        .in = mirror(out, {0, 0, 1}),
+        .weight = bsdf.reflectance_factor * static_cast<float>(choice.reflectance / choice.probability),
+        .specular = true};
+  BsdfSample through{.specular = true};
+  if (!refract(out, {0, 0, 1}, eta, through.in) || !(through.in.z < 0)) return std::nullopt;
+  const auto transmittance = static_cast<float>((1 - choice.reflectance) / (1 - choice.probability));
+  through.weight = bsdf.transmittance_factor * (transmittance / static_cast<float>(eta * eta));
+  return through;
 }
 
 }  // namespace
 
 BsdfValue eval(const DielectricBsdf& bsdf, Vector3d out, Vector3d in) {
-  if (!scatters(bsdf, out, in)) return {};
-  const Sighting s = sight(bsdf, out);
-  const Vector3d to = s.turned(in);
-  const Facet facet = facet_between(s.out, to, s.eta);
-  if (!facet.valid) return {};
-  const auto choice = choose(bsdf, facet.out_m, s.eta);
-  const double area = visible_area(bsdf.microfacets, s.out);
-  const double density = facet_pdf(bsdf.microfacets, area, facet);
-  if (!choice || !(density > 0)) return {};
-  const double share = density * seen(bsdf.microfacets, s.out, area, to);
-  if (to.z > 0)
-    return {bsdf.reflectance_factor * static_cast<float>(share * choice->reflectance),
-            density * choice->reflection_probability};
-  return {bsdf.transmittance_factor * static_cast<float>(share * choice->transmittance / (s.eta * s.eta)),
-          density * (1 - choice->reflection_probability)};
+  if (bsdf.microfacets.smooth() || goes_straight(bsdf.eta)) return {};
+  return lanes::lane(lanes::eval(in_one_lane(bsdf), lanes::fill<double>(out), lanes::fill<double>(in)), 0);
 }
 
-double pdf(const DielectricBsdf& bsdf, Vector3d out, Vector3d in) {
-  if (!scatters(bsdf, out, in)) return 0;
-  const Sighting s = sight(bsdf, out);
-  const Vector3d to = s.turned(in);
-  const Facet facet = facet_between(s.out, to, s.eta);
-  if (!facet.valid) return 0;
-  const auto choice = choose(bsdf, facet.out_m, s.eta);
-  if (!choice) return 0;
-  const double lobe = to.z > 0 ? choice->reflection_probability : 1 - choice->reflection_probability;
-  return lobe * facet_pdf(bsdf.microfacets, visible_area(bsdf.microfacets, s.out), facet);
-}
+double pdf(const DielectricBsdf& bsdf, Vector3d out, Vector3d in) { return eval(bsdf, out, in).pdf; }
 
 std::optional<BsdfSample> sample(const DielectricBsdf& bsdf, Vector3d out, float u_lobe, Point2f u) {
-  const Microfacets& mf = bsdf.microfacets;
-  const Sighting s = sight(bsdf, out);
-  if (!(s.out.z > 0)) return std::nullopt;
-  const bool specular = mf.smooth() || matched(bsdf.eta);
-  if (specular && !mf.smooth())
+  if (bsdf.microfacets.smooth()) {
+    if (out.z > 0) return sample_smooth(bsdf, out, bsdf.eta, u_lobe);
+    if (!(out.z < 0)) return std::nullopt;
+    auto from_behind = sample_smooth(bsdf, {out.x, out.y, -out.z}, 1 / bsdf.eta, u_lobe);
+    if (from_behind) from_behind->in.z = -from_behind->in.z;
+    return from_behind;
+  }
+  if (out.z == 0) return std::nullopt;
+  if (goes_straight(bsdf.eta))
     return BsdfSample{.in = -out, .weight = bsdf.transmittance_factor, .specular = true};
-
-  const Vector3d m = specular ? Vector3d{0, 0, 1} : sample_visible_normal(mf, s.out, u);
-  const double out_m = dot(s.out, m);
-  const auto choice = choose(bsdf, out_m, s.eta);
-  if (!choice || !(out_m > 0)) return std::nullopt;
-  const bool reflected = static_cast<double>(u_lobe) < choice->reflection_probability;
-  Vector3d in = mirror(s.out, m);
-  if (!reflected && !refract(s.out, m, s.eta, in)) return std::nullopt;
-  if (!(reflected ? in.z > 0 : in.z < 0)) return std::nullopt;
-
-  BsdfSample result{.in = s.turned(in), .specular = specular};
-  result.weight = reflected ? bsdf.reflectance_factor * choice->reflection_weight()
-                            : bsdf.transmittance_factor *
-                                  (choice->transmission_weight() / static_cast<float>(s.eta * s.eta));
-  if (specular) return result;
-  const double area = visible_area(mf, s.out);
-  result.pdf = facet_pdf(mf, area, facet_of(s.out, in, m, s.eta)) *
-               (reflected ? choice->reflection_probability : 1 - choice->reflection_probability);
-  result.weight = result.weight * static_cast<float>(seen(mf, s.out, area, in));
-  if (!(result.pdf > 0)) return std::nullopt;
-  return result;
+  return lanes::lane(lanes::sample(in_one_lane(bsdf), lanes::fill<double>(out), u_lobe, u.x, u.y), 0);
 }
 
 namespace {

@@ -26,6 +26,9 @@ struct ThinDielectricBsdf {
   SampledSpectrum throughput = filled(1);  // of the path: guides its choice
 };
 
+// Whether a rough interface of that index lets light straight through.
+inline bool goes_straight(double eta) { return eta > 1 - 1e-6 && eta < 1 + 1e-6; }
+
 BsdfValue eval(const DielectricBsdf& bsdf, Vector3d out, Vector3d in);
 double pdf(const DielectricBsdf& bsdf, Vector3d out, Vector3d in);
 std::optional<BsdfSample> sample(const DielectricBsdf& bsdf, Vector3d out, float u_lobe, Point2f u);

@@ -18,6 +18,21 @@ struct ChosenLights {
   bool any[W];
 };
 
+// By power of slots[j] for the lanes of `of`, where one of them is chosen with chosen.probability[j].
+template <class D>
+VITRAIL_LANES void choose_alike(const LightTree& tree, const LightTree::Slots (&slots)[width<D>], unsigned of,
+                                const double (&rest)[width<D>], ChosenLights<width<D>>& chosen) {
+  const ChosenByPower<D> one = choose_by_power<D>(
+      tree, [&](int j) __attribute__((always_inline))->const LightTree::Slots& { return slots[j]; },
+      gather<D>([&](int j) __attribute__((always_inline)) { return rest[j]; }));
+  for (int j = 0; j < width<D>; ++j) {
+    if (!(of >> j & 1)) continue;
+    chosen.any[j] = is_set(one.any, j);
+    chosen.slot[j] = one.slot[j], chosen.rest[j] = lane(one.rest, j);
+    chosen.probability[j] = lane(one.probability, j) * chosen.probability[j];
+  }
+}
+
 // For the lanes that are `wanted`. `root` keeps what the root's children weigh for the points: `root_known`
 // where a call for the same points has left it there.
 template <class D>
@@ -40,9 +55,11 @@ VITRAIL_LANES void choose_lights(const LightTree& tree, Vector<D> p, D u, Mask<D
   if (open == 0) return;
   // Of lanes that go on by power: what they choose of, once all have come to that.
   unsigned powered = 0;
-  LightTree::Slots alike[W];
-  for (int j = 0; j < W; ++j) alike[j] = tree.all();
-  if (tree.choice() == LightChoice::power) powered = open, open = 0;
+  LightTree::Slots alike[W]{};
+  if (tree.choice() == LightChoice::power) {
+    for (int j = 0; j < W; ++j) alike[j] = tree.all();
+    powered = open, open = 0;
+  }
   const D least = fill<D>(-LightTree::farthest), most = fill<D>(LightTree::farthest);
   const auto coordinate = [&](D x, double center) __attribute__((always_inline)) {
     const D local = (x - center) * tree.scale();
@@ -89,16 +106,7 @@ VITRAIL_LANES void choose_lights(const LightTree& tree, Vector<D> p, D u, Mask<D
       }
     }
   }
-  if (powered == 0) return;
-  const ChosenByPower<D> one = choose_by_power<D>(
-      tree, [&](int j) __attribute__((always_inline))->const LightTree::Slots& { return alike[j]; },
-      gather<D>([&](int j) __attribute__((always_inline)) { return rest[j]; }));
-  for (int j = 0; j < W; ++j) {
-    if (!(powered >> j & 1)) continue;
-    chosen.any[j] = is_set(one.any, j);
-    chosen.slot[j] = one.slot[j], chosen.rest[j] = lane(one.rest, j);
-    chosen.probability[j] = lane(one.probability, j) * chosen.probability[j];
-  }
+  if (powered != 0) choose_alike<D>(tree, alike, powered, rest, chosen);
 }
 
 }  // namespace

@@ -54,11 +54,11 @@ void set(const PlasticMaterial& m, LaneMaterial& s) {
 }
 
 void set(const PrincipledMaterial& m, LaneMaterial& s) {
-  if (m.thin || m.spec_trans != FloatParameter{0.0f}) return;
+  if (m.thin) return;
   s.kind = LaneKind::principled;
-  const FloatParameter* const numbers[] = {&m.roughness, &m.anisotropic, &m.metallic,
-                                           &m.spec_tint, &m.sheen,       &m.sheen_tint,
-                                           &m.flatness,  &m.clearcoat,   &m.clearcoat_gloss};
+  const FloatParameter* const numbers[] = {&m.roughness, &m.anisotropic,    &m.metallic,   &m.spec_trans,
+                                           &m.spec_tint, &m.sheen,          &m.sheen_tint, &m.flatness,
+                                           &m.clearcoat, &m.clearcoat_gloss};
   set_spectra({&m.base_color}, s);
   if (std::ranges::all_of(numbers, [](const auto* number) { return std::holds_alternative<float>(*number); }))
     return;
@@ -73,7 +73,13 @@ void set(const FinishMaterial& m, LaneMaterial& s) {
 void set(const DielectricMaterial& m, LaneMaterial& s) {
   const auto *behind = std::get_if<ConstantSpectrum>(&m.eta),
              *before = std::get_if<ConstantSpectrum>(&m.exterior_eta);
-  if (!is_smooth(m.roughness) || !behind || !before || m.priority) return;
+  if (!behind || !before || m.priority) return;
+  if (!is_smooth(m.roughness)) {
+    const float eta = before->value > 0 ? behind->value / before->value : behind->value;
+    if (!width_of(m.roughness) || goes_straight(static_cast<double>(eta))) return;
+    s.kind = LaneKind::rough_glass;
+    return set_spectra({&m.reflectance_factor, &m.transmittance_factor}, s);
+  }
   if (!is_one(m.reflectance_factor) || !is_one(m.transmittance_factor)) return;
   s.kind = LaneKind::glass;
   s.has_parameters = false;
@@ -177,6 +183,10 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf) {
   } else if (const auto* finish = std::get_if<FinishBsdf>(&bsdf)) {
     l.spectra[0] = finish->reflectance, l.spectra[1] = finish->highlight;
     l.finish = *finish;
+  } else if (const auto* glass = std::get_if<DielectricBsdf>(&bsdf)) {
+    l.spectra[0] = glass->reflectance_factor, l.spectra[1] = glass->transmittance_factor;
+    l.eta = glass->eta;
+    l.microfacets = glass->microfacets;
   }
   return l;
 }
@@ -190,6 +200,7 @@ LaneScene::LaneScene(const Manifest& manifest, const Textures& images, const Int
   divides_space = interiors.divide_space();
   for (const Material& material : manifest.materials) {
     LaneMaterial& lane = this->materials.emplace_back(lane_material(manifest, images, material));
+    lane.transmits = materials.kind(static_cast<std::uint32_t>(this->materials.size() - 1)).transmits;
     if (lane.kind != LaneKind::none && lane.kind != LaneKind::glass && !lane.has_parameters &&
         !lane.texture.image)
       lane.constants = lane_bsdf(materials.bsdf_at(material, {}, luminance_wavelengths()[0]));

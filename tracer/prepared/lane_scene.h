@@ -21,11 +21,12 @@ enum class LaneKind : std::uint8_t {
   metal,    // and rough
   plastic,  // PlasticBsdf
   rough_plastic,
-  principled,  // PrincipledBsdf, opaque
-  finish,      // FinishBsdf
-  glass        // smooth, of one index
+  principled,   // PrincipledBsdf
+  finish,       // FinishBsdf
+  rough_glass,  // DielectricBsdf, rough, of one index
+  glass         // smooth, of one index
 };
-inline constexpr std::size_t lane_kinds = 9;
+inline constexpr std::size_t lane_kinds = 10;
 
 // An image that lanes look up: by (u,v), bilinear, the finest level.
 struct LaneTexture {
@@ -38,10 +39,11 @@ struct LaneTexture {
 // The parameters of a BSDF at a point.
 struct LaneBsdf {
   static constexpr std::size_t most_spectra = 3;
-  // Reflectance; index η and κ and a factor; diffuse and specular reflectance; base colour.
+  // Reflectance; index η and κ and a factor; diffuse and specular reflectance; base colour;
+  // factors of what is reflected and of what is let through.
   SampledSpectrum spectra[most_spectra];
   Microfacets microfacets;
-  double eta = 1, internal_reflectance = 0;       // of plastics
+  double eta = 1, internal_reflectance = 0;       // of plastics; eta of rough glass, too
   const float* external_transmittance = nullptr;  // of rough ones: RoughPlasticTables'
   bool is_nonlinear = false, is_perfect = false;
   PrincipledBsdf principled;
@@ -53,6 +55,7 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf);
 struct LaneMaterial {
   LaneKind kind = LaneKind::none;
   bool two_sided = false;
+  bool transmits = false;                        // as MaterialKind
   bool is_textured = false;                      // its parameters depend on the point
   bool is_tilted = false;                        // a map or a height turns its normal
   bool is_raised = false;                        // a height does

@@ -5,6 +5,7 @@
 #include "tests/tracer/lanes/context.h"
 #include "tests/tracer/lanes/lane_table.h"
 #include "tracer/bsdf/conductor_lanes.h"
+#include "tracer/bsdf/dielectric_lanes.h"
 #include "tracer/bsdf/finish_lanes.h"
 #include "tracer/bsdf/plastic_lanes.h"
 #include "tracer/bsdf/principled_lanes.h"
@@ -56,6 +57,14 @@ LANE_FUNCTION(conductor, 25, 25) {
   out.four(f.value), out.number(f.pdf);
   put_sample(lanes::sample(bsdf, in.vector(17), in.f(23), in.f(24)), out);
   put_sample(lanes::sample_mirror(bsdf, in.vector(17)), out);
+}
+// Widths and kinds, four of each factor, index, two directions, three numbers.
+LANE_FUNCTION(rough_dielectric, 22, 15) {
+  const lanes::RoughDielectric<lanes::Doubles<W>> bsdf{in.d(12), microfacets_of(in, 0), four_of(in, 4),
+                                                       four_of(in, 8)};
+  const auto f = lanes::eval(bsdf, in.vector(13), in.vector(16));
+  out.four(f.value), out.number(f.pdf);
+  put_sample(lanes::sample(bsdf, in.vector(13), in.f(19), in.f(20), in.f(21)), out);
 }
 // Widths and kinds, diffuse and specular reflectances, index, inside reflectance, nonlinear or not, a table,
 // two directions, three numbers.

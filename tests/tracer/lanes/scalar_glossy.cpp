@@ -3,6 +3,7 @@
 #include "tests/tracer/lanes/results.h"
 #include "tests/tracer/lanes/scalar_functions.h"
 #include "tracer/bsdf/conductor.h"
+#include "tracer/bsdf/dielectric.h"
 #include "tracer/bsdf/finish.h"
 #include "tracer/bsdf/plastic.h"
 #include "tracer/bsdf/principled.h"
@@ -57,7 +58,7 @@ void put(const BsdfValue& f, Results& results) { results << f.value.v << f.pdf; 
 
 std::vector<ScalarFunction> glossy_functions() {
   std::vector<Argument> microfacets = facets(), conductor = facets(), plastic = facets(),
-                        principled = reflectances(), finish = reflectances();
+                        principled = reflectances(), finish = reflectances(), dielectric = facets();
   add(microfacets, {direction_above(), direction(), unit_number(), unit_number()});
   add(conductor, std::vector<Argument>(4, float_number(0.05, 4, {0.2, 1})));
   add(conductor, std::vector<Argument>(4, float_number(0, 8, {0.5, 3})));
@@ -67,6 +68,10 @@ std::vector<ScalarFunction> glossy_functions() {
   add(plastic, reflectances());
   add(plastic, {number(1.1, 2.5, {1.5, 1.0}), number(0, 0.9, {0, 0.6}), word(2), word(2), upper_direction(),
                 upper_direction(), unit_number(), unit_number(), unit_number()});
+  add(dielectric, reflectances());
+  add(dielectric, reflectances());
+  add(dielectric, {number(0.4, 2.5, {1.5, 1 / 1.5}), direction(), direction(), unit_number(), unit_number(),
+                   unit_number()});
   const Argument amount = number(0, 1, {0, 1, 0.5});
   add(principled, {amount, number(0.4, 2.5, {1, 1.5})});
   add(principled, std::vector<Argument>(10, amount));
@@ -101,6 +106,14 @@ std::vector<ScalarFunction> glossy_functions() {
          put(sample(bsdf, from, 0, numbers_of(in + 23)), results);
          bsdf.microfacets = {};
          put(sample(bsdf, from, 0, {}), results);
+       }},
+      {"rough_dielectric", dielectric,
+       [](const Context&, const double* in, double* out) {
+         const DielectricBsdf bsdf{in[12], microfacets_of(in), four_of(in + 4), four_of(in + 8)};
+         const Vector3d from = vector_of(in + 13);
+         Results results{out};
+         put(eval(bsdf, from, vector_of(in + 16)), results);
+         put(sample(bsdf, from, static_cast<float>(in[19]), numbers_of(in + 20)), results);
        }},
       {"plastic", plastic,
        [](const Context&, const double* in, double* out) {

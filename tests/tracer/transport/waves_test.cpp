@@ -188,6 +188,24 @@ std::vector<Case> cases() {
          d.roughness.alpha_u = d.roughness.alpha_v = 0.2f;
          return d;
        }()))},
+      {"frosted glass of colours and by a map, and what scatters like it",
+       [](Scene& s) {
+         pictures(TextureFilter::bilinear)(s);
+         DielectricMaterial d;
+         d.roughness.alpha_u = 0.1f, d.roughness.alpha_v = 0.4f;
+         d.roughness.distribution = Roughness::Distribution::beckmann;
+         d.transmittance_factor = Spectrum{reflectance_from_rgb({0.9f, 0.5f, 0.1f})};
+         s.materials.back() = material(d, false);  // of the ball
+         s.materials.back().normal_map = Id<Texture>{0};
+         d.reflectance_factor = Id<Texture>{0};
+         s.materials[s.materials.size() - 2] = material(d, false);
+         PrincipledMaterial clear;
+         clear.spec_trans = 0.7f, clear.eta = 1.4f, clear.roughness = 0.3f;
+         add_shape(s, add_quads(s, box_faces({0.3f, -1, 0.3f}, {0.7f, -0.6f, 0.7f})), material(clear, false));
+         add_shape(s, add_quads(s, box_faces({-0.9f, -1, 0.3f}, {-0.7f, -0.6f, 0.7f})), principled(0.3f));
+         s.meshes[0].triangles.resize(8);
+         s.lights.push_back(Light{DistantLight{{0.3, -0.5, 0.8}, ConstantSpectrum{1}}});
+       }},
       {"glass in glass",
        [](Scene& s) {
          const auto add = [&](Point3f low, Point3f high, float eta) {

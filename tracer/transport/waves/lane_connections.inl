@@ -351,7 +351,7 @@ VITRAIL_LANES BsdfValue<D> eval_towards(const LaneWork& work, const Candidate& c
 template <class Bsdf>
 VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carried, const Interaction<D>& at,
                            const Bsdf& bsdf, const Frame<D>& frame, Vector<D> out, Mask<D> on,
-                           std::uint32_t count) {
+                           Mask<D> transmits, std::uint32_t count) {
   const Four<F> u =
       lanes::sample_4d(work.tracing.scene.seed, carried.pixel, carried.sample, 2u + 2u * carried.depth);
   D choice = to_doubles(gather<F>(VITRAIL_EACH(g.path[j]->film.camera.data()[3])));
@@ -363,7 +363,8 @@ VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carrie
     const Candidate c = candidate_of(work, g, at.p, k > 0 ? numbers_of_candidate(u, k) : u, on, root);
     const Vector<D> in = frame.to_local(c.light.to_light);
     // Shading normals let no light leak.
-    const Mask<D> same_side = (dot(c.light.to_light, at.geometric) > 0) == (at.cosine * out.z * in.z > 0);
+    const Mask<D> same_side =
+        transmits | ((dot(c.light.to_light, at.geometric) > 0) == (at.cosine * out.z * in.z > 0));
     const BsdfValue<D> scattered = eval_towards(work, c, bsdf, out, in);
     const D beside =
         select<D>(c.is_delta, fill<D>(0), to_doubles(lanes::density_beside(scattered.pdf, count)));

@@ -47,6 +47,7 @@ VITRAIL_LANES BsdfSample<D> sample(const Conductor<D>& bsdf, Vector<D> out, F, F
 
 struct ReadLambert {
   static constexpr bool is_specular = false;
+  static constexpr bool may_transmit = false;
   static constexpr bool takes_any_normal = true;
   VITRAIL_LANES static Lambert<D> read(const LaneWork& work, const Group& g, const Interaction<D>& at) {
     Lambert<D> bsdf{spectrum_of(g, 0)};
@@ -67,6 +68,7 @@ VITRAIL_LANES Conductor<D> conductor_of(const Group& g) {
 }
 struct ReadMetal {
   static constexpr bool is_specular = false;
+  static constexpr bool may_transmit = false;
   static constexpr bool takes_any_normal = false;
   VITRAIL_LANES static Conductor<D> read(const LaneWork&, const Group& g, const Interaction<D>&) {
     return conductor_of(g);
@@ -81,6 +83,7 @@ VITRAIL_LANES BsdfSample<D> sample(const SmoothConductor& bsdf, Vector<D> out, F
 }
 struct ReadMirror {
   static constexpr bool is_specular = true;
+  static constexpr bool may_transmit = false;
   static constexpr bool takes_any_normal = false;
   VITRAIL_LANES static SmoothConductor read(const LaneWork&, const Group& g, const Interaction<D>&) {
     return {conductor_of(g)};
@@ -94,6 +97,7 @@ VITRAIL_LANES Plastic<D> plastic_of(const Group& g) {
 }
 struct ReadPlastic {
   static constexpr bool is_specular = false;
+  static constexpr bool may_transmit = false;
   static constexpr bool takes_any_normal = false;
   VITRAIL_LANES static Plastic<D> read(const LaneWork&, const Group& g, const Interaction<D>&) {
     return plastic_of(g);
@@ -101,6 +105,7 @@ struct ReadPlastic {
 };
 struct ReadRoughPlastic {
   static constexpr bool is_specular = false;
+  static constexpr bool may_transmit = false;
   static constexpr bool takes_any_normal = false;
   VITRAIL_LANES static auto read(const LaneWork&, const Group& g, const Interaction<D>&) {
     const auto table = [&](int j) __attribute__((always_inline)) {
@@ -112,6 +117,7 @@ struct ReadRoughPlastic {
 
 struct ReadPrincipled {
   static constexpr bool is_specular = false;
+  static constexpr bool may_transmit = true;
   static constexpr bool takes_any_normal = false;
   VITRAIL_LANES static Principled<D> read(const LaneWork&, const Group& g, const Interaction<D>&) {
     const auto number = [&](double PrincipledBsdf::*of) __attribute__((always_inline)) {
@@ -123,7 +129,7 @@ struct ReadPrincipled {
             .eta = number(&B::eta),
             .roughness = number(&B::roughness),
             .metallic = number(&B::metallic),
-            .spec_trans = fill<D>(0),
+            .spec_trans = number(&B::spec_trans),
             .spec_tint = number(&B::spec_tint),
             .sheen = number(&B::sheen),
             .sheen_tint = number(&B::sheen_tint),
@@ -136,6 +142,7 @@ struct ReadPrincipled {
 
 struct ReadFinish {
   static constexpr bool is_specular = false;
+  static constexpr bool may_transmit = false;
   static constexpr bool takes_any_normal = true;
   VITRAIL_LANES static Finish<D> read(const LaneWork&, const Group& g, const Interaction<D>&) {
     const auto number = [&](double FinishBsdf::*of) __attribute__((always_inline)) {
@@ -144,5 +151,14 @@ struct ReadFinish {
     using B = FinishBsdf;
     return {spectrum_of(g, 0),      spectrum_of(g, 1),    number(&B::brilliance), number(&B::phong),
             number(&B::phong_size), number(&B::specular), number(&B::roughness)};
+  }
+};
+
+struct ReadRoughGlass {
+  static constexpr bool is_specular = false;
+  static constexpr bool may_transmit = true;
+  static constexpr bool takes_any_normal = false;
+  VITRAIL_LANES static RoughDielectric<D> read(const LaneWork&, const Group& g, const Interaction<D>&) {
+    return {gather<D>(VITRAIL_EACH(g.bsdf[j]->eta)), microfacets_of(g), spectrum_of(g, 0), spectrum_of(g, 1)};
   }
 };

@@ -13,7 +13,7 @@ using L = Longs<W>;
 #include "tracer/transport/waves/lane_connections.inl"
 #include "tracer/transport/waves/lane_kinds.inl"
 
-// As scatter_path has it, of a BSDF that does not transmit.
+// As scatter_path has it.
 template <class Read>
 void scatter(LaneWork& work, const LaneList& list) {
   const bool can_sample = !work.tracing.scene.lights.share.empty();
@@ -21,15 +21,17 @@ void scatter(LaneWork& work, const LaneList& list) {
     const Group g = group_of(work, list, first);
     const Interaction<D> at = interaction_of(work, g, list.is_placed);
     const Carried carried(g);
-    const Mask<D> on = at.front | gather_mask<D>(VITRAIL_EACH(g.material[j]->two_sided));
-    const Frame<D> frame = frame_around(at.shading, at.dpdu, at.side());
+    Mask<D> transmits{};
+    if constexpr (Read::may_transmit) transmits = gather_mask<D>(VITRAIL_EACH(g.material[j]->transmits));
+    const Mask<D> on = at.front | transmits | gather_mask<D>(VITRAIL_EACH(g.material[j]->two_sided));
+    const Frame<D> frame = frame_around(at.shading, at.dpdu, select<D>(transmits, fill<D>(1), at.side()));
     Vector<D> out = frame.to_local(at.out);
     // As local_out (shading.cpp) has it.
     if constexpr (Read::takes_any_normal)
       out.z = select<D>(gather_mask<D>(VITRAIL_EACH(g.material[j]->is_raised)), abs(out.z), out.z);
     const auto bsdf = Read::read(work, g, at);
     if constexpr (!Read::is_specular)
-      if (can_sample) connect(work, g, carried, at, bsdf, frame, out, on, list.candidates);
+      if (can_sample) connect(work, g, carried, at, bsdf, frame, out, on, transmits, list.candidates);
 
     const Four<F> u = scatter_numbers(work, carried);
     const BsdfSample<D> s = sample(bsdf, out, u[2], u[0], u[1]);
@@ -39,7 +41,8 @@ void scatter(LaneWork& work, const LaneList& list) {
     // A mirror goes by the surface's own normal where the shading normal would have it leave its side.
     const Vector<D> sampled = frame.to_world(s.in);
     const D sides = out.z * s.in.z;
-    const Mask<D> leaves = (dot(sampled, at.geometric) > 0) != (at.cosine * out.z * s.in.z > 0);
+    const Mask<D> leaves =
+        no(transmits) & ((dot(sampled, at.geometric) > 0) != (at.cosine * out.z * s.in.z > 0));
     const Mask<D> by_surface = leaves & s.specular & (sides > 0);
     const Vector<D> direction = select<D>(by_surface, at.geometric * (2.0 * at.cosine) - at.out, sampled);
     const Mask<F> specular = mask_for<F>(s.specular);
@@ -127,8 +130,8 @@ void begin(const Tracing& tracing, CameraPath* paths, const std::uint32_t* place
   }
 }
 
-constexpr LaneStages stages{
-    begin,
-    leave_scene,
-    {nullptr, scatter<ReadLambert>, scatter<ReadMirror>, scatter<ReadMetal>, scatter<ReadPlastic>,
-     scatter<ReadRoughPlastic>, scatter<ReadPrincipled>, scatter<ReadFinish>, scatter_glass}};
+constexpr LaneStages stages{begin,
+                            leave_scene,
+                            {nullptr, scatter<ReadLambert>, scatter<ReadMirror>, scatter<ReadMetal>,
+                             scatter<ReadPlastic>, scatter<ReadRoughPlastic>, scatter<ReadPrincipled>,
+                             scatter<ReadFinish>, scatter<ReadRoughGlass>, scatter_glass}};

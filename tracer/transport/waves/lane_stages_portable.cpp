@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/bsdf/conductor_lanes.h"
+#include "tracer/bsdf/dielectric_lanes.h"
 #include "tracer/bsdf/diffuse_lanes.h"
 #include "tracer/bsdf/finish_lanes.h"
 #include "tracer/bsdf/plastic_lanes.h"
