@@ -5,13 +5,12 @@
 
 #include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/local.h"
+#include "tracer/media/phase_lanes.h"
 
 namespace vitrail {
 
 double phase(double g, Vector3d out, Vector3d in) {
-  // ≥ (1 − |g|)² > 0.
-  const double base = std::max(1 + g * g + 2 * g * dot(out, in), (1 - std::abs(g)) * (1 - std::abs(g)));
-  return (1 - g * g) / (4 * pi * base * std::sqrt(base));
+  return lanes::phase(g, lanes::fill<double>(out), lanes::fill<double>(in));
 }
 
 Vector3d sample_phase(double g, Vector3d out, float u, float v) {

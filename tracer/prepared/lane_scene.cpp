@@ -80,9 +80,9 @@ void set(const DielectricMaterial& m, LaneMaterial& s) {
     s.kind = LaneKind::rough_glass;
     return set_spectra({&m.reflectance_factor, &m.transmittance_factor}, s);
   }
-  if (!is_one(m.reflectance_factor) || !is_one(m.transmittance_factor)) return;
   s.kind = LaneKind::glass;
-  s.has_parameters = false;
+  s.is_tinted = !is_one(m.reflectance_factor) || !is_one(m.transmittance_factor);
+  set_spectra({&m.reflectance_factor, &m.transmittance_factor}, s);
   s.eta_behind = behind->value, s.eta_before = before->value;
 }
 
@@ -134,6 +134,7 @@ LaneSurface lane_surface(const Manifest& manifest, const std::vector<LaneMateria
   s.emits = surface.area_light >= 0;
   const MaterialKind& kind = materials.kind(surface.material);
   if (surface.opacity != FloatParameter{1.0f} || interiors.has_priority(surface)) return s;
+  s.blocks = kind.opaque;
   if (kind.is_interface || kind.is_fibre) return s;
   s.is_chosen = is_made_of_others(manifest.materials[surface.material]);
   s.is_for_lanes = s.is_chosen ? may_choose_for_lanes(manifest, lanes, surface.material)
@@ -192,22 +193,22 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf) {
 }
 
 LaneScene::LaneScene(const Manifest& manifest, const Textures& images, const Interiors& interiors,
-                     const Materials& materials, const LightSampler& lights) {
+                     const Materials& all_materials, const LightSampler& lights) {
   const Requirements& r = manifest.requirements;
-  has_connections = r.see_through || r.media || (materials.have_panes() && !lights.distant.empty()) ||
+  has_connections = r.see_through || r.media || (all_materials.have_panes() && !lights.distant.empty()) ||
                     (r.refraction && manifest.settings.direct_only) ||
                     !std::ranges::all_of(lights.emitters, &PointEmitter::casts_shadows);
   divides_space = interiors.divide_space();
   for (const Material& material : manifest.materials) {
-    LaneMaterial& lane = this->materials.emplace_back(lane_material(manifest, images, material));
-    lane.transmits = materials.kind(static_cast<std::uint32_t>(this->materials.size() - 1)).transmits;
+    LaneMaterial& lane = materials.emplace_back(lane_material(manifest, images, material));
+    lane.transmits = all_materials.kind(static_cast<std::uint32_t>(materials.size() - 1)).transmits;
     if (lane.kind != LaneKind::none && lane.kind != LaneKind::glass && !lane.has_parameters &&
         !lane.texture.image)
-      lane.constants = lane_bsdf(materials.bsdf_at(material, {}, luminance_wavelengths()[0]));
+      lane.constants = lane_bsdf(all_materials.bsdf_at(material, {}, luminance_wavelengths()[0]));
     has_textures = has_textures || lane.texture.image != nullptr;
   }
   for (const Surface& surface : manifest.surfaces)
-    surfaces.push_back(lane_surface(manifest, this->materials, interiors, materials, surface));
+    surfaces.push_back(lane_surface(manifest, materials, interiors, all_materials, surface));
   for (const AreaLight& light : manifest.area_lights) {
     const auto* spectrum = std::get_if<Spectrum>(&light.radiance);
     radiances.push_back(spectrum ? flat_spectrum(*spectrum, light.scale) : FlatSpectrum{});

@@ -46,6 +46,7 @@ struct LaneBsdf {
   double eta = 1, internal_reflectance = 0;       // of plastics; eta of rough glass, too
   const float* external_transmittance = nullptr;  // of rough ones: RoughPlasticTables'
   bool is_nonlinear = false, is_perfect = false;
+  double g = 0;  // of a medium: its phase function
   PrincipledBsdf principled;
   FinishBsdf finish;
 };
@@ -63,8 +64,9 @@ struct LaneMaterial {
   FlatSpectrum spectra[LaneBsdf::most_spectra];  // those of `constants`
   LaneBsdf constants;
   LaneTexture texture;  // of `diffuse`, where it has an image: the reflectance
-  // Of `glass`: the indices on its back and on its front.
+  // Of `glass`: the indices on its back and on its front; whether its factors are not 1.
   float eta_behind = 1, eta_before = 1;
+  bool is_tinted = false;
 
   bool is_diffuse() const { return kind == LaneKind::diffuse || kind == LaneKind::finish; }
   bool is_specular() const { return kind == LaneKind::mirror || kind == LaneKind::glass; }
@@ -74,6 +76,7 @@ struct LaneSurface {
   bool is_for_lanes = false;  // its material, or one that may be chosen of it
   bool is_chosen = false;     // of several, by side, by chance, or nothing: Materials::choose
   bool emits = false;
+  bool blocks = false;  // no connection passes it
 };
 
 // A lamp that is there as a whole and shines to all sides, alike all over; a PlainEmitter; or one for lane by
@@ -104,7 +107,7 @@ struct LaneScene {
   PlacedQuadric no_sphere{{}, {}};
 
   LaneScene(const Manifest& manifest, const Textures& images, const Interiors& interiors,
-            const Materials& materials, const LightSampler& lights);
+            const Materials& all_materials, const LightSampler& lights);
 };
 
 }  // namespace vitrail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/surfaces/surface_materials.h"
 
+#include <algorithm>
 #include <map>
 
 #include "scene/geometry/portable_math.h"
@@ -39,6 +40,15 @@ Straight straight_of(const std::vector<Straight>& others, const Material& materi
     straight.mirrors = straight.mirrors || part(id).mirrors;
   }
   return straight;
+}
+
+// Whether none of it goes straight on, or through a smooth face; `casts_shadow` is not asked.
+bool stops_light(const std::vector<Material>& materials, std::size_t i) {
+  const std::vector<Id<Material>> parts = parts_of(materials[i].model);
+  const MaterialTraits traits = traits_of(materials[i].model);
+  const auto* glass = std::get_if<DielectricMaterial>(&materials[i].model);
+  return !traits.straight && !traits.fibre && !(glass && is_smooth(glass->roughness)) &&
+         std::ranges::all_of(parts, [&](Id<Material> id) { return stops_light(materials, id.value); });
 }
 
 // n + ∇h: the normal of a surface that is raised by a height h(u,v) along n (Blinn 1978).
@@ -142,13 +152,15 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
   for (std::size_t i = 0; i < manifest.materials.size(); ++i) {
     const auto* glass = std::get_if<DielectricMaterial>(&manifest.materials[i].model);
     straights.push_back(straight_of(straights, manifest.materials[i]));
-    const MaterialKind kind{.is_interface = traits[i].nothing,
-                            .is_fibre = traits[i].fibre,
-                            .transmits = traits[i].transmits,
-                            .smooth_dielectric = glass && is_smooth(glass->roughness),
-                            .dispersive = traits_of(manifest.materials[i].model).disperses,
-                            .diffuse = traits[i].gathers,
-                            .sheet = straights.back().passes && straights.back().mirrors};
+    const MaterialKind kind{
+        .is_interface = traits[i].nothing,
+        .is_fibre = traits[i].fibre,
+        .transmits = traits[i].transmits,
+        .smooth_dielectric = glass && is_smooth(glass->roughness),
+        .dispersive = traits_of(manifest.materials[i].model).disperses,
+        .diffuse = traits[i].gathers,
+        .opaque = stops_light(manifest.materials, i) && manifest.materials[i].casts_shadow,
+        .sheet = straights.back().passes && straights.back().mirrors};
     have_panes_ = have_panes_ || kind.sheet || kind.smooth_dielectric;
     kinds_.push_back(kind);
     if (const auto* principled = std::get_if<PrincipledMaterial>(&manifest.materials[i].model))

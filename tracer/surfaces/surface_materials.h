@@ -21,6 +21,7 @@ struct MaterialKind {
   bool smooth_dielectric = false;  // bends light as it is: of panes and connections through them
   bool dispersive = false;         // its index depends on λ
   bool diffuse = false;            // it, or a part of it, may be one that gathers photons
+  bool opaque = false;             // stops all connections
   bool sheet = false;              // lets light straight through, and mirrors some
 
   bool is_nothing(const Interaction& at) const { return is_interface || (is_fibre && !at.front); }

@@ -37,9 +37,10 @@ bool is_shadowless(const Tracing& tracing, const LightSample& light) {
 }
 
 // One that `path` leaves for a light, with what it is to bring.
-void send_connection(Tracing& tracing, const CameraPath& path, const Departure& from,
-                     const LightSample& light, const SampledSpectrum& radiance, bool walks) {
-  Connection c;
+void send_connection(const Tracing& tracing, const CameraPath& path, const Departure& from,
+                     const LightSample& light, const SampledSpectrum& radiance, bool walks,
+                     Connections& waiting) {
+  Connection& c = waiting.begun.emplace_back();
   c.key = path.key;
   c.seed = path.seed;
   c.time_s = path.time_s;
@@ -63,7 +64,6 @@ void send_connection(Tracing& tracing, const CameraPath& path, const Departure& 
     c.left = end_value(end_code(aimed.end));
     c.hit.t = aimed.end;
   }
-  trace(tracing, c);
 }
 
 void send_shadow_ray(const RenderScene& scene, const CameraPath& path, const Departure& from,
@@ -142,7 +142,7 @@ void send(Tracing& tracing, const CameraPath& path, const Departure& from, const
   const bool straight = tracing.settings().direct_only;
   const bool walks = distant && light.is_delta && tracing.scene.materials.have_panes() && !straight;
   if (r.see_through || r.media || walks || (r.refraction && straight))
-    send_connection(tracing, path, from, light, radiance, walks);
+    send_connection(tracing, path, from, light, radiance, walks, shadows.connections);
   else
     send_shadow_ray(tracing.scene, path, from, light, radiance, shadows);
 }

@@ -13,8 +13,8 @@ std::uint32_t light_candidates(const Tracing& tracing, const CameraPath& path, P
 
 // Of `candidates` for a light one is connected to, chosen by what each would bring if nothing was in its way,
 // and brings their mean (resampling: Talbot, Cline & Egbert 2005). Their weights of multiple importance
-// sampling are of so many samples of the lights and one of the BSDF. Where nothing lets light through in part
-// it is a shadow ray, put behind the others of `shadows`; else it is traced at once.
+// sampling are of so many samples of the lights and one of the BSDF. A shadow ray, or a connection where
+// light passes something, is put behind the others of `shadows`.
 void connect_surface(Tracing& tracing, const CameraPath& path, const Event& event,
                      const Scattering& scattering, Vector3d out, std::uint32_t candidates,
                      ShadowRays& shadows);

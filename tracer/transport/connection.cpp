@@ -86,8 +86,16 @@ bool connect_at_surface(Tracing& tracing, Connection& c) {
   return presence != Presence::whole || walks_on(c);
 }
 
+bool is_blocked(const Tracing& tracing, const Connection& c) {
+  if (!c.meets_surface()) return false;
+  const Surface* const met = &surface_at(tracing, c);
+  return tracing.scene.lanes.surfaces[static_cast<std::size_t>(met - tracing.manifest().surfaces.data())]
+      .blocks;
+}
+
 // False where it ends.
 bool connect_onwards(Tracing& tracing, Connection& c) {
+  if (is_blocked(tracing, c)) return false;
   find_wavelengths(tracing, c, c.film);
   const PreparedMedium* const medium = medium_of(tracing, c);
   if (medium && !(c.passes_veils && medium->medium->veils)) {
@@ -112,12 +120,31 @@ bool follow(Tracing& tracing, Connection& c, std::optional<Arrival> at) {
   }
 }
 
+// The scene's only domain is resident.
+void trace_in_one(Tracing& tracing, Connections& waiting) {
+  for (Connection& c : waiting.begun) waiting.live.push_back(&c);
+  while (!waiting.live.empty()) {
+    HitsInOne hits(tracing);
+    for (Connection* c : waiting.live) hits.add(*c);
+    hits.finish();
+    std::erase_if(waiting.live, [&](Connection* c) { return !connect_onwards(tracing, *c); });
+    tracing.counters.rays_shadow += waiting.live.size();
+  }
+}
+
 }  // namespace
 
-void trace(Tracing& tracing, Connection& connection) {
-  const RayTraffic::Place here = tracing.traffic ? tracing.traffic->place() : RayTraffic::Place{};
-  if (!follow(tracing, connection, std::nullopt)) ++tracing.counters.born;
-  if (tracing.traffic) tracing.traffic->set(here);
+void trace(Tracing& tracing, Connections& waiting) {
+  if (DomainWalk::has_one(tracing.manifest(), tracing.resident) && !tracing.traffic) {
+    trace_in_one(tracing, waiting);
+  } else {
+    for (Connection& c : waiting.begun) {
+      const RayTraffic::Place here = tracing.traffic ? tracing.traffic->place() : RayTraffic::Place{};
+      if (!follow(tracing, c, std::nullopt)) ++tracing.counters.born;
+      if (tracing.traffic) tracing.traffic->set(here);
+    }
+  }
+  waiting.begun.clear();
 }
 
 void resume(Tracing& tracing, const ConnectionRecord& record, const Arrival& at) {

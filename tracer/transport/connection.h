@@ -6,6 +6,8 @@
 // they came, so all four stay unless it is thick.
 #pragma once
 
+#include <vector>
+
 #include "tracer/panes/pane_walk.h"
 #include "tracer/rays/connection_code.h"
 #include "tracer/transport/find_hit.h"
@@ -26,8 +28,14 @@ struct Connection : Traveller {
   std::uint32_t walk = 0;  // bits of a PaneWalk
 };
 
-// Traces one that begins here.
-void trace(Tracing& tracing, Connection& connection);
+// Those that wait to be traced together: one of each path of a wave at most.
+struct Connections {
+  std::vector<Connection> begun;
+  std::vector<Connection*> live;  // of those that are traced together
+};
+
+// Traces those that begin here, and leaves none of them.
+void trace(Tracing& tracing, Connections& waiting);
 // Goes on with one in `at`.
 void resume(Tracing& tracing, const ConnectionRecord& record, const Arrival& at);
 void pack(const Tracing& tracing, const Connection& connection, bool resolved, RayRecord& record);

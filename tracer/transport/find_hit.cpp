@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/find_hit.h"
 
-#include "tracer/rays/walk.h"
-
 namespace vitrail {
 
 namespace {

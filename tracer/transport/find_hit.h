@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "tracer/rays/walk.h"
 #include "tracer/transport/traveller.h"
 
 namespace vitrail {
@@ -25,6 +26,31 @@ bool goes_by_tree(const Tracing& tracing, const Ray& ray);
 
 // Empty when the hit, or that there is none, is certain and its domain at hand.
 std::optional<Elsewhere> find_hit(Tracing& tracing, Traveller& t, const std::optional<Arrival>& at);
+
+// Finds hits of rays that begin, 32 at a time, where the scene's only domain is resident and no way recorded.
+class HitsInOne {
+ public:
+  explicit HitsInOne(Tracing& tracing) : tracing_(tracing) {}
+  // It outlives its hit, which is found at the latest by `finish`.
+  void add(Traveller& t) {
+    if (!DomainWalk::starts_near(t.ray.origin)) return;
+    rays_[count_] = prepare(t.ray, t.time_s);
+    hits_[count_++] = &t.hit;
+    t.hit_domain = 0;
+    if (count_ == most_at_once) finish();
+  }
+  void finish() {
+    tracing_.kernel.closest_of_many(*tracing_.resident[0], rays_, hits_, count_);
+    count_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t most_at_once = 32;  // what the kernel reads of them stays in the first cache
+  Tracing& tracing_;
+  RayConstants rays_[most_at_once] = {};
+  Hit* hits_[most_at_once] = {};
+  std::size_t count_ = 0;
+};
 
 // What every record has of a ray that goes on elsewhere, and back: `t` has its seed.
 RayRecordHead head_of(const Traveller& t, RayRecordKind kind, bool resolved);

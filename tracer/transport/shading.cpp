@@ -202,27 +202,31 @@ void add_emission(Tracing& tracing, const CameraPath& path, const Interaction& a
           {tracing.scene.groups.of_area_light(light)});
 }
 
-bool shade(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
-  const PreparedMedium* medium = medium_of(tracing, path);
-  const bool has_background = tracing.scene.lights.has_background();
-  if (!path.meets_surface() && !medium && !has_background) return false;
+std::optional<Arrived> fly(Tracing& tracing, CameraPath& path) {
+  const PreparedMedium* const medium = medium_of(tracing, path);
+  if (!medium) return Arrived{};
   find_wavelengths(tracing, path, path.film);
-  if (is_too_dark(tracing, path)) return false;
-  if (medium) {
-    const Flight flight = flight_of(tracing, path, has_background);
-    RandomStream random(stream_of(path, RayRandom::flight));
-    const FlightSample flown =
-        sample_flight(*medium, flight, path.wavelengths, path.active_wavelengths(), path.throughput, random);
-    // As unsampled lamps (add_emission): with direct light alone what glows is seen and lights nothing.
-    if (!is_black(flown.emitted) && !(path.connected && tracing.settings().direct_only))
-      deposit(tracing, path.film, path.throughput * flown.emitted, {group_of(tracing.scene, *medium)});
-    path.throughput = path.throughput * flown.weight;
-    if (is_black(path.throughput)) return false;
-    if (flown.scattered_at) {
-      widen_cone(tracing, path, sample_of(path), *flown.scattered_at);
-      return scatter_in_medium(tracing, path, medium->g, flight.p + flight.d * *flown.scattered_at, shadows);
-    }
-  }
+  if (is_too_dark(tracing, path)) return std::nullopt;
+  const Flight flight = flight_of(tracing, path, tracing.scene.lights.has_background());
+  RandomStream random(stream_of(path, RayRandom::flight));
+  const FlightSample flown =
+      sample_flight(*medium, flight, path.wavelengths, path.active_wavelengths(), path.throughput, random);
+  // As unsampled lamps (add_emission): with direct light alone what glows is seen and lights nothing.
+  if (!is_black(flown.emitted) && !(path.connected && tracing.settings().direct_only))
+    deposit(tracing, path.film, path.throughput * flown.emitted, {group_of(tracing.scene, *medium)});
+  path.throughput = path.throughput * flown.weight;
+  if (is_black(path.throughput)) return std::nullopt;
+  if (!flown.scattered_at) return Arrived{.has_flown = true};
+  widen_cone(tracing, path, sample_of(path), *flown.scattered_at);
+  return Arrived{medium, flight.p + flight.d * *flown.scattered_at, true};
+}
+
+bool shade(Tracing& tracing, CameraPath& path, const Arrived& arrived, ShadowRays& shadows) {
+  if (arrived.scatters_in)
+    return scatter_in_medium(tracing, path, arrived.scatters_in->g, arrived.p, shadows);
+  if (!path.meets_surface() && !tracing.scene.lights.has_background()) return false;
+  find_wavelengths(tracing, path, path.film);
+  if (!arrived.has_flown && is_too_dark(tracing, path)) return false;
   if (path.meets_surface()) return shade_surface(tracing, path, shadows);
   if (leave_pane(path)) add_environment(tracing, path);
   return false;

@@ -9,8 +9,16 @@
 
 namespace vitrail {
 
+// Where a path has come to after its flight: what it meets, or a point of the medium that it flew through.
+struct Arrived {
+  const PreparedMedium* scatters_in = nullptr;
+  Point3d p;  // there
+  bool has_flown = false;
+};
+// Lets a path fly through the medium that it is in, if it is in one. Empty when it ends there.
+std::optional<Arrived> fly(Tracing& tracing, CameraPath& path);
 // False when the path ends here. Shadow rays that it takes are put behind the others of `shadows`.
-bool shade(Tracing& tracing, CameraPath& path, ShadowRays& shadows);
+bool shade(Tracing& tracing, CameraPath& path, const Arrived& arrived, ShadowRays& shadows);
 // Whether lamps and surroundings are not to be seen by a path, as it comes from the camera directly.
 bool is_hidden(const Tracing& tracing, const CameraPath& path);
 // With direct light alone: whether no wavelength of a path brings as much as is looked at.

@@ -88,6 +88,7 @@ void trace_in_one(Tracing& tracing, ShadowRays& waiting) {
 }  // namespace
 
 void trace(Tracing& tracing, ShadowRays& rays) {
+  trace(tracing, rays.connections);
   if (DomainWalk::has_one(tracing.manifest(), tracing.resident) && !tracing.traffic)
     return trace_in_one(tracing, rays);
   for (std::size_t i = 0; i < rays.count; ++i) {

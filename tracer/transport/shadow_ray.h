@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays to a point on a light, which nothing lets through in part: whether anything is in their way.
+// Rays to a point on a light, which nothing lets through in part: whether anything is in their way. Where
+// something does, connections (connection.h) wait beside them.
 #pragma once
 
 #include <memory>
 
-#include "tracer/transport/tracing.h"
+#include "tracer/transport/connection.h"
 
 namespace vitrail {
 
@@ -24,9 +25,10 @@ struct ShadowRays {
   static constexpr std::size_t most = 512;
   std::unique_ptr<ShadowRay[]> rays = std::make_unique<ShadowRay[]>(most);
   std::size_t count = 0;
+  Connections connections;
 };
 
-// Deposits what gets through of rays that begin here, and leaves none of them.
+// Deposits what gets through of rays and connections that begin here, and leaves none of them.
 void trace(Tracing& tracing, ShadowRays& rays);
 // Goes on with a ray in `domain`, which is resident.
 void resume(Tracing& tracing, const ShadowRecord& record, std::uint32_t domain);

@@ -10,6 +10,7 @@
 #include "tracer/bsdf/plastic_lanes.h"
 #include "tracer/bsdf/principled_lanes.h"
 #include "tracer/bsdf/principled_lobes.h"
+#include "tracer/media/phase_lanes.h"
 
 namespace vitrail::lane_tests {
 namespace {
@@ -49,6 +50,8 @@ LANE_FUNCTION(microfacets, 12, 8) {
   const auto m = lanes::sample_visible_normal(mf, a, in.f(10), in.f(11));
   out.vector(m), out.number(lanes::normal_density(mf, m));
 }
+// The asymmetry of a medium, two directions.
+LANE_FUNCTION(phase, 7, 1) { out.number(lanes::phase(in.d(0), in.vector(1), in.vector(4))); }
 // Widths and kinds, four of eta, of k, of the factor, perfect or not, two directions, two numbers.
 LANE_FUNCTION(conductor, 25, 25) {
   const lanes::Conductor<lanes::Doubles<W>> bsdf{microfacets_of(in, 0), four_of(in, 4), four_of(in, 8),

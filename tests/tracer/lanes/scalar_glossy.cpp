@@ -7,6 +7,7 @@
 #include "tracer/bsdf/finish.h"
 #include "tracer/bsdf/plastic.h"
 #include "tracer/bsdf/principled.h"
+#include "tracer/media/phase.h"
 #include "tracer/simd/quick_math.h"
 
 namespace vitrail::lane_tests {
@@ -95,6 +96,11 @@ std::vector<ScalarFunction> glossy_functions() {
          const Vector3d m = sample_visible_normal(mf, a, numbers_of(in + 10));
          Results{out} << normal_density(mf, b) << area << visible_area(mf, b)
                       << shadowing_over_cosines(mf, a, area, b) << m << normal_density(mf, m);
+       }},
+      {"phase",
+       {number(-0.9, 0.9, {0, 0.999, -0.999}), direction(), direction()},
+       [](const Context&, const double* in, double* out) {
+         Results{out} << phase(in[0], vector_of(in + 1), vector_of(in + 4));
        }},
       {"conductor", conductor,
        [](const Context&, const double* in, double* out) {

@@ -206,6 +206,17 @@ std::vector<Case> cases() {
          s.meshes[0].triangles.resize(8);
          s.lights.push_back(Light{DistantLight{{0.3, -0.5, 0.8}, ConstantSpectrum{1}}});
        }},
+      {"tinted glass, by a spectrum and by a map",
+       [](Scene& s) {
+         pictures(TextureFilter::bilinear)(s);
+         DielectricMaterial d{ConstantSpectrum{1.5f}};
+         d.transmittance_factor = Spectrum{reflectance_from_rgb({0.9f, 0.5f, 0.1f})};
+         s.materials.back() = material(d, false);  // of the ball
+         d.reflectance_factor = Id<Texture>{0}, d.transmittance_factor = Id<Texture>{0};
+         add_shape(s, add_quads(s, box_faces({0.3f, -1, 0.3f}, {0.7f, -0.6f, 0.7f})), material(d, false));
+         add_shape(s, add_quads(s, box_faces({-0.9f, -1, 0.3f}, {-0.7f, -0.6f, 0.7f})),
+                   material(DielectricMaterial{ConstantSpectrum{1.5f}}));
+       }},
       {"glass in glass",
        [](Scene& s) {
          const auto add = [&](Point3f low, Point3f high, float eta) {
@@ -320,6 +331,33 @@ std::vector<Case> cases() {
          add_ball(s, material(DielectricMaterial{ConstantSpectrum{1.3f}}));
          s.shapes.back().interior = Id<Medium>{0};
          add_block(s, plastic(0));
+       }},
+      {"a room of fog that is the denser towards blue, with things in it",
+       [](Scene& s) {
+         Medium mist;
+         mist.coefficients = AbsorptionScattering{ConstantSpectrum{0.05f},
+                                                  Spectrum{reflectance_from_rgb({0.2f, 0.3f, 0.5f})}};
+         mist.g = 0.6f;
+         s.media.push_back(mist);
+         add_ball(s, rough_gold(Roughness::Distribution::ggx));
+         add_block(s, plastic(0.2f));
+         s.camera_medium = Id<Medium>{0};
+       }},
+      {"glass that absorbs, and fog of many lamps under a sky",
+       [](Scene& s) {
+         Medium dye, mist;
+         dye.coefficients =
+             AbsorptionScattering{Spectrum{reflectance_from_rgb({0.1f, 0.4f, 0.9f})}, ConstantSpectrum{0}};
+         mist.coefficients = AbsorptionScattering{ConstantSpectrum{0.1f}, ConstantSpectrum{3}};
+         s.media = {dye, mist};
+         add_ball(s, material(DielectricMaterial{ConstantSpectrum{1.5f}}));
+         s.shapes.back().interior = Id<Medium>{0};
+         add_block(s, material(InterfaceMaterial{}));
+         s.shapes.back().interior = Id<Medium>{1};
+         s.meshes[0].triangles.resize(8);
+         s.lights.push_back(Light{PointLight{{0.3, 0.2, -0.4}, ConstantSpectrum{1}}});
+         s.lights.push_back(Light{sun_and_sky(1)});
+         s.settings.max_depth = 20;
        }},
       {"two liquids, one before the other",
        [](Scene& s) {

@@ -347,25 +347,21 @@ VITRAIL_LANES BsdfValue<D> eval_towards(const LaneWork& work, const Candidate& c
   return eval(bsdf, out, in);
 }
 
-// As connect.cpp has it.
-template <class Bsdf>
-VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carried, const Interaction<D>& at,
-                           const Bsdf& bsdf, const Frame<D>& frame, Vector<D> out, Mask<D> on,
-                           Mask<D> transmits, std::uint32_t count) {
+// As connect.cpp has it: of `count` candidates for a light one, with what it brings. scatter(candidate, is_way)
+// gives what is scattered from there, and where that is a way of light. Those that bring something.
+template <class Scatter>
+VITRAIL_LANES Mask<D> choose_light(const LaneWork& work, const Group& g, const Carried& carried, Vector<D> p,
+                                   const Scatter& scatter, Mask<D> on, std::uint32_t count, Candidate& best,
+                                   Four<F>& radiance) {
   const Four<F> u =
       lanes::sample_4d(work.tracing.scene.seed, carried.pixel, carried.sample, 2u + 2u * carried.depth);
   D choice = to_doubles(gather<F>(VITRAIL_EACH(g.path[j]->film.camera.data()[3])));
   D all = fill<D>(0), chosen = fill<D>(0);
-  Candidate best{};
-  Four<F> radiance{};
   TreeRoot root;
   for (std::uint32_t k = 0; k < count; ++k) {
-    const Candidate c = candidate_of(work, g, at.p, k > 0 ? numbers_of_candidate(u, k) : u, on, root);
-    const Vector<D> in = frame.to_local(c.light.to_light);
-    // Shading normals let no light leak.
-    const Mask<D> same_side =
-        transmits | ((dot(c.light.to_light, at.geometric) > 0) == (at.cosine * out.z * in.z > 0));
-    const BsdfValue<D> scattered = eval_towards(work, c, bsdf, out, in);
+    const Candidate c = candidate_of(work, g, p, k > 0 ? numbers_of_candidate(u, k) : u, on, root);
+    Mask<D> is_way;
+    const BsdfValue<D> scattered = scatter(c, is_way);
     const D beside =
         select<D>(c.is_delta, fill<D>(0), to_doubles(lanes::density_beside(scattered.pdf, count)));
     const F weight = to_floats(lanes::power_heuristic(c.pdf, beside) / c.pdf);
@@ -375,7 +371,7 @@ VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carrie
       brought[i] = carried.throughput[i] * scattered.value[i] * c.radiance[i] * weight;
       target = target + to_doubles(brought[i]);
     }
-    const Mask<D> brings = on & c.arrives & same_side & (target > 0);
+    const Mask<D> brings = on & c.arrives & is_way & (target > 0);
     all = select<D>(brings, all + target, all);
     // One number for all choices: what is left of it after one is as random as it was.
     const Mask<D> had = chosen > 0;
@@ -402,8 +398,47 @@ VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carrie
     const F mean = to_floats(all / (static_cast<double>(count) * chosen));
     for (int i = 0; i < 4; ++i) radiance[i] = radiance[i] * mean;
   }
+  return all != 0;
+}
+
+template <class Bsdf>
+VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carried, const Interaction<D>& at,
+                           const Bsdf& bsdf, const Frame<D>& frame, Vector<D> out, Mask<D> on,
+                           Mask<D> transmits, std::uint32_t count) {
+  Candidate best{};
+  Four<F> radiance{};
+  const auto scatter = [&](const Candidate& c, Mask<D>& is_way) __attribute__((always_inline)) {
+    const Vector<D> in = frame.to_local(c.light.to_light);
+    // Shading normals let no light leak.
+    is_way = transmits | ((dot(c.light.to_light, at.geometric) > 0) == (at.cosine * out.z * in.z > 0));
+    return eval_towards(work, c, bsdf, out, in);
+  };
+  const Mask<D> chosen = choose_light(work, g, carried, at.p, scatter, on, count, best, radiance);
   if (work.scene.has_connections)
-    send_connections(work, g, at, all != 0, best, radiance);
+    send_connections(work, g, at, chosen, best, radiance);
   else
-    send_shadow_rays(work, g, at, all != 0, best, radiance);
+    send_shadow_rays(work, g, at, chosen, best, radiance);
+}
+
+// From points of media, whose phase functions are those of g.
+VITRAIL_LANES void connect_in_media(LaneWork& work, const Group& group, const Carried& carried, Vector<D> p,
+                                    D g, Vector<D> out, std::uint32_t count) {
+  Candidate best{};
+  Four<F> radiance{};
+  const auto scatter = [&](const Candidate& c, Mask<D>& is_way) __attribute__((always_inline)) {
+    is_way = c.arrives;
+    BsdfValue<D> f;
+    f.pdf = phase(g, out, c.light.to_light);
+    for (int i = 0; i < 4; ++i) f.value[i] = to_floats(f.pdf);
+    return f;
+  };
+  const Mask<D> every = p.x == p.x;
+  const Mask<D> chosen = choose_light(work, group, carried, p, scatter, every, count, best, radiance);
+  for (int j = 0; j < group.valid; ++j) {
+    if (!is_set(chosen, j)) continue;
+    ++work.rays_shadow;
+    const float brings[4] = {lane(radiance[0], j), lane(radiance[1], j), lane(radiance[2], j),
+                             lane(radiance[3], j)};
+    lane_by_lane::send_from_medium(work, *group.path[j], point_of(p, j), light_of(best, j), brings);
+  }
 }

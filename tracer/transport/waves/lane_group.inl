@@ -16,8 +16,16 @@ VITRAIL_LANES Group group_of(const LaneWork& work, const LaneList& list, std::si
   for (int j = 0; j < W; ++j) {
     g.place[j] = list.places[first + static_cast<std::size_t>(j < g.valid ? j : g.valid - 1)];
     g.path[j] = work.paths + g.place[j];
+    g.material[j] = nullptr, g.bsdf[j] = work.bsdfs + g.place[j];
+  }
+  return g;
+}
+// At surfaces.
+VITRAIL_LANES Group group_at_surfaces(const LaneWork& work, const LaneList& list, std::size_t first) {
+  Group g = group_of(work, list, first);
+  for (int j = 0; j < W; ++j) {
     g.material[j] = work.scene.materials.data() + work.material[g.place[j]];
-    g.bsdf[j] = g.material[j]->has_parameters ? work.bsdfs + g.place[j] : &g.material[j]->constants;
+    if (!g.material[j]->has_parameters) g.bsdf[j] = &g.material[j]->constants;
   }
   return g;
 }
@@ -98,10 +106,11 @@ VITRAIL_LANES Vector<F> origin_of(const LaneWork& work, const Interaction<D>& at
 
 VITRAIL_LANES Point3d point_of(Vector<D> p, int j) { return {lane(p.x, j), lane(p.y, j), lane(p.z, j)}; }
 
-// Those of `on` go on from the surface.
-VITRAIL_LANES void go_on(LaneWork& work, const Group& g, const Carried& carried, const Interaction<D>& at,
-                         Mask<F> on, Vector<D> direction, const Four<F>& throughput, F pdf,
-                         Mask<F> connected) {
+// Those of `on` go on from there; `step_off(path, j)` sets what else is of the place that they leave.
+template <class StepOff>
+VITRAIL_LANES void go_on_from(LaneWork& work, const Group& g, const Carried& carried, Vector<F> origin,
+                              Mask<F> on, Vector<D> direction, const Four<F>& throughput, F pdf,
+                              Mask<F> connected, const StepOff& step_off) {
   const L seed = gather<L>(VITRAIL_EACH(g.path[j]->seed));
   const U depth = carried.depth + 1u;
   // As numbered_depth; with direct light alone a path that was lit goes straight on at most.
@@ -110,21 +119,17 @@ VITRAIL_LANES void go_on(LaneWork& work, const Group& g, const Carried& carried,
   const L stream =
       (convert<std::uint64_t>(numbered) << 3 | static_cast<std::uint64_t>(RayRandom::throughput)) *
       stream_factor;
-  const Departed<D> ray = depart<D>(seed, stream, origin_of(work, at, direction), direction, throughput);
-  const Mask<D> front_side = dot(direction, at.geometric) > 0;
+  const Departed<D> ray = depart<D>(seed, stream, origin, direction, throughput);
   for (int j = 0; j < g.valid; ++j) {
     if (!is_set(on, j)) continue;
     CameraPath& path = *g.path[j];
-    if (work.scene.divides_space)
-      path.inside =
-          lane_by_lane::inside(work, path, {g.place[j], is_set(at.front, j), is_set(front_side, j)});
+    step_off(path, j);
     path.depth = lane(depth, j);
     path.passed = false;
     path.connected |= is_set(connected, j);
     path.only_straight = is_set(only_straight, j);
     path.pdf = lane(pdf, j);
     path.travelled = 0;
-    path.ray.exclude = path.hit.triangle;
     path.ray.origin.x = lane(ray.origin.x, j);
     path.ray.origin.y = lane(ray.origin.y, j);
     path.ray.origin.z = lane(ray.origin.z, j);
@@ -143,4 +148,29 @@ VITRAIL_LANES void go_on(LaneWork& work, const Group& g, const Carried& carried,
     path.hit.depth = 0;
     work.next[work.next_count++] = g.place[j];
   }
+}
+
+// From a surface.
+VITRAIL_LANES void go_on(LaneWork& work, const Group& g, const Carried& carried, const Interaction<D>& at,
+                         Mask<F> on, Vector<D> direction, const Four<F>& throughput, F pdf,
+                         Mask<F> connected) {
+  const Mask<D> front_side = dot(direction, at.geometric) > 0;
+  go_on_from(
+      work, g, carried, origin_of(work, at, direction), on, direction, throughput, pdf,
+      connected, [&](CameraPath & path, int j) __attribute__((always_inline)) {
+        if (work.scene.divides_space)
+          path.inside =
+              lane_by_lane::inside(work, path, {g.place[j], is_set(at.front, j), is_set(front_side, j)});
+        path.ray.exclude = path.hit.triangle;
+      });
+}
+
+// Those of `on` that chance lets live on after an event, brighter; it is asked of `played` alone.
+VITRAIL_LANES Mask<F> survivors(const LaneWork& work, const Carried& carried, Mask<F> on, Mask<F> played,
+                                F brightest, F u, Four<F>& throughput) {
+  const F survival = to_floats(attainable(to_doubles(brightest * carried.brightness / work.roulette_worth)));
+  const Mask<F> by_chance = played & (survival < 1);
+  const F scale = select<F>(by_chance, 1.0f / survival, fill<F>(1));
+  for (int i = 0; i < 4; ++i) throughput[i] = throughput[i] * scale;
+  return on & (no(by_chance) | (u < survival));
 }

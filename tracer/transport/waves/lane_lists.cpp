@@ -7,7 +7,6 @@
 
 #include "tracer/transport/connect.h"
 #include "tracer/transport/first_surface.h"
-#include "tracer/transport/shading.h"
 
 namespace vitrail {
 
@@ -52,6 +51,7 @@ LaneLists::LaneLists(std::size_t most)
   for (auto& kind : lists_)
     for (auto& placing : kind)
       for (auto& list : placing) list.reserve(most);
+  for (auto& list : in_media_) list.reserve(most);
   leaving_.reserve(most);
 }
 
@@ -74,6 +74,18 @@ bool LaneLists::take_leaving(Tracing& tracing, CameraPath& path, std::uint32_t p
   return true;
 }
 
+bool LaneLists::take_in_medium(Tracing& tracing, CameraPath& path, std::uint32_t place,
+                               const Arrived& arrived) {
+  if (path.unrecorded) [[unlikely]]
+    record_first_medium(tracing, path);
+  path.pane = {};
+  placed_[place].p = arrived.p;
+  bsdfs_[place].g = arrived.scatters_in->g;
+  in_media_[light_candidates(tracing, path, arrived.p, true) > 1].push_back(place);
+  ++taken_;
+  return true;
+}
+
 void LaneLists::enlist(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
                        const LaneMaterial& of, const Interaction* at, bool is_placed) {
   const Materials& materials = tracing.scene.materials;
@@ -90,13 +102,13 @@ void LaneLists::enlist(const Tracing& tracing, const CameraPath& path, std::uint
   lists_[static_cast<std::size_t>(of.kind)][is_placed][candidates > 1].push_back(place);
 }
 
-bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
-  if (is_too_dark(tracing, path)) return false;
-  const bool by_its_pane = path.pane.within && (path.pane.parts || path.pane.owes);
-  if (by_its_pane || medium_of(tracing, path)) return false;
-  if (!path.meets_surface()) return take_leaving(tracing, path, place);
+bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place, const Arrived& arrived) {
+  if (!arrived.has_flown && is_too_dark(tracing, path)) return false;
+  if (path.pane.within && (path.pane.parts || path.pane.owes)) return false;
+  if (!arrived.scatters_in && !path.meets_surface()) return take_leaving(tracing, path, place);
   const bool at_its_end = is_spent(tracing, path) || path.depth >= most_events;
   if (at_its_end || path.passed) return false;
+  if (arrived.scatters_in) return take_in_medium(tracing, path, place, arrived);
   const Surface& surface = surface_at(tracing, path);
   const auto index = static_cast<std::uint32_t>(&surface - tracing.manifest().surfaces.data());
   const LaneSurface& on = tracing.scene.lanes.surfaces[index];
@@ -165,6 +177,13 @@ void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
   sort_by_texture(tracing.scene.lanes);
   if (!leaving_.empty()) tracing.stages->leave_scene(work, {leaving_.data(), leaving_.size(), false, 0});
   leaving_.clear();
+  for (const bool several : {false, true}) {
+    std::vector<std::uint32_t>& places = in_media_[several];
+    if (!places.empty())
+      tracing.stages->scatter_in_media(
+          work, {places.data(), places.size(), true, several ? tracing.scene.sampling.light_candidates : 1});
+    places.clear();
+  }
   for (std::size_t kind = 0; kind < lane_kinds; ++kind)
     for (const bool is_placed : {false, true})
       for (const bool several : {false, true}) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "tracer/transport/shading.h"
 #include "tracer/transport/waves/lane_stages.h"
 
 namespace vitrail {
@@ -16,13 +17,14 @@ class LaneLists {
 
   // Whether any of the scene's paths may be put into a list.
   static bool apply_to(const Tracing& tracing);
-  // Puts a path, whose hit is found, into the list of its kind, as far as its stage can do all of what the
-  // event takes: light that it meets there is deposited. False: for `shade`.
-  bool take(Tracing& tracing, CameraPath& path, std::uint32_t place);
+  // Puts a path, which has flown, into the list of its kind, as far as its stage can do all of what the event
+  // takes: light that it meets there is deposited. False: for `shade`.
+  bool take(Tracing& tracing, CameraPath& path, std::uint32_t place, const Arrived& arrived);
   // Runs the stages over all that is in lists, and empties them. Those that go on are put behind `live`.
   void run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows, std::vector<std::uint32_t>& live);
 
  private:
+  bool take_in_medium(Tracing& tracing, CameraPath& path, std::uint32_t place, const Arrived& arrived);
   bool take_leaving(Tracing& tracing, CameraPath& path, std::uint32_t place);
   // Into the list of the material that it has met. `at`: null where nothing is asked of it.
   [[gnu::always_inline]] inline void enlist(const Tracing& tracing, const CameraPath& path,
@@ -37,10 +39,11 @@ class LaneLists {
   std::vector<std::uint32_t> surface_, material_, next_;  // by place, by place; places
   std::vector<LaneBsdf> bsdfs_;                           // by place
   std::vector<PlacedHit> placed_;                         // by place
-  std::vector<lanes::DomainTables> domains_;  // by number; of those where paths in lists have hits
-  std::vector<std::uint32_t> leaving_;        // places
-  std::vector<std::uint32_t> passing_;        // places, of those that have come to nothing of their surface
-  Interaction interaction_;                   // of the path at hand, where something is asked of it
+  std::vector<lanes::DomainTables> domains_;            // by number; of those where paths in lists have hits
+  std::vector<std::uint32_t> leaving_;                  // places
+  std::array<std::vector<std::uint32_t>, 2> in_media_;  // places, by whether there are several candidates
+  std::vector<std::uint32_t> passing_;  // places, of those that have come to nothing of their surface
+  Interaction interaction_;             // of the path at hand, where something is asked of it
   std::size_t taken_ = 0;
 };
 

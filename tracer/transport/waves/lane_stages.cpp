@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tracer/lights/draw_light.h"
+#include "tracer/media/phase.h"
 #include "tracer/sampling/wavelengths.h"
 #include "tracer/transport/connect.h"
 #include "tracer/transport/connection.h"
@@ -73,6 +74,16 @@ void send(LaneWork& work, const CameraPath& path, const SurfaceSide& side, Point
   const Departure from{p, origin, path.hit.triangle, inside(work, path, side)};
   vitrail::send(work.tracing, path, from, light, {{radiance[0], radiance[1], radiance[2], radiance[3]}},
                 work.shadows);
+}
+
+void send_from_medium(LaneWork& work, const CameraPath& path, Point3d p, const LightSample& light,
+                      const float (&radiance)[4]) {
+  vitrail::send(work.tracing, path, {p, cast<float>(p), no_triangle, path.inside}, light,
+                {{radiance[0], radiance[1], radiance[2], radiance[3]}}, work.shadows);
+}
+
+Vector3d sample_phase(double g, Vector3d out, float u, float v) {
+  return vitrail::sample_phase(g, out, u, v);
 }
 
 void aim(const CameraPath& path, Point3d p, Point3f origin, const LightSample& light, ShadowRay& shadow) {

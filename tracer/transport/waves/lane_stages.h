@@ -15,7 +15,7 @@
 namespace vitrail {
 
 // Of a hit within an instance, of a quadric, or of a surface whose material is chosen or whose normal is
-// turned: what of its Interaction the stages read.
+// turned: what of its Interaction the stages read. Of a point in a medium, p alone.
 struct PlacedHit {
   Point3d p;
   Vector3d geometric, shading, dpdu;
@@ -61,6 +61,9 @@ struct LaneStages {
   // Light that paths see which leave the scene: not within a pane, no medium there, no disc of a sun.
   void (*leave_scene)(LaneWork& work, const LaneList& list);
 
+  // At points of media.
+  void (*scatter_in_media)(LaneWork& work, const LaneList& list);
+
   // By kind, but `none`.
   void (*stage[lane_kinds])(LaneWork& work, const LaneList& list);
 };
@@ -100,6 +103,10 @@ struct SurfaceSide {
 };
 void send(LaneWork& work, const CameraPath& path, const SurfaceSide& side, Point3d p, Point3f origin,
           const LightSample& light, const float (&radiance)[4]);
+// From a point of a medium.
+void send_from_medium(LaneWork& work, const CameraPath& path, Point3d p, const LightSample& light,
+                      const float (&radiance)[4]);
+Vector3d sample_phase(double g, Vector3d out, float u, float v);
 // State of Interiors there.
 std::uint8_t inside(const LaneWork& work, const CameraPath& path, const SurfaceSide& side);
 // Aims a shadow ray to a quadric.

@@ -18,7 +18,7 @@ template <class Read>
 void scatter(LaneWork& work, const LaneList& list) {
   const bool can_sample = !work.tracing.scene.lights.share.empty();
   for (std::size_t first = 0; first < list.count; first += W) {
-    const Group g = group_of(work, list, first);
+    const Group g = group_at_surfaces(work, list, first);
     const Interaction<D> at = interaction_of(work, g, list.is_placed);
     const Carried carried(g);
     Mask<D> transmits{};
@@ -50,22 +50,48 @@ void scatter(LaneWork& work, const LaneList& list) {
     Mask<F> lives =
         mask_for<F>(on & s.scatters & (no(leaves) | by_surface)) & (brightest > 0) & (specular | (pdf > 0));
     if (work.ends_lit) lives = lives & specular;
-    if (!Read::is_specular && work.roulette_worth > 0) {
-      const F survival =
-          to_floats(attainable(to_doubles(brightest * carried.brightness / work.roulette_worth)));
-      const Mask<F> by_chance = no(specular) & (survival < 1);
-      lives = lives & (no(by_chance) | (u[3] < survival));
-      const F scale = select<F>(by_chance, 1.0f / survival, fill<F>(1));
-      for (int i = 0; i < 4; ++i) throughput[i] = throughput[i] * scale;
-    }
+    if (!Read::is_specular && work.roulette_worth > 0)
+      lives = survivors(work, carried, lives, no(specular), brightest, u[3], throughput);
     go_on(work, g, carried, at, lives, direction, throughput, pdf, no(specular));
+  }
+}
+
+// As scatter_in_medium has it.
+void scatter_in_media(LaneWork& work, const LaneList& list) {
+  const bool can_sample = !work.tracing.scene.lights.share.empty();
+  for (std::size_t first = 0; first < list.count; first += W) {
+    const Group group = group_of(work, list, first);
+    const Carried carried(group);
+    const Vector<D> p = gather_vector<D>([&](int j) __attribute__((always_inline))->const Point3d& {
+      return work.placed[group.place[j]].p;
+    });
+    const D g = gather<D>(VITRAIL_EACH(group.bsdf[j]->g));
+    const Vector<D> out =
+        normalize(-to_doubles(gather_vector<F>([&](int j) __attribute__((always_inline))->const Vector3f& {
+          return group.path[j]->ray.direction;
+        })));
+    if (can_sample) connect_in_media(work, group, carried, p, g, out, list.candidates);
+    if (work.ends_lit) continue;
+
+    const Four<F> u = scatter_numbers(work, carried);
+    Vector<D> in = out;
+    for (int j = 0; j < W; ++j)
+      set_lane(in, j, lane_by_lane::sample_phase(lane(g, j), lane(out, j), lane(u[0], j), lane(u[1], j)));
+    const F pdf = lanes::density_beside(phase(g, out, in), list.candidates);
+    Mask<F> lives = pdf > 0;
+    Four<F> throughput = carried.throughput;
+    if (work.roulette_worth > 0)
+      lives = survivors(work, carried, lives, pdf > 0, greatest(throughput), u[3], throughput);
+    go_on_from(
+        work, group, carried, to_floats(p), lives, in, throughput, pdf, pdf > 0,
+        [](CameraPath & path, int) __attribute__((always_inline)) { path.ray.exclude = no_triangle; });
   }
 }
 
 // As glass.cpp has it, of a path that does not end there, in a pane whose wavelengths do not part.
 void scatter_glass(LaneWork& work, const LaneList& list) {
   for (std::size_t first = 0; first < list.count; first += W) {
-    const Group g = group_of(work, list, first);
+    const Group g = group_at_surfaces(work, list, first);
     const Interaction<D> at = interaction_of(work, g, list.is_placed);
     const Carried carried(g);
     const Vector<D> normal = at.shading * at.side();
@@ -92,6 +118,11 @@ void scatter_glass(LaneWork& work, const LaneList& list) {
     for (int i = 0; i < 4; ++i)
       throughput[i] = select<F>(mask_for<F>(goes_back), carried.throughput[i] * reflectance * back,
                                 carried.throughput[i] * through);
+    if (any(gather_mask<D>(VITRAIL_EACH(g.material[j]->is_tinted)))) {
+      const Four<F> of_reflected = spectrum_of(g, 0), of_passed = spectrum_of(g, 1);
+      for (int i = 0; i < 4; ++i)
+        throughput[i] = throughput[i] * select<F>(mask_for<F>(goes_back), of_reflected[i], of_passed[i]);
+    }
     const Mask<F> lives = mask_for<F>(goes_back | passes) & (greatest(throughput) > 0);
     for (int j = 0; j < g.valid; ++j)
       if (is_set(lives, j))
@@ -132,6 +163,7 @@ void begin(const Tracing& tracing, CameraPath* paths, const std::uint32_t* place
 
 constexpr LaneStages stages{begin,
                             leave_scene,
+                            scatter_in_media,
                             {nullptr, scatter<ReadLambert>, scatter<ReadMirror>, scatter<ReadMetal>,
                              scatter<ReadPlastic>, scatter<ReadRoughPlastic>, scatter<ReadPrincipled>,
                              scatter<ReadFinish>, scatter<ReadRoughGlass>, scatter_glass}};

@@ -13,6 +13,7 @@
 #include "tracer/lights/environment_lanes.h"
 #include "tracer/lights/point_emitter_lanes.h"
 #include "tracer/lights/sphere_light_lanes.h"
+#include "tracer/media/phase_lanes.h"
 #include "tracer/transport/waves/lane_stages.h"
 
 namespace vitrail {

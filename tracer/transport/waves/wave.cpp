@@ -59,35 +59,27 @@ void Wave::find_hits(Tracing& tracing) {
   live_.resize(kept);
 }
 
-// The scene's only domain is resident.
+// The scene's only domain is resident: nothing goes on elsewhere.
 void Wave::find_in_one(Tracing& tracing) {
-  constexpr std::size_t most_at_once = 32;  // what the kernel reads of them stays in the first cache
-  RayConstants rays[most_at_once] = {};
-  Hit* hits[most_at_once] = {};
-  std::size_t count = 0;
+  HitsInOne hits(tracing);
   for (const std::uint32_t i : live_) {
-    CameraPath& path = paths_[i];
-    if (at_[i]) {  // of one domain nothing goes on elsewhere
-      find_hit(tracing, path, at_[i]);
-      at_[i].reset();
-    } else if (DomainWalk::starts_near(path.ray.origin)) {
-      rays[count] = prepare(path.ray, path.time_s);
-      hits[count++] = &path.hit;
-      path.hit_domain = 0;
+    if (!at_[i]) {
+      hits.add(paths_[i]);
+      continue;
     }
-    if (count < most_at_once) continue;
-    tracing.kernel.closest_of_many(*tracing.resident[0], rays, hits, count);
-    count = 0;
+    find_hit(tracing, paths_[i], at_[i]);
+    at_[i].reset();
   }
-  tracing.kernel.closest_of_many(*tracing.resident[0], rays, hits, count);
+  hits.finish();
 }
 
 void Wave::shade_all(Tracing& tracing, bool in_lanes) {
   std::size_t kept = 0, alone = 0;
   for (const std::uint32_t i : live_) {
-    if (in_lanes && lists_.take(tracing, paths_[i], i)) continue;
+    const std::optional<Arrived> arrived = fly(tracing, paths_[i]);
+    if (arrived && in_lanes && lists_.take(tracing, paths_[i], i, *arrived)) continue;
     ++alone;
-    if (shade(tracing, paths_[i], shadows_)) live_[kept++] = i;
+    if (arrived && shade(tracing, paths_[i], *arrived, shadows_)) live_[kept++] = i;
   }
   tracing.counters.died += alone - kept;
   tracing.counters.rays_indirect += kept;
