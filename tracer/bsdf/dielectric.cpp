@@ -57,10 +57,8 @@ namespace {
 // Of the sheet, at each wavelength, without its factor.
 SampledSpectrum sheet_reflectance(const ThinDielectricBsdf& bsdf, double cosine) {
   SampledSpectrum result;
-  for (int i = 0; i < hero_count; ++i) {
-    const double r = fresnel_dielectric(std::min(cosine, 1.0), static_cast<double>(bsdf.eta[i]));
-    result[i] = static_cast<float>(2 * r / (1 + r));
-  }
+  for (int i = 0; i < hero_count; ++i)
+    result[i] = lanes::sheet_reflectance(cosine, static_cast<double>(bsdf.eta[i]));
   return result;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// DielectricBsdf of dielectric.h that is rough and no straight way, for any number of lanes.
+// DielectricBsdf of dielectric.h that is rough and no straight way, and what a thin sheet mirrors, for any
+// number of lanes.
 #pragma once
 
 #include "tracer/bsdf/bsdf_lanes.h"
@@ -15,6 +16,13 @@ struct RoughDielectric {
   Microfacets<D> microfacets;
   Four<FloatsLike<D>> reflectance_factor, transmittance_factor;
 };
+
+// What a sheet of ThinDielectricBsdf mirrors, of that index.
+template <class D>
+VITRAIL_LANES FloatsLike<D> sheet_reflectance(D cosine, D eta) {
+  const D r = fresnel_dielectric<D>(lanes::min(cosine, fill<D>(1)), eta);
+  return to_floats(2.0 * r / (1.0 + r));
+}
 
 namespace detail {
 

@@ -86,6 +86,15 @@ void set(const DielectricMaterial& m, LaneMaterial& s) {
   s.eta_behind = behind->value, s.eta_before = before->value;
 }
 
+void set(const ThinDielectricMaterial& m, LaneMaterial& s) {
+  const auto *sheet = std::get_if<ConstantSpectrum>(&m.eta),
+             *around = std::get_if<ConstantSpectrum>(&m.exterior_eta);
+  if (!sheet || !around) return;
+  s.kind = LaneKind::sheet;
+  set_spectra({&m.reflectance_factor, &m.transmittance_factor}, s);
+  s.eta_behind = around->value > 0 ? sheet->value / around->value : sheet->value;
+}
+
 // What is nothing but an image.
 LaneTexture lane_texture(const Manifest& manifest, const Textures& images,
                          const SpectrumParameter& reflectance) {
@@ -110,6 +119,7 @@ LaneMaterial lane_material(const Manifest& manifest, const Textures& images, con
   if (const auto* principled = std::get_if<PrincipledMaterial>(&material.model)) set(*principled, s);
   if (const auto* finish = std::get_if<FinishMaterial>(&material.model)) set(*finish, s);
   if (const auto* glass = std::get_if<DielectricMaterial>(&material.model)) set(*glass, s);
+  if (const auto* sheet = std::get_if<ThinDielectricMaterial>(&material.model)) set(*sheet, s);
   s.is_raised = material.displacement.has_value();
   s.is_tilted = s.is_raised || material.normal_map;
   if (s.is_tilted && s.kind == LaneKind::glass) s.kind = LaneKind::none;
@@ -188,6 +198,8 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf) {
     l.spectra[0] = glass->reflectance_factor, l.spectra[1] = glass->transmittance_factor;
     l.eta = glass->eta;
     l.microfacets = glass->microfacets;
+  } else if (const auto* sheet = std::get_if<ThinDielectricBsdf>(&bsdf)) {
+    l.spectra[0] = sheet->reflectance_factor, l.spectra[1] = sheet->transmittance_factor;
   }
   return l;
 }
@@ -195,14 +207,15 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf) {
 LaneScene::LaneScene(const Manifest& manifest, const Textures& images, const Interiors& interiors,
                      const Materials& all_materials, const LightSampler& lights) {
   const Requirements& r = manifest.requirements;
-  has_connections = r.see_through || r.media || (all_materials.have_panes() && !lights.distant.empty()) ||
-                    (r.refraction && manifest.settings.direct_only) ||
+  passes_light = r.see_through || r.media || (r.refraction && manifest.settings.direct_only);
+  has_walks = all_materials.have_panes() && !manifest.settings.direct_only;
+  has_connections = passes_light || (has_walks && !lights.distant.empty()) ||
                     !std::ranges::all_of(lights.emitters, &PointEmitter::casts_shadows);
   divides_space = interiors.divide_space();
   for (const Material& material : manifest.materials) {
     LaneMaterial& lane = materials.emplace_back(lane_material(manifest, images, material));
     lane.transmits = all_materials.kind(static_cast<std::uint32_t>(materials.size() - 1)).transmits;
-    if (lane.kind != LaneKind::none && lane.kind != LaneKind::glass && !lane.has_parameters &&
+    if (lane.kind != LaneKind::none && lane.kind < LaneKind::glass && !lane.has_parameters &&
         !lane.texture.image)
       lane.constants = lane_bsdf(all_materials.bsdf_at(material, {}, luminance_wavelengths()[0]));
     has_textures = has_textures || lane.texture.image != nullptr;

@@ -24,9 +24,10 @@ enum class LaneKind : std::uint8_t {
   principled,   // PrincipledBsdf
   finish,       // FinishBsdf
   rough_glass,  // DielectricBsdf, rough, of one index
-  glass         // smooth, of one index
+  glass,        // smooth, of one index
+  sheet         // ThinDielectricBsdf, of one index
 };
-inline constexpr std::size_t lane_kinds = 10;
+inline constexpr std::size_t lane_kinds = 11;
 
 // An image that lanes look up: by (u,v), bilinear, the finest level.
 struct LaneTexture {
@@ -64,12 +65,13 @@ struct LaneMaterial {
   FlatSpectrum spectra[LaneBsdf::most_spectra];  // those of `constants`
   LaneBsdf constants;
   LaneTexture texture;  // of `diffuse`, where it has an image: the reflectance
-  // Of `glass`: the indices on its back and on its front; whether its factors are not 1.
+  // Of `glass`: the indices on its back and on its front; whether its factors are not 1. Of `sheet`: what it
+  // has over what is around it, and 1.
   float eta_behind = 1, eta_before = 1;
   bool is_tinted = false;
 
   bool is_diffuse() const { return kind == LaneKind::diffuse || kind == LaneKind::finish; }
-  bool is_specular() const { return kind == LaneKind::mirror || kind == LaneKind::glass; }
+  bool is_specular() const { return kind == LaneKind::mirror || kind >= LaneKind::glass; }
 };
 
 struct LaneSurface {
@@ -86,6 +88,8 @@ enum class LaneLamp : std::uint8_t { other, triangle, sphere, emitter };
 struct LaneScene {
   // A connection may be no shadow ray: light may pass something straight on, or has nothing in its way.
   bool has_connections = false;
+  bool passes_light = false;            // light may: it goes by connections to all lights
+  bool has_walks = false;               // connections to distant lights walk through panes
   bool divides_space = false;           // as Interiors
   bool has_textures = false;            // some material has a LaneTexture
   std::vector<LaneMaterial> materials;  // of all Manifest::materials

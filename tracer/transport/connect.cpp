@@ -40,30 +40,21 @@ bool is_shadowless(const Tracing& tracing, const LightSample& light) {
 void send_connection(const Tracing& tracing, const CameraPath& path, const Departure& from,
                      const LightSample& light, const SampledSpectrum& radiance, bool walks,
                      Connections& waiting) {
-  Connection& c = waiting.begun.emplace_back();
-  c.key = path.key;
-  c.seed = path.seed;
-  c.time_s = path.time_s;
-  c.depth = path.depth;
-  c.dispersed = path.dispersed;
-  c.throughput = radiance;
-  c.wavelengths = path.wavelengths;
-  c.film = path.film;
-  c.walks = walks;
+  Connection& c = add_connection(path, waiting);
   const PointEmitter* const emitter = emitter_of(tracing, light);
   c.passes_veils = emitter && emitter->fading;
   c.light_group = tracing.scene.groups.of(tracing.scene.lights, light.light);
+  c.throughput = radiance;
+  c.walks = walks;
   const Aimed aimed = aim(from, light);
+  c.depth = path.depth;
   depart(c, from, light.to_light);
   turn(c, aimed.direction);
   c.depth = walks ? 0 : path.depth + 1;
-  if (walks) {
+  if (walks)
     c.refracted = {tracing.scene.lights.distant[light.light.index].light & RefractedAim::light_mask};
-  } else {
-    c.straight = StraightAim::of(StraightAim{slope_of(aimed.cosine)}.bits());
-    c.left = end_value(end_code(aimed.end));
-    c.hit.t = aimed.end;
-  }
+  else
+    end_at(c, aimed.end, slope_of(aimed.cosine));
 }
 
 void send_shadow_ray(const RenderScene& scene, const CameraPath& path, const Departure& from,

@@ -134,6 +134,24 @@ void trace_in_one(Tracing& tracing, Connections& waiting) {
 
 }  // namespace
 
+Connection& add_connection(const CameraPath& path, Connections& waiting) {
+  Connection& c = waiting.begun.emplace_back();
+  c.key = path.key;
+  c.seed = path.seed;
+  c.time_s = path.time_s;
+  c.depth = path.depth + 1;
+  c.dispersed = path.dispersed;
+  c.wavelengths = path.wavelengths;
+  c.film = path.film;
+  return c;
+}
+
+void end_at(Connection& c, double end, double slope) {
+  c.straight = StraightAim::of(StraightAim{slope}.bits());
+  c.left = end_value(end_code(end));
+  c.hit.t = end;
+}
+
 void trace(Tracing& tracing, Connections& waiting) {
   if (DomainWalk::has_one(tracing.manifest(), tracing.resident) && !tracing.traffic) {
     trace_in_one(tracing, waiting);

@@ -11,6 +11,7 @@
 #include "tracer/panes/pane_walk.h"
 #include "tracer/rays/connection_code.h"
 #include "tracer/transport/find_hit.h"
+#include "tracer/transport/scatterer.h"
 
 namespace vitrail {
 
@@ -33,6 +34,11 @@ struct Connections {
   std::vector<Connection> begun;
   std::vector<Connection*> live;  // of those that are traced together
 };
+
+// One of a path that is to be told where it goes.
+Connection& add_connection(const CameraPath& path, Connections& waiting);
+// Gives one that goes straight its end, in lengths of its direction, and the slope of its light there.
+void end_at(Connection& connection, double end, double slope);
 
 // Traces those that begin here, and leaves none of them.
 void trace(Tracing& tracing, Connections& waiting);

@@ -61,6 +61,8 @@ LANE_FUNCTION(conductor, 25, 25) {
   put_sample(lanes::sample(bsdf, in.vector(17), in.f(23), in.f(24)), out);
   put_sample(lanes::sample_mirror(bsdf, in.vector(17)), out);
 }
+// A cosine, an index.
+LANE_FUNCTION(sheet, 2, 1) { out.number(lanes::sheet_reflectance(in.d(0), in.d(1))); }
 // Widths and kinds, four of each factor, index, two directions, three numbers.
 LANE_FUNCTION(rough_dielectric, 22, 15) {
   const lanes::RoughDielectric<lanes::Doubles<W>> bsdf{in.d(12), microfacets_of(in, 0), four_of(in, 4),

@@ -121,6 +121,13 @@ std::vector<ScalarFunction> glossy_functions() {
          put(eval(bsdf, from, vector_of(in + 16)), results);
          put(sample(bsdf, from, static_cast<float>(in[19]), numbers_of(in + 20)), results);
        }},
+      {"sheet",
+       {number(0, 1, {0, 1}), float_number(0.4, 2.5, {1, 1.5})},
+       [](const Context&, const double* in, double* out) {
+         ThinDielectricBsdf bsdf;
+         bsdf.eta = filled(static_cast<float>(in[1]));
+         Results{out} << static_cast<double>(mirrored_share(bsdf, in[0])[0]);
+       }},
       {"plastic", plastic,
        [](const Context&, const double* in, double* out) {
          const PlasticBsdf smooth{four_of(in + 4), four_of(in + 8), in[12], in[13], in[14] > 0};

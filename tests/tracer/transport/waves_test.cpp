@@ -141,6 +141,19 @@ std::function<void(Scene&)> under(std::vector<LightModel> lights) {
   };
 }
 
+void tinted_sheets(Scene& s) {
+  pictures(TextureFilter::bilinear)(s);
+  add_ball(s, rough_gold(Roughness::Distribution::ggx));
+  ThinDielectricMaterial sheet;
+  sheet.transmittance_factor = Spectrum{reflectance_from_rgb({0.9f, 0.5f, 0.1f})};
+  add_shape(s, add_quads(s, box_faces({-0.5f, -0.5f, -0.6f}, {0.5f, 0.5f, -0.5f})), material(sheet));
+  s.shapes.back().opacity = 0.6f;
+  sheet.reflectance_factor = Id<Texture>{0}, sheet.exterior_eta = ConstantSpectrum{1.2f};
+  add_shape(s, add_quads(s, box_faces({-0.9f, -0.9f, -0.4f}, {0, 0, -0.3f})), material(sheet));
+  s.materials.back().normal_map = Id<Texture>{0};
+  s.lights.push_back(Light{PointLight{{0.3, 0.2, -0.8}, ConstantSpectrum{1}}});
+}
+
 std::vector<Case> cases() {
   const auto block = [](const Material& m) { return [m](Scene& s) { add_block(s, m); }; };
   const auto ball = [](const Material& m) { return [m](Scene& s) { add_ball(s, m); }; };
@@ -316,6 +329,12 @@ std::vector<Case> cases() {
          add_block(s, material(ThinDielectricMaterial{}));
          s.meshes[0].triangles.resize(8);
          s.lights.push_back(Light{DistantLight{{0.3, -0.5, 0.8}, ConstantSpectrum{1}}});
+       }},
+      {"sheets of tinted glass before things of all kinds, and by a map", tinted_sheets},
+      {"the same where passing them counts for nothing",
+       [](Scene& s) {
+         tinted_sheets(s);
+         s.settings.straight_counts = false;
        }},
       {"a pane and a sun",
        [](Scene& s) {

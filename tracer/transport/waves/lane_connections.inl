@@ -1,250 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of lane_stages.inl: connections to lights.
-#include "tracer/transport/waves/lane_environments.inl"
-
-// A candidate for a light, of each lane.
-struct Candidate {
-  Mask<D> arrives, is_delta;
-  Connected<D> light;
-  D pdf;
-  Four<F> radiance;
-  const EmissiveQuadric* quadric[W];
-  const PlacedQuadric* sphere[W];  // where that is one; else null
-  LightRef ref[W];
-};
-
-// Which of the lights of the tree, and where on it. `root`: what choose_lights keeps.
-struct TreeRoot {
-  LightWeights weights[W];
-  bool is_known = false;
-};
-
-// Those that are not for lanes.
-VITRAIL_LANES void sample_alone(const LaneWork& work, const Group& g, Vector<D> p, const Four<F>& u,
-                                const bool (&alone)[W], Mask<D> of_tree, const ChosenLights<W>& chosen,
-                                Candidate& c) {
-  for (int j = 0; j < W; ++j) {
-    if (!alone[j]) continue;
-    const float numbers[4] = {lane(u[0], j), lane(u[1], j), lane(u[2], j), lane(u[3], j)};
-    LightSample s;
-    const bool arrives = is_set(of_tree, j)
-                             ? lane_by_lane::draw(work, *g.path[j], point_of(p, j), numbers,
-                                                  {chosen.slot[j], chosen.rest[j], chosen.probability[j]}, s)
-                             : lane_by_lane::sample(work, *g.path[j], point_of(p, j), numbers, s);
-    set_mask(c.arrives, j, arrives);
-    if (!arrives) continue;
-    set_mask(c.is_delta, j, s.is_delta);
-    set_lane(c.light.to_light, j, s.to_light);
-    set_lane(c.light.normal, j, s.normal);
-    set_lane(c.light.distance, j, s.distance);
-    set_lane(c.light.tilt_rad, j, s.tilt_rad);
-    set_lane(c.pdf, j, s.pdf);
-    for (int i = 0; i < 4; ++i) set_lane(c.radiance[i], j, s.radiance.v[i]);
-    c.quadric[j] = s.quadric;
-    c.sphere[j] = nullptr;
-    c.ref[j] = s.light;
-  }
-}
-
-// Those of `on`, whose lamps are triangles. The pdf is given the light.
-VITRAIL_LANES void sample_triangles(const LaneWork& work, Vector<D> p, const Four<F>& u,
-                                    const LightSampler::Slot* const (&slot)[W], const bool (&on)[W],
-                                    Candidate& c) {
-  const AreaLight* const area_lights = work.tracing.scene.manifest.area_lights.data();
-  const LightSampler::Slot* of[W];
-  const LightSampler::Face* face[W];
-  for (int j = 0; j < W; ++j) {
-    of[j] = on[j] ? slot[j] : &work.scene.no_slot;
-    face[j] = on[j] ? work.tracing.scene.lights.faces.data() + slot[j]->light.index : &work.scene.no_face;
-  }
-  const LampSample<D> lamp = draw_triangle<D>(
-      p, u[0], u[1], [&](int j) __attribute__((always_inline))->const LightSampler::Slot& { return *of[j]; },
-      [&](int j) __attribute__((always_inline))->const LightSampler::Face& { return *face[j]; },
-      VITRAIL_EACH(on[j] && area_lights[of[j]->area_light].two_sided));
-  c.arrives = lamp.arrives & gather_mask<D>(VITRAIL_EACH(on[j]));
-  c.light = {lamp.to_light, lamp.distance, lamp.normal, lamp.tilt_rad};
-  c.pdf = lamp.pdf;
-}
-
-// The same whose lamps are spheres; other lanes keep what they have.
-VITRAIL_LANES void sample_spheres(const LaneWork& work, Vector<D> p, const Four<F>& u,
-                                  const LightSampler::Slot* const (&slot)[W], const bool (&on)[W],
-                                  Candidate& c) {
-  const AreaLight* const area_lights = work.tracing.scene.manifest.area_lights.data();
-  const QuadricLight* const quadrics = work.tracing.scene.lights.quadrics.data();
-  for (int j = 0; j < W; ++j) {
-    if (!on[j]) continue;
-    const QuadricLight& light = quadrics[slot[j]->light.index];
-    c.quadric[j] = &light.record();
-    c.sphere[j] = &light.stands();
-  }
-  const SphereSample<D> s = sample_sphere<D>(
-      p, u[0], u[1], [&](int j) __attribute__((always_inline))->const PlacedQuadric& {
-        return on[j] ? *c.sphere[j] : work.scene.no_sphere;
-      });
-  const Mask<D> those = gather_mask<D>(VITRAIL_EACH(on[j]));
-  const Mask<D> turned = gather_mask<D>(VITRAIL_EACH(on[j] && c.quadric[j]->quadric.inside_out)),
-                two_sided = gather_mask<D>(VITRAIL_EACH(on[j] && area_lights[slot[j]->area_light].two_sided));
-  c.arrives = (those & s.arrives & ((s.outside != turned) | two_sided)) | (no(those) & c.arrives);
-  c.light.to_light = select<D>(those, s.to_light, c.light.to_light);
-  c.light.normal = select<D>(those, s.normal, c.light.normal);
-  c.light.distance = select<D>(those, s.distance, c.light.distance);
-  c.light.tilt_rad = select<D>(those, fill<D>(0), c.light.tilt_rad);
-  c.pdf = select<D>(those, s.pdf, c.pdf);
-}
-
-// Those of which[j] that the number for it chooses beside the tree: an environment, a distant light, or none
-// that lanes know.
-struct SingleLight {
-  std::uint32_t environment = no_light, distant = no_light;
-};
-VITRAIL_LANES SingleLight single_light(const LaneWork& work, double rest) {
-  const LightSampler& lights = work.tracing.scene.lights;
-  const double* const share = lights.share.data();
-  const std::size_t first = lights.first_environment();
-  std::size_t choice = 0;
-  while (choice + 1 < lights.share.size() && rest >= share[choice]) rest -= share[choice++];
-  SingleLight light;
-  if (!(share[choice] > 0) || choice == 0) return light;
-  if (choice >= first)
-    light.environment = static_cast<std::uint32_t>(choice - first);
-  else if (work.scene.distant.data()[choice - 1].is_plain)
-    light.distant = static_cast<std::uint32_t>(choice - 1);
-  return light;
-}
-
-// Lights from one point, of `on`; other lanes keep what they have. The pdf is that of their choice.
-[[gnu::noinline]] void sample_emitters(const LaneWork& work, const Group& g, Vector<D> p,
-                                       const LightSampler::Slot* const (&slot)[W], const bool (&on)[W],
-                                       D choice, Candidate& c) {
-  const auto emitter = [&](int j) __attribute__((always_inline))->const PlainEmitter& {
-    return on[j] ? work.scene.emitters.data()[slot[j]->light.index] : work.scene.no_emitter;
-  };
-  const EmitterSample<D> s = draw_emitter<D>(p, emitter);
-  const Four<F> spectrum = values_of(
-      g, [&](int j) __attribute__((always_inline))->const FlatSpectrum& { return emitter(j).intensity; });
-  const Mask<D> those = gather_mask<D>(VITRAIL_EACH(on[j]));
-  c.arrives = c.arrives | (those & s.arrives);
-  c.is_delta = c.is_delta | those;
-  c.light.to_light = select<D>(those, s.to_light, c.light.to_light);
-  c.light.normal = select<D>(those, fill<D>(Vector3d{}), c.light.normal);
-  c.light.distance = select<D>(those, s.distance, c.light.distance);
-  c.light.tilt_rad = select<D>(those, fill<D>(0), c.light.tilt_rad);
-  c.pdf = select<D>(those, choice, c.pdf);
-  for (int i = 0; i < 4; ++i)
-    c.radiance[i] = select<F>(mask_for<F>(those), s.part * spectrum[i] * s.weakening, c.radiance[i]);
-}
-
-// The same of distant lights: which[j].
-[[gnu::noinline]] void sample_distant(const LaneWork& work, const Group& g, const std::uint32_t (&which)[W],
-                                      Candidate& c) {
-  const LightSampler& lights = work.tracing.scene.lights;
-  const auto number = [&](int j) __attribute__((always_inline)) {
-    return which[j] == no_light ? 0 : which[j];
-  };
-  const Four<F> irradiance = values_of(
-      g, [&](int j) __attribute__((always_inline))->const FlatSpectrum& {
-        return work.scene.distant.data()[number(j)].irradiance;
-      });
-  const Mask<D> those = gather_mask<D>(VITRAIL_EACH(which[j] != no_light));
-  const Vector<D> direction = gather_vector<D>([&](int j) __attribute__((always_inline))->const Vector3d& {
-    return lights.distant.data()[number(j)].direction;
-  });
-  c.arrives = c.arrives | those;
-  c.is_delta = c.is_delta | those;
-  c.light.to_light = select<D>(those, -direction, c.light.to_light);
-  c.light.normal = select<D>(those, fill<D>(Vector3d{}), c.light.normal);
-  c.light.distance = select<D>(those, fill<D>(std::numeric_limits<double>::infinity()), c.light.distance);
-  c.light.tilt_rad = select<D>(those, fill<D>(0), c.light.tilt_rad);
-  c.pdf = select<D>(those, gather<D>(VITRAIL_EACH(lights.share.data()[1 + number(j)])), c.pdf);
-  for (int i = 0; i < 4; ++i) c.radiance[i] = select<F>(mask_for<F>(those), irradiance[i], c.radiance[i]);
-  for (int j = 0; j < W; ++j)
-    if (which[j] != no_light) c.ref[j] = {LightKind::distant, which[j]};
-}
-
-// Of plain lamps, kept in the path. Not inlined into the stage of each kind.
-[[gnu::noinline]] void find_radiances(const LaneWork& work, const Group& g,
-                                      const LightSampler::Slot* const (&slot)[W], const bool (&on)[W]) {
-  const Four<F> radiance = values_of(
-      g, [&](int j) __attribute__((always_inline))->const FlatSpectrum& {
-        return work.scene.radiances.data()[on[j] ? slot[j]->area_light : 0];
-      });
-  for (int j = 0; j < W; ++j) {
-    if (!on[j]) continue;
-    LastLamp& lamp = g.path[j]->lamp;
-    lamp.area_light = slot[j]->area_light;
-    for (int i = 0; i < 4; ++i) lamp.radiance.v[i] = lane(radiance[i], j);
-  }
-}
-
-VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vector<D> p, const Four<F>& u,
-                                     Mask<D> on, TreeRoot& root) {
-  const LightSampler& lights = work.tracing.scene.lights;
-  constexpr double below_one = 0x1.fffffffffffffp-1;
-  const double share = lights.share.data()[0];
-  D in_tree = to_doubles(u[2]);
-  Mask<D> of_tree = on;
-  if (!lights.three_numbers) {
-    const D rest = to_doubles(u[3]);
-    const D fine = lanes::clamp<D>(rest / share, 0.0, 0x1.fffffp-1);
-    in_tree = lanes::min(in_tree + fine * 0x1p-24, fill<D>(below_one));
-    if (lights.share.size() > 1) of_tree = on & (rest < share);
-    if (!(share > 0)) of_tree = on & (rest < rest);
-  }
-  ChosenLights<W> chosen;
-  choose_lights(lights.tree, p, in_tree, of_tree, root.weights, root.is_known, chosen);
-  root.is_known |= any(of_tree);
-
-  const LightSampler::Slot* slot[W];
-  std::uint32_t environment[W], distant[W];
-  bool triangle[W], sphere[W], emitter[W], alone[W], some_triangle = false, some_sphere = false,
-                                                     some_emitter = false, some_distant = false,
-                                                     some_alone = false, some_environment = false;
-  for (int j = 0; j < W; ++j) {
-    const bool from_tree = is_set(of_tree, j) && chosen.any[j];
-    const LaneLamp lamp = from_tree ? work.scene.lamps.data()[chosen.slot[j]] : LaneLamp::other;
-    slot[j] = lamp != LaneLamp::other ? lights.slots.data() + chosen.slot[j] : &work.scene.no_slot;
-    some_triangle |= triangle[j] = lamp == LaneLamp::triangle;
-    some_sphere |= sphere[j] = lamp == LaneLamp::sphere;
-    some_emitter |= emitter[j] = lamp == LaneLamp::emitter;
-    const bool is_single = is_set(on, j) && !is_set(of_tree, j);
-    const SingleLight single =
-        is_single ? single_light(work, static_cast<double>(lane(u[3], j))) : SingleLight{};
-    some_environment |= (environment[j] = single.environment) != no_light;
-    some_distant |= (distant[j] = single.distant) != no_light;
-    some_alone |= alone[j] = from_tree ? lamp == LaneLamp::other
-                                       : is_single && environment[j] == no_light && distant[j] == no_light;
-  }
-
-  Candidate c{};
-  for (int j = 0; j < W; ++j) c.ref[j] = slot[j]->light;
-  if (some_triangle) sample_triangles(work, p, u, slot, triangle, c);
-  if (some_sphere) sample_spheres(work, p, u, slot, sphere, c);
-  const D choice = gather<D>(VITRAIL_EACH(chosen.probability[j])) * share;
-  c.pdf = c.pdf * choice;
-  bool is_new[W], some_new = false;
-  for (int j = 0; j < W; ++j)
-    some_new |= is_new[j] = is_set(c.arrives, j) && g.path[j]->lamp.area_light != slot[j]->area_light;
-  if (some_new) find_radiances(work, g, slot, is_new);
-  for (int i = 0; i < 4; ++i) c.radiance[i] = gather<F>(VITRAIL_EACH(g.path[j]->lamp.radiance.v[i]));
-  if (some_emitter) sample_emitters(work, g, p, slot, emitter, choice, c);
-  if (some_distant) sample_distant(work, g, distant, c);
-  if (some_environment) {
-    EnvironmentSample s;
-    sample_environments(work, g, u, environment, s);
-    c.arrives = c.arrives | s.arrives;
-    c.light.to_light = select<D>(s.chosen, s.to_light, c.light.to_light);
-    c.light.distance =
-        select<D>(s.chosen, fill<D>(std::numeric_limits<double>::infinity()), c.light.distance);
-    c.pdf = select<D>(s.chosen, s.seen.pdf, c.pdf);
-    for (int i = 0; i < 4; ++i)
-      c.radiance[i] = select<F>(mask_for<F>(s.chosen), s.seen.radiance[i], c.radiance[i]);
-    for (int j = 0; j < W; ++j)
-      if (environment[j] != no_light) c.ref[j] = {LightKind::environment, environment[j]};
-  }
-  if (some_alone) sample_alone(work, g, p, u, alone, of_tree, chosen, c);
-  return c;
-}
+#include "tracer/transport/waves/lane_lights.inl"
 
 VITRAIL_LANES LightSample light_of(const Candidate& chosen, int j) {
   LightSample light;
@@ -258,19 +14,65 @@ VITRAIL_LANES LightSample light_of(const Candidate& chosen, int j) {
   return light;
 }
 
-// One by one, by whatever ray it takes.
-VITRAIL_LANES void send_connections(LaneWork& work, const Group& g, const Interaction<D>& at, Mask<D> on,
-                                    const Candidate& chosen, const Four<F>& radiance) {
-  const Vector<F> origin = origin_of(work, at, chosen.light.to_light);
-  const Mask<D> front_side = dot(chosen.light.to_light, at.geometric) > 0;
+// Where W connections leave.
+struct Leaving {
+  Vector<D> p;
+  Vector<F> origin;  // beside it
+  std::uint32_t exclude[W];
+  std::uint8_t inside[W];
+};
+
+VITRAIL_LANES lane_by_lane::Leaving leaving_of(const Leaving& from, int j) {
+  return {point_of(from.p, j),
+          {lane(from.origin.x, j), lane(from.origin.y, j), lane(from.origin.z, j)},
+          from.exclude[j],
+          from.inside[j]};
+}
+
+// Of `on`, those that are sent alone, by whatever ray it takes: through panes, without a shadow, to quadrics.
+VITRAIL_LANES Mask<D> send_alone(LaneWork& work, const Group& g, const Leaving& from, Mask<D> on,
+                                 const Candidate& chosen, const Four<F>& radiance) {
+  const PointEmitter* const emitters = work.tracing.scene.lights.emitters.data();
+  Mask<D> alone{};
+  for (int j = 0; j < W; ++j) {
+    const LightRef light = chosen.ref[j];
+    bool is_alone = work.scene.passes_light && chosen.quadric[j];
+    if (light.kind == LightKind::emitter)
+      is_alone |= !emitters[light.index].casts_shadows || emitters[light.index].fading;
+    if (light.kind == LightKind::distant) is_alone |= work.scene.has_walks;
+    if (!is_alone || !is_set(on, j)) continue;
+    set_mask(alone, j, true);
+    if (j >= g.valid) continue;
+    ++work.rays_shadow;
+    lane_by_lane::send(work, *g.path[j], leaving_of(from, j), light_of(chosen, j), lane(radiance, j));
+  }
+  return alone;
+}
+
+// Where light passes something, straight to lights but quadrics.
+VITRAIL_LANES void send_connections(LaneWork& work, const Group& g, const Carried& carried,
+                                    const Leaving& from, Mask<D> on, const Candidate& chosen,
+                                    const Four<F>& radiance) {
+  const L seed = gather<L>(VITRAIL_EACH(g.path[j]->seed));
+  const L stream =
+      (convert<std::uint64_t>(carried.depth) << 3 | static_cast<std::uint64_t>(RayRandom::throughput)) *
+      stream_factor;
+  const Departed<D> ray = depart<D>(seed, stream, from.origin, chosen.light.to_light, radiance);
+  const Aimed<D> aimed = aim(from.p, from.origin, chosen.light);
+  const L random = hash_of_ray<L>(seed, from.origin, aimed.code);
+  const D slope = lanes::sqrt(lanes::max(fill<D>(0), 1.0 - aimed.cosine * aimed.cosine)) / abs(aimed.cosine);
   for (int j = 0; j < g.valid; ++j) {
     if (!is_set(on, j)) continue;
     ++work.rays_shadow;
-    const float brings[4] = {lane(radiance[0], j), lane(radiance[1], j), lane(radiance[2], j),
-                             lane(radiance[3], j)};
-    lane_by_lane::send(work, *g.path[j], {g.place[j], is_set(at.front, j), is_set(front_side, j)},
-                       point_of(at.p, j), {lane(origin.x, j), lane(origin.y, j), lane(origin.z, j)},
-                       light_of(chosen, j), brings);
+    const std::uint32_t first = lane(aimed.code.first, j), second = lane(aimed.code.second, j);
+    lane_by_lane::StraightConnection way{leaving_of(from, j), lane(aimed.direction, j), {},
+                                         lane(random, j),     lane(aimed.end, j),       lane(slope, j),
+                                         chosen.ref[j]};
+    for (int i = 0; i < 3; ++i) {
+      way.code.byte[i] = static_cast<std::uint8_t>(first >> 8 * i);
+      way.code.byte[3 + i] = static_cast<std::uint8_t>(second >> 8 * i);
+    }
+    lane_by_lane::begin_connection(work, *g.path[j], way, lane(ray.throughput, j));
   }
 }
 
@@ -347,14 +149,13 @@ VITRAIL_LANES BsdfValue<D> eval_towards(const LaneWork& work, const Candidate& c
   return eval(bsdf, out, in);
 }
 
-// As connect.cpp has it: of `count` candidates for a light one, with what it brings. scatter(candidate, is_way)
-// gives what is scattered from there, and where that is a way of light. Those that bring something.
+// As connect.cpp has it: of `count` candidates for a light one, with what it brings. scatter(candidate,
+// is_way) gives what is scattered from there, and where that is a way of light. Those that bring something.
 template <class Scatter>
 VITRAIL_LANES Mask<D> choose_light(const LaneWork& work, const Group& g, const Carried& carried, Vector<D> p,
                                    const Scatter& scatter, Mask<D> on, std::uint32_t count, Candidate& best,
                                    Four<F>& radiance) {
-  const Four<F> u =
-      lanes::sample_4d(work.tracing.scene.seed, carried.pixel, carried.sample, 2u + 2u * carried.depth);
+  const Four<F> u = numbers_of(work, g, carried, 2u + 2u * carried.depth, RayRandom::light);
   D choice = to_doubles(gather<F>(VITRAIL_EACH(g.path[j]->film.camera.data()[3])));
   D all = fill<D>(0), chosen = fill<D>(0);
   TreeRoot root;
@@ -414,10 +215,20 @@ VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carrie
     return eval_towards(work, c, bsdf, out, in);
   };
   const Mask<D> chosen = choose_light(work, g, carried, at.p, scatter, on, count, best, radiance);
-  if (work.scene.has_connections)
-    send_connections(work, g, at, chosen, best, radiance);
+  if (!any(chosen)) return;
+  if (!work.scene.has_connections) return send_shadow_rays(work, g, at, chosen, best, radiance);
+  Leaving from{at.p, origin_of(work, at, best.light.to_light)};
+  const Mask<D> front_side = dot(best.light.to_light, at.geometric) > 0;
+  for (int j = 0; j < W; ++j) {
+    from.exclude[j] = g.path[j]->hit.triangle;
+    from.inside[j] =
+        lane_by_lane::inside(work, *g.path[j], {g.place[j], is_set(at.front, j), is_set(front_side, j)});
+  }
+  const Mask<D> rest = chosen & no(send_alone(work, g, from, chosen, best, radiance));
+  if (work.scene.passes_light)
+    send_connections(work, g, carried, from, rest, best, radiance);
   else
-    send_shadow_rays(work, g, at, chosen, best, radiance);
+    send_shadow_rays(work, g, at, rest, best, radiance);
 }
 
 // From points of media, whose phase functions are those of g.
@@ -434,11 +245,8 @@ VITRAIL_LANES void connect_in_media(LaneWork& work, const Group& group, const Ca
   };
   const Mask<D> every = p.x == p.x;
   const Mask<D> chosen = choose_light(work, group, carried, p, scatter, every, count, best, radiance);
-  for (int j = 0; j < group.valid; ++j) {
-    if (!is_set(chosen, j)) continue;
-    ++work.rays_shadow;
-    const float brings[4] = {lane(radiance[0], j), lane(radiance[1], j), lane(radiance[2], j),
-                             lane(radiance[3], j)};
-    lane_by_lane::send_from_medium(work, *group.path[j], point_of(p, j), light_of(best, j), brings);
-  }
+  Leaving from{p, to_floats(p)};
+  for (int j = 0; j < W; ++j) from.exclude[j] = no_triangle, from.inside[j] = group.path[j]->inside;
+  const Mask<D> rest = chosen & no(send_alone(work, group, from, chosen, best, radiance));
+  send_connections(work, group, carried, from, rest, best, radiance);
 }

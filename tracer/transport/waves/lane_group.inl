@@ -53,6 +53,7 @@ struct Carried {
   // survival has it, is as good as infinitely bright.
   F brightness;
   U pixel, sample, depth;
+  unsigned passed = 0;  // a bit each that has passed something for nothing: its numbers are hashed
 
   VITRAIL_LANES explicit Carried(const Group& g) {
     for (int i = 0; i < 4; ++i) throughput[i] = gather<F>(VITRAIL_EACH(g.path[j]->throughput.v[i]));
@@ -62,11 +63,24 @@ struct Carried {
     pixel = gather<U>(VITRAIL_EACH(g.path[j]->key.pixel));
     sample = gather<U>(VITRAIL_EACH(g.path[j]->key.sample));
     depth = gather<U>(VITRAIL_EACH(g.path[j]->depth));
+    for (int j = 0; j < W; ++j) passed |= static_cast<unsigned>(g.path[j]->passed) << j;
   }
 };
 
-VITRAIL_LANES Four<F> scatter_numbers(const LaneWork& work, const Carried& carried) {
-  return lanes::sample_4d(work.tracing.scene.seed, carried.pixel, carried.sample, 1u + 2u * carried.depth);
+// Of an event; `set` as sample_set has it.
+VITRAIL_LANES Four<F> numbers_of(const LaneWork& work, const Group& g, const Carried& carried, U set,
+                                 RayRandom use) {
+  Four<F> u = lanes::sample_4d(work.tracing.scene.seed, carried.pixel, carried.sample, set);
+  for (int j = 0; j < W; ++j) {
+    if (!(carried.passed >> j & 1)) continue;
+    float hashed[4];
+    lane_by_lane::hash_numbers(*g.path[j], use, hashed);
+    for (int i = 0; i < 4; ++i) set_lane(u[i], j, hashed[i]);
+  }
+  return u;
+}
+VITRAIL_LANES Four<F> scatter_numbers(const LaneWork& work, const Group& g, const Carried& carried) {
+  return numbers_of(work, g, carried, 1u + 2u * carried.depth, RayRandom::scattering);
 }
 
 VITRAIL_LANES Interaction<D> interaction_of(const LaneWork& work, const Group& g, bool is_placed) {

@@ -106,8 +106,7 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place, co
   if (!arrived.has_flown && is_too_dark(tracing, path)) return false;
   if (path.pane.within && (path.pane.parts || path.pane.owes)) return false;
   if (!arrived.scatters_in && !path.meets_surface()) return take_leaving(tracing, path, place);
-  const bool at_its_end = is_spent(tracing, path) || path.depth >= most_events;
-  if (at_its_end || path.passed) return false;
+  if (is_spent(tracing, path) || path.depth >= most_events) return false;
   if (arrived.scatters_in) return take_in_medium(tracing, path, place, arrived);
   const Surface& surface = surface_at(tracing, path);
   const auto index = static_cast<std::uint32_t>(&surface - tracing.manifest().surfaces.data());

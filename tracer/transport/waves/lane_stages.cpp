@@ -69,17 +69,21 @@ std::uint8_t inside(const LaneWork& work, const CameraPath& path, const SurfaceS
                                              side.front_side != side.from_front);
 }
 
-void send(LaneWork& work, const CameraPath& path, const SurfaceSide& side, Point3d p, Point3f origin,
-          const LightSample& light, const float (&radiance)[4]) {
-  const Departure from{p, origin, path.hit.triangle, inside(work, path, side)};
-  vitrail::send(work.tracing, path, from, light, {{radiance[0], radiance[1], radiance[2], radiance[3]}},
-                work.shadows);
+void send(LaneWork& work, const CameraPath& path, const Leaving& from, const LightSample& light,
+          const SampledSpectrum& radiance) {
+  vitrail::send(work.tracing, path, from, light, radiance, work.shadows);
 }
 
-void send_from_medium(LaneWork& work, const CameraPath& path, Point3d p, const LightSample& light,
-                      const float (&radiance)[4]) {
-  vitrail::send(work.tracing, path, {p, cast<float>(p), no_triangle, path.inside}, light,
-                {{radiance[0], radiance[1], radiance[2], radiance[3]}}, work.shadows);
+void begin_connection(LaneWork& work, const CameraPath& path, const StraightConnection& way,
+                      const SampledSpectrum& throughput) {
+  Connection& c = add_connection(path, work.shadows.connections);
+  c.light_group = group_of(work, way.light);
+  c.inside = way.from.inside;
+  c.ray = {way.from.origin, way.direction, way.from.exclude};
+  c.direction = way.code;
+  c.random = way.random;
+  c.throughput = throughput;
+  end_at(c, way.end, way.slope);
 }
 
 Vector3d sample_phase(double g, Vector3d out, float u, float v) {
@@ -91,6 +95,20 @@ void aim(const CameraPath& path, Point3d p, Point3f origin, const LightSample& l
   shadow.ray.direction = aimed.rounded;
   shadow.direction = aimed.direction;
   shadow.tmax = float_below(aimed.end);
+}
+
+void hash_numbers(const CameraPath& path, RayRandom use, float (&numbers)[4]) {
+  std::ranges::copy(hashed_4d(stream_of(path, use)), numbers);
+}
+
+void pass_sheet(LaneWork& work, CameraPath& path, const SheetHit& hit, const SampledSpectrum& throughput) {
+  path.throughput = throughput;
+  Interaction at;
+  at.p = hit.p, at.geometric = hit.geometric, at.rounding = hit.rounding, at.front = hit.front;
+  at.triangle = path.hit.triangle;
+  const Surface& surface = work.tracing.manifest().surfaces[work.surface[hit.place]];
+  scatter_straight(work.tracing, path,
+                   {surface, work.tracing.scene.materials.kind(surface.material), at, true});
 }
 
 void cross_face(CameraPath& path, Vector3d normal, bool front, bool reflected) {

@@ -96,21 +96,42 @@ double filter_weight(const Tracing& tracing, float u, float v);
 void evaluate(const FlatSpectrum& spectrum, const CameraPath& path, float (&value)[4]);
 // Radiance times throughput, of all that is around the scene.
 void deposit_surroundings(const LaneWork& work, const CameraPath& path, const SampledSpectrum& radiance);
-// Where light may pass something: goes to a light by whatever ray it takes. `front_side`: it leaves there.
+// Where a ray leaves a surface. `front_side`: it leaves there.
 struct SurfaceSide {
   std::uint32_t place;
   bool from_front, front_side;
 };
-void send(LaneWork& work, const CameraPath& path, const SurfaceSide& side, Point3d p, Point3f origin,
-          const LightSample& light, const float (&radiance)[4]);
-// From a point of a medium.
-void send_from_medium(LaneWork& work, const CameraPath& path, Point3d p, const LightSample& light,
-                      const float (&radiance)[4]);
+// Where light may pass something: goes to a light by whatever ray it takes.
+using Leaving = Departure;
+void send(LaneWork& work, const CameraPath& path, const Leaving& from, const LightSample& light,
+          const SampledSpectrum& radiance);
+// Goes straight to a light.
+struct StraightConnection {
+  Leaving from;
+  Vector3f direction;
+  DirectionCode code;    // the direction's
+  std::uint64_t random;  // hash of the ray
+  double end, slope;     // as Connection
+  LightRef light;
+};
+void begin_connection(LaneWork& work, const CameraPath& path, const StraightConnection& way,
+                      const SampledSpectrum& throughput);
 Vector3d sample_phase(double g, Vector3d out, float u, float v);
 // State of Interiors there.
 std::uint8_t inside(const LaneWork& work, const CameraPath& path, const SurfaceSide& side);
 // Aims a shadow ray to a quadric.
 void aim(const CameraPath& path, Point3d p, Point3f origin, const LightSample& light, ShadowRay& shadow);
+// As numbers_for_scattering and of lights, of a path that has passed something for nothing.
+void hash_numbers(const CameraPath& path, RayRandom use, float (&numbers)[4]);
+// Goes straight on behind a sheet.
+struct SheetHit {
+  std::uint32_t place;
+  Point3d p;
+  Vector3d geometric;
+  double rounding;
+  bool front;
+};
+void pass_sheet(LaneWork& work, CameraPath& path, const SheetHit& hit, const SampledSpectrum& throughput);
 // At a face of glass of one index, whose normal is on the path's side: whether the path is in a pane then.
 void cross_face(CameraPath& path, Vector3d normal, bool front, bool reflected);
 

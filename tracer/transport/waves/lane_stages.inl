@@ -33,7 +33,7 @@ void scatter(LaneWork& work, const LaneList& list) {
     if constexpr (!Read::is_specular)
       if (can_sample) connect(work, g, carried, at, bsdf, frame, out, on, transmits, list.candidates);
 
-    const Four<F> u = scatter_numbers(work, carried);
+    const Four<F> u = scatter_numbers(work, g, carried);
     const BsdfSample<D> s = sample(bsdf, out, u[2], u[0], u[1]);
     Four<F> throughput;
     for (int i = 0; i < 4; ++i) throughput[i] = carried.throughput[i] * s.weight[i];
@@ -73,7 +73,7 @@ void scatter_in_media(LaneWork& work, const LaneList& list) {
     if (can_sample) connect_in_media(work, group, carried, p, g, out, list.candidates);
     if (work.ends_lit) continue;
 
-    const Four<F> u = scatter_numbers(work, carried);
+    const Four<F> u = scatter_numbers(work, group, carried);
     Vector<D> in = out;
     for (int j = 0; j < W; ++j)
       set_lane(in, j, lane_by_lane::sample_phase(lane(g, j), lane(out, j), lane(u[0], j), lane(u[1], j)));
@@ -107,7 +107,7 @@ void scatter_glass(LaneWork& work, const LaneList& list) {
       all = all + carries;
     }
     const D reflects = attainable(reflected / all);
-    const Four<F> u = scatter_numbers(work, carried);
+    const Four<F> u = scatter_numbers(work, g, carried);
     const Mask<D> goes_back = to_doubles(u[2]) < reflects;
     Vector<D> refracted;
     const Mask<D> passes = refract(at.out, normal, eta, refracted);
@@ -128,6 +128,45 @@ void scatter_glass(LaneWork& work, const LaneList& list) {
       if (is_set(lives, j))
         lane_by_lane::cross_face(*g.path[j], lane(normal, j), is_set(at.front, j), is_set(goes_back, j));
     go_on(work, g, carried, at, lives, direction, throughput, fill<F>(0), Mask<F>{});
+  }
+}
+
+// Thin glass of one index: as scatter_path has it.
+void scatter_sheet(LaneWork& work, const LaneList& list) {
+  for (std::size_t first = 0; first < list.count; first += W) {
+    const Group g = group_at_surfaces(work, list, first);
+    const Interaction<D> at = interaction_of(work, g, list.is_placed);
+    const Carried carried(g);
+    const Frame<D> frame = frame_around(at.shading, at.dpdu, fill<D>(1));
+    const Vector<D> out = frame.to_local(at.out);
+    const D eta = to_doubles(gather<F>(VITRAIL_EACH(g.material[j]->eta_behind)));
+    const F reflectance = sheet_reflectance(abs(out.z), eta);
+    Four<F> reflected = spectrum_of(g, 0), passed = spectrum_of(g, 1);
+    D bright_r = fill<D>(0), bright_t = fill<D>(0);
+    for (int i = 0; i < 4; ++i) {
+      reflected[i] = reflected[i] * reflectance, passed[i] = passed[i] * (1.0f - reflectance);
+      bright_r = bright_r + to_doubles(carried.throughput[i]) * to_doubles(reflected[i]);
+      bright_t = bright_t + to_doubles(carried.throughput[i]) * to_doubles(passed[i]);
+    }
+    const F reflects = to_floats(attainable(bright_r / (bright_r + bright_t)));
+    const Four<F> u = scatter_numbers(work, g, carried);
+    const Mask<F> goes_back = u[2] < reflects;
+    const F back = 1.0f / reflects, through = 1.0f / (1.0f - reflects);
+    Four<F> throughput;
+    for (int i = 0; i < 4; ++i)
+      throughput[i] = carried.throughput[i] * select<F>(goes_back, reflected[i] * back, passed[i] * through);
+    const Mask<F> lives = mask_for<F>(bright_r + bright_t > 0) & (greatest(throughput) > 0);
+    const Vector<D> direction = frame.to_world({-out.x, -out.y, out.z});
+    go_on(work, g, carried, at, lives & goes_back, direction, throughput, fill<F>(0), Mask<F>{});
+    const Mask<F> passes = lives & no(goes_back);
+    for (int j = 0; j < g.valid; ++j) {
+      if (!is_set(passes, j)) continue;
+      lane_by_lane::pass_sheet(
+          work, *g.path[j],
+          {g.place[j], point_of(at.p, j), lane(at.geometric, j), lane(at.rounding, j), is_set(at.front, j)},
+          lane(throughput, j));
+      work.next[work.next_count++] = g.place[j];
+    }
   }
 }
 
@@ -166,4 +205,4 @@ constexpr LaneStages stages{begin,
                             scatter_in_media,
                             {nullptr, scatter<ReadLambert>, scatter<ReadMirror>, scatter<ReadMetal>,
                              scatter<ReadPlastic>, scatter<ReadRoughPlastic>, scatter<ReadPrincipled>,
-                             scatter<ReadFinish>, scatter<ReadRoughGlass>, scatter_glass}};
+                             scatter<ReadFinish>, scatter<ReadRoughGlass>, scatter_glass, scatter_sheet}};

@@ -75,8 +75,10 @@ void Wave::find_in_one(Tracing& tracing) {
 
 void Wave::shade_all(Tracing& tracing, bool in_lanes) {
   std::size_t kept = 0, alone = 0;
+  const bool has_media = tracing.requirements().media;
+  std::optional<Arrived> arrived{Arrived{}};
   for (const std::uint32_t i : live_) {
-    const std::optional<Arrived> arrived = fly(tracing, paths_[i]);
+    if (has_media) arrived = fly(tracing, paths_[i]);
     if (arrived && in_lanes && lists_.take(tracing, paths_[i], i, *arrived)) continue;
     ++alone;
     if (arrived && shade(tracing, paths_[i], *arrived, shadows_)) live_[kept++] = i;
