@@ -71,13 +71,24 @@ VITRAIL_LANES U sobol_number(const std::uint32_t* table, U index) {
          at(table + 512, index >> 16 & 0xffu) ^ at<U>(table + 768, index >> 24);
 }
 
+// The second dimension, without its table: the sum of (1 + x)ᵏ over the bits k of the index, as polynomials
+// over GF(2), which is five steps of Pascal's triangle.
+template <class U>
+VITRAIL_LANES U second_number(U index) {
+  index ^= index >> 1 & 0x55555555u;
+  index ^= index >> 2 & 0x33333333u;
+  index ^= index >> 4 & 0x0f0f0f0fu;
+  index ^= index >> 8 & 0x00ff00ffu;
+  return index ^ index >> 16;
+}
+
 template <class U>
 VITRAIL_LANES FloatsLike<U> scrambled(U reversed, LongsLike<U> seed) {
   return to_unit(reverse_bits(scramble_reversed(reversed, convert<std::uint32_t>(seed))));
 }
 
-inline constexpr const std::uint32_t* sobol_table[3] = {
-    sobol::tables[0][0].data(), sobol::tables[1][0].data(), sobol::tables[2][0].data()};
+inline constexpr const std::uint32_t *third_table = sobol::tables[1][0].data(),
+                                     *fourth_table = sobol::tables[2][0].data();
 
 }  // namespace detail
 
@@ -98,12 +109,12 @@ VITRAIL_LANES Four<FloatsLike<U>> sample_4d(const PictureSeed& picture, U pixel,
   const L h2 = mix(h + golden);
   Four<FloatsLike<U>> u{};
   u[0] = detail::scrambled(index, h2);
-  u[1] = detail::scrambled(detail::sobol_number(detail::sobol_table[0], index), h2 >> 32);
+  u[1] = detail::scrambled(detail::second_number(index), h2 >> 32);
   if constexpr (wanted == Wanted::two) return u;
   const L h3 = mix(h + 2 * golden);
-  u[2] = detail::scrambled(detail::sobol_number(detail::sobol_table[1], index), h3);
+  u[2] = detail::scrambled(detail::sobol_number(detail::third_table, index), h3);
   if constexpr (wanted == Wanted::three) return u;
-  u[3] = detail::scrambled(detail::sobol_number(detail::sobol_table[2], index), h3 >> 32);
+  u[3] = detail::scrambled(detail::sobol_number(detail::fourth_table, index), h3 >> 32);
   return u;
 }
 

@@ -4,7 +4,6 @@
 
 #include "tracer/lights/draw_light.h"
 #include "tracer/lights/environment_lanes.h"
-#include "tracer/sampling/wavelengths.h"
 
 namespace vitrail {
 
@@ -19,13 +18,6 @@ bool draw_environment(const LightQuery& query, std::uint32_t environment, LightS
   sample.radiance = seen.radiance;
   sample.light = {LightKind::environment, environment};
   return true;
-}
-
-SampledSpectrum constant_background(const LightSampler& s, const SampledWavelengths& wavelengths) {
-  SampledSpectrum sum;
-  for (const std::uint32_t i : s.infinite)
-    sum = sum + evaluate(std::get<InfiniteLight>(s.scene.lights[i].model).radiance, wavelengths);
-  return sum;
 }
 
 Background background(const LightSampler& s, Vector3d direction, const SampledWavelengths& wavelengths) {

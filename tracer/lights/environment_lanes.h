@@ -7,6 +7,7 @@
 #include "tracer/lights/environment.h"
 #include "tracer/lights/light_sampler.h"
 #include "tracer/lights/sky_lanes.h"
+#include "tracer/sampling/flat_spectrum_lanes.h"
 #include "tracer/textures/image_lanes.h"
 
 namespace vitrail::lanes {
@@ -153,6 +154,29 @@ VITRAIL_LANES Seen<D> value_towards(const Environment& e, Vector<D> direction, M
   return seen;
 }
 
+namespace detail {
+
+template <class D, class WavelengthsOf>
+VITRAIL_LANES Four<FloatsLike<D>> constant_radiance(const FlatSpectrum& light,
+                                                    const WavelengthsOf& wavelengths) {
+  using F = FloatsLike<D>;
+  if (!light.other)
+    return flat_values<D>(
+        [&](int) __attribute__((always_inline))->const FlatSpectrum& { return light; },
+        [&](int i) __attribute__((always_inline)) {
+          return gather<F>([&](int j)
+                               __attribute__((always_inline)) { return wavelengths(j).lambda_nm.data()[i]; });
+        });
+  Four<F> values;
+  for (int j = 0; j < width<D>; ++j) {
+    const SampledSpectrum radiance = vitrail::evaluate(*light.other, wavelengths(j));
+    for (int i = 0; i < hero_count; ++i) set_lane(values[i], j, radiance.v[i]);
+  }
+  return values;
+}
+
+}  // namespace detail
+
 // vitrail::background, likewise.
 template <class D, class WavelengthsOf>
 VITRAIL_LANES Seen<D> background(const LightSampler& lights, Vector<D> direction, Mask<D> on,
@@ -161,15 +185,8 @@ VITRAIL_LANES Seen<D> background(const LightSampler& lights, Vector<D> direction
   const auto add = [&](const Four<FloatsLike<D>>& radiance) __attribute__((always_inline)) {
     for (int i = 0; i < hero_count; ++i) sum.radiance[i] = sum.radiance[i] + radiance[i];
   };
-  if (!lights.infinite.empty()) {
-    Four<FloatsLike<D>> constant{};
-    for (int j = 0; j < width<D>; ++j) {
-      if (!is_set(on, j)) continue;
-      const SampledSpectrum radiance = constant_background(lights, wavelengths(j));
-      for (int i = 0; i < hero_count; ++i) set_lane(constant[i], j, radiance.v[i]);
-    }
-    add(constant);
-  }
+  for (std::size_t i = 0; i < lights.constant.size(); ++i)
+    add(detail::constant_radiance<D>(lights.constant.data()[i], wavelengths));
   const Environment* const environments = lights.environments.data();
   for (std::size_t i = 0; i < lights.environments.size(); ++i) {
     const Seen<D> seen = value_towards(environments[i], direction, on, wavelengths);

@@ -20,6 +20,7 @@
 #include "tracer/lights/point_emitter.h"
 #include "tracer/lights/quadric_light.h"
 #include "tracer/lights/triangle_parts.h"
+#include "tracer/sampling/flat_spectrum.h"
 #include "tracer/sampling/wavelengths.h"
 #include "tracer/textures/textures.h"
 
@@ -117,6 +118,7 @@ struct LightSampler {
   std::vector<Distant> distant;
   std::vector<Environment> environments;
   std::vector<std::uint32_t> infinite;  // index into scene.lights
+  std::vector<FlatSpectrum> constant;   // their radiances
   std::vector<double> share;            // of each of LightNumbers' choices; sums to 1, empty: no light
 
   // The global ids [first, first + count) are triangles and quadrics that emit, numbered from `number` on.
@@ -233,9 +235,6 @@ struct Background {
 };
 // `direction` unit, outwards.
 Background background(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);
-
-// That of constant environments alone.
-SampledSpectrum constant_background(const LightSampler& sampler, const SampledWavelengths& wavelengths);
 
 // Radiance of the suns among the distant lights where a ray leaves the scene through their discs.
 SampledSpectrum discs(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);

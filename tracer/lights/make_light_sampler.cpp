@@ -65,7 +65,10 @@ struct Sorter {
   void operator()(const DistantLight& l) {
     add({.direction = unit(l.direction), .light = light, .irradiance = l.irradiance});
   }
-  void operator()(const InfiniteLight&) { s.infinite.push_back(light); }
+  void operator()(const InfiniteLight& l) {
+    s.infinite.push_back(light);
+    s.constant.push_back(flat_spectrum(l.radiance));
+  }
   void operator()(const EnvironmentLight& l) { add(make_environment(l, images(l.filename))); }
   void operator()(const SkyLight& l) {
     if (!s.scene.refracts) return add(make_environment(l));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tracer/sampling/guide_table.h"
 
@@ -17,6 +18,7 @@ struct Density {
   std::array<double, bins> pdf{};             // nm⁻¹
   std::array<double, bins + 1> cumulative{};  // 0 … 1
   GuideTable guide;
+  std::vector<std::uint32_t> first;  // as of WavelengthTables
 };
 
 Density make_density() {
@@ -32,6 +34,12 @@ Density make_density() {
   }
   d.cumulative[bins] = 1;
   d.guide = GuideTable(d.cumulative, 4096);
+  const auto cells = d.guide.first();
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    const double end = static_cast<double>(cell + 1) / static_cast<double>(cells.size());
+    const bool several = cells[cell] + 2 < d.cumulative.size() && d.cumulative[cells[cell] + 2] < end;
+    d.first.push_back(cells[cell] | (several ? std::uint32_t{WavelengthTables::several} : 0));
+  }
   return d;
 }
 
@@ -77,8 +85,7 @@ const std::array<SampledWavelengths, 4>& luminance_wavelengths() {
 
 WavelengthTables wavelength_tables() {
   const Density& d = density();
-  return {d.pdf.data(), d.cumulative.data(), d.guide.first().data(),
-          static_cast<double>(d.guide.first().size())};
+  return {d.pdf.data(), d.cumulative.data(), d.first.data(), static_cast<double>(d.first.size())};
 }
 
 SampledWavelengths sample_wavelengths(float u) {

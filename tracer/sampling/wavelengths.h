@@ -22,8 +22,9 @@ SampledWavelengths sample_wavelengths(float u);
 inline float number_of_hero(float u, float quarter) { return std::min((u + quarter) / 4, 0x1.fffffep-1f); }
 
 // What sample_wavelengths reads: of each nanometre its density and the sum of those before, and where the
-// search for u·cells begins.
+// search for u·cells begins. It ends there or one farther, but where `several` is added.
 struct WavelengthTables {
+  static constexpr std::int32_t several = 1 << 30;
   const double *pdf, *cumulative;
   const std::uint32_t* first;
   double cells;
