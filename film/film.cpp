@@ -17,6 +17,7 @@
 #include "film/array_checksum.h"
 #include "film/film_planes.h"
 #include "film/picture_fields.h"
+#include "film/pixel_sums.h"
 #include "scene/records/film_extent.h"
 #include "scene/system/diagnostics.h"
 
@@ -37,6 +38,47 @@ WideSum rounded(double v, std::uint64_t bits) {
   const double below = std::floor(v);
   const bool up = static_cast<double>(bits & 0x1fffff) * 0x1p-21 < v - below;
   return wide_sum_of(below + static_cast<double>(up));  // no branch: nobody can guess it
+}
+
+// A deposit in whole quanta. `place`: of its pixel in the whole picture.
+struct Quanta {
+  WideSum x, y, z;
+};
+Quanta quanta_of(const XYZ& value, int exponent, std::uint32_t place, std::uint32_t sample) {
+  const std::uint64_t bits = dice(place, sample, value.x, value.y, value.z);
+  const double quanta = power_of_two(-exponent);
+  return {rounded(quanta * value.x, bits), rounded(quanta * value.y, bits >> 42),
+          rounded(quanta * value.z, bits >> 21)};
+}
+
+// Of the parts of a deposit.
+struct Size {
+  double sum, largest;
+};
+Size size_of(const XYZ& value) {
+  const double x = std::abs(value.x), y = std::abs(value.y), z = std::abs(value.z);
+  return {x + y + z, std::max({x, y, z})};
+}
+bool accept(const Size& size, const FilmKey& key, int exponent, Refused& refused) {
+  if (size.largest < power_of_two(exponent + deposit_bits(key.splats)) && std::isfinite(size.sum))
+    return true;
+  std::uint64_t& count = std::isfinite(size.sum) ? refused.too_large : refused.nonfinite;
+  std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed);
+  return false;
+}
+
+// The seeds of films that are to be merged follow on each other as a rule: so the first samples of each,
+// which may be the only ones, are in different groups.
+std::size_t group_in(const FilmKey& key, std::uint32_t sample) {
+  return static_cast<std::size_t>((group_of(sample) + key.seed) % sample_groups);
+}
+
+// Of a pixel in the whole picture: a crop rounds as the whole does.
+std::uint32_t place_in(const FilmSettings& settings, std::uint32_t pixel) {
+  const PixelRect& crop = settings.crop;
+  const auto width = static_cast<std::uint32_t>(crop.x1 - crop.x0);
+  return (static_cast<std::uint32_t>(crop.y0) + pixel / width) * static_cast<std::uint32_t>(settings.width) +
+         static_cast<std::uint32_t>(crop.x0) + pixel % width;
 }
 
 }  // namespace
@@ -96,27 +138,12 @@ void Film::add_single(std::size_t sum, const WideSum& quanta) {
   written(sums_[sum]);
 }
 
-// The seeds of films that are to be merged follow on each other as a rule: so the first samples of each,
-// which may be the only ones, are in different groups.
-std::size_t Film::group(std::uint32_t sample) const {
-  return static_cast<std::size_t>((group_of(sample) + key_.seed) % sample_groups);
-}
+std::size_t Film::group(std::uint32_t sample) const { return group_in(key_, sample); }
 
 // `size` of the parts of a deposit together, `largest` of them.
-bool Film::accepts(double size, double largest) {
-  if (largest < power_of_two(exponent_ + deposit_bits(key_.splats)) && std::isfinite(size)) return true;
-  std::uint64_t& count = std::isfinite(size) ? refused_.too_large : refused_.nonfinite;
-  std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed);
-  return false;
-}
+bool Film::accepts(double size, double largest) { return accept({size, largest}, key_, exponent_, refused_); }
 
-// Of a pixel in the whole picture: a crop rounds as the whole does.
-std::uint32_t Film::place(std::uint32_t pixel) const {
-  const auto crop_width = static_cast<std::uint32_t>(width());
-  return (static_cast<std::uint32_t>(settings_.crop.y0) + pixel / crop_width) *
-             static_cast<std::uint32_t>(settings_.width) +
-         static_cast<std::uint32_t>(settings_.crop.x0) + pixel % crop_width;
-}
+std::uint32_t Film::place(std::uint32_t pixel) const { return place_in(settings_, pixel); }
 
 // The same sums however deposits are put together: their quanta are whole before weights multiply them.
 void Film::add(std::size_t plane, std::uint32_t pixel, const WideSum& quanta, const Footprint* spread) {
@@ -133,14 +160,10 @@ void Film::add(std::size_t plane, std::uint32_t pixel, const WideSum& quanta, co
 bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value, const Footprint* spread,
                    std::span<const GroupLight> parts) {
   assert(parts.empty() != key_.groups.any());
-  const double x = std::abs(value.x), y = std::abs(value.y), z = std::abs(value.z);
-  if (!accepts(x + y + z, std::max({x, y, z}))) return false;
-  const std::uint64_t bits = dice(place(pixel), sample, value.x, value.y, value.z);
-  const double quanta = power_of_two(-exponent_);
-  const WideSum in_x = rounded(quanta * value.x, bits), in_z = rounded(quanta * value.z, bits >> 21);
+  if (!accept(size_of(value), key_, exponent_, refused_)) return false;
+  const auto [in_x, light, in_z] = quanta_of(value, exponent_, place(pixel), sample);
   add(x_plane, pixel, in_x, spread);
   add(z_plane, pixel, in_z, spread);
-  const WideSum light = rounded(quanta * value.y, bits >> 42);
   add(y_planes + group(sample), pixel, light, spread);
   if (!parts.empty()) [[unlikely]]
     add_to_groups(pixel, sample, {in_x, light, in_z}, parts, spread);
@@ -246,6 +269,56 @@ void Film::count_sample(std::uint32_t pixel, std::uint32_t sample, const Footpri
   if (key_.splats) add(first_weights() + group(sample), pixel, wide_sum_of(1), spread);
   if (key_.photons.photons > 0) add_single(first_batch() + photon_batches + batch_of(sample), wide_sum_of(1));
   written(count);
+}
+
+bool PixelSums::is_plain(const Film& film) {
+  const FilmKey& key = film.key();
+  return !key.splats && !key.groups.any() && key.photons.photons == 0;
+}
+
+bool PixelSums::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) {
+  if (!accept(size_of(value), film_.key(), film_.exponent(), film_.refused())) return false;
+  turn_to(pixel);
+  const auto [x, y, z] = quanta_of(value, film_.exponent(), place_, sample);
+  x_ += x;
+  y_[group_in(film_.key(), sample)] += y;
+  z_ += z;
+  return true;
+}
+
+void PixelSums::count_sample(std::uint32_t pixel, std::uint32_t sample) {
+  turn_to(pixel);
+  ++counts_[group_in(film_.key(), sample)];
+}
+
+void PixelSums::turn_to(std::uint32_t pixel) {
+  if (holds_any_ && pixel == pixel_) return;
+  give();
+  pixel_ = pixel;
+  place_ = place_in(film_.settings(), pixel);
+  holds_any_ = true;
+}
+
+void PixelSums::give() {
+  if (!holds_any_) return;
+  FilmScratch* const scratch = film_.scratch().get();
+  const std::size_t pixels = film_.pixels();
+  const auto add = [&](std::size_t plane, WideSum& quanta) {
+    if (quanta == WideSum{}) return;
+    WideSum& sum = film_.sums()[plane * pixels + pixel_];
+    if (scratch) scratch->writes(&sum, sizeof sum);
+    add_shared(sum, std::exchange(quanta, {}));
+  };
+  add(x_plane, x_);
+  add(z_plane, z_);
+  for (std::size_t g = 0; g < sample_groups; ++g) {
+    add(y_planes + g, y_[g]);
+    if (counts_[g] == 0) continue;
+    std::uint32_t& count = film_.counts()[g * pixels + pixel_];
+    if (scratch) scratch->writes(&count, sizeof count);
+    std::atomic_ref(count).fetch_add(std::exchange(counts_[g], 0), std::memory_order_relaxed);
+  }
+  holds_any_ = false;
 }
 
 float rounded_threshold(double threshold) {

@@ -2,6 +2,7 @@
 // What a ray meets, domain by domain.
 #pragma once
 
+#include <new>
 #include <optional>
 
 #include "tracer/rays/walk.h"
@@ -34,7 +35,7 @@ class HitsInOne {
   // It outlives its hit, which is found at the latest by `finish`.
   void add(Traveller& t) {
     if (!DomainWalk::starts_near(t.ray.origin)) return;
-    rays_[count_] = prepare(t.ray, t.time_s);
+    new (rays_ + count_) RayConstants(prepare(t.ray, t.time_s));  // in place, as a copy costs much
     hits_[count_++] = &t.hit;
     t.hit_domain = 0;
     if (count_ == most_at_once) finish();

@@ -21,7 +21,7 @@ void set_sample(const Tracing& tracing, CameraPath& path, int x, int y, std::uin
   path.film.pixel =
       static_cast<std::uint32_t>(pixel_place(x - film.crop().x0, y - film.crop().y0, film.width()));
   path.film.sample = sample;
-  path.key = key_of(tracing, path.film.pixel, sample);
+  path.key = {tracing.scene.seed, static_cast<std::uint32_t>(pixel_place(x, y, film.full_width())), sample};
 }
 
 int column_of(const Tracing& tracing, const FilmSample& film) {
@@ -33,24 +33,31 @@ int row_of(const Tracing& tracing, const FilmSample& film) {
          static_cast<int>(film.pixel / static_cast<std::uint32_t>(tracing.film.width()));
 }
 
-bool begin(Tracing& tracing, CameraPath& path, bool has_numbers) {
+bool begin(Tracing& tracing, CameraPath& path, Given given) {
   Film& film = tracing.film;
   FilmSample& of = path.film;
-  if (has_numbers)
-    path.time_s = time_of(tracing, path.key);
-  else
+  if (given == Given::nothing)
     begin(tracing, path, of);
-  const CameraRay ray = camera_ray(tracing, path, column_of(tracing, of), row_of(tracing, of));
+  else
+    path.time_s = time_of(tracing, path.key);
+  double weight = 1;
+  if (given != Given::ray) {
+    const CameraRay ray = camera_ray(tracing, path, column_of(tracing, of), row_of(tracing, of));
+    weight = ray.weight;
+    path.direction = ray.direction;
+    path.ray = {ray.origin, decode_direction(ray.direction), no_triangle};
+    path.random = hash_of_ray(path);
+  }
   path.unrecorded = film.layers().any();
-  path.throughput = filled(static_cast<float>(ray.weight));
+  path.throughput = filled(static_cast<float>(weight));
   if (tracing.scene.sampling.one_wavelength) path.disperse();
   path.inside = tracing.scene.interiors.state_in(tracing.manifest().camera_medium);
-  path.direction = ray.direction;
-  path.ray = {ray.origin, decode_direction(ray.direction), no_triangle};
-  path.random = hash_of_ray(path);
-  film.count_sample(of.pixel, of.sample, footprint_of(tracing, of.pixel, of.sample));
+  if (tracing.sums)
+    tracing.sums->count_sample(of.pixel, of.sample);
+  else
+    film.count_sample(of.pixel, of.sample, footprint_of(tracing, of.pixel, of.sample));
   ++tracing.counters.rays_camera;
-  return ray.weight > 0;
+  return weight > 0;
 }
 
 void pack(const Tracing&, const CameraPath& path, bool resolved, RayRecord& record) {

@@ -11,9 +11,10 @@ namespace vitrail {
 CameraRay camera_ray(const Tracing& tracing, const CameraPath& path, int x, int y);
 // Makes it that of sample `sample` of the pixel (x, y) of the whole film, which lies in the crop.
 void set_sample(const Tracing& tracing, CameraPath& path, int x, int y, std::uint32_t sample);
-// Begins it. `has_numbers`: its numbers, wavelengths and sensor are there (LaneStages::begin). False where it
-// is dark: the lens holds it up.
-bool begin(Tracing& tracing, CameraPath& path, bool has_numbers);
+// What LaneStages::begin has given a path: its numbers, wavelengths and sensor; its ray besides.
+enum class Given : std::uint8_t { nothing, numbers, ray };
+// Begins it. False where it is dark: the lens holds it up.
+bool begin(Tracing& tracing, CameraPath& path, Given given);
 // The column of its pixel in the whole film, and the row.
 int column_of(const Tracing& tracing, const FilmSample& film);
 int row_of(const Tracing& tracing, const FilmSample& film);

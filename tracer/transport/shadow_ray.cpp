@@ -2,6 +2,7 @@
 #include "tracer/transport/shadow_ray.h"
 
 #include <algorithm>
+#include <new>
 #include <optional>
 
 #include "tracer/rays/walk.h"
@@ -72,7 +73,7 @@ void trace_in_one(Tracing& tracing, ShadowRays& waiting) {
     const std::size_t count = std::min(waiting.count - first, most_at_once);
     for (std::size_t i = 0; i < count; ++i) {
       const ShadowRay& s = waiting.rays[first + i];
-      rays[i] = prepare(s.ray, s.time_s);
+      new (rays + i) RayConstants(prepare(s.ray, s.time_s));  // in place, as a copy costs much
       // What starts too far away meets nothing.
       ends[i] = DomainWalk::starts_near(s.ray.origin) ? s.tmax : 0;
     }

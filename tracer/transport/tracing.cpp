@@ -68,7 +68,8 @@ void deposit(Tracing& tracing, std::uint32_t pixel, std::uint32_t sample, const 
   const Footprint* const spread = footprint_of(tracing, pixel, sample);
   const XYZ value{left * light.x, left * light.y, left * light.z};
   const bool is_accepted =
-      !tracing.scene.groups.kept_apart
+      tracing.sums ? tracing.sums->deposit(pixel, sample, value)
+      : !tracing.scene.groups.kept_apart
           ? film.deposit(pixel, sample, value, spread)
           : deposit_in_groups(tracing, {pixel, sample, &sensor, left, spread}, radiance, value, by);
   if (!is_accepted || film.bins().count == 0) return;

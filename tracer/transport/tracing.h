@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "film/film.h"
+#include "film/pixel_sums.h"
 #include "tracer/intersect/intersector.h"
 #include "tracer/photons/photon_pass.h"
 #include "tracer/photons/photon_records.h"
@@ -85,6 +86,7 @@ struct Tracing {
   const PhotonPass* photons = nullptr;  // of photon mapping
   const KernelFunctions& kernel = best_kernel();
   const LaneStages* stages = &best_lane_stages();  // null: every path by itself; the same picture
+  PixelSums* sums = nullptr;  // what goes to the film goes through them, where there are any
   // Where the film splats: the pixels of the sample that was added to it last.
   struct {
     std::uint64_t of = ~std::uint64_t{0};  // pixel and sample

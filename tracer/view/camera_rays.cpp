@@ -205,14 +205,14 @@ CameraSampler::CameraSampler(const Camera& camera, const Motion& motion, const F
   const auto linear = [&](Vector3d at, Vector3d at_right, Vector3d at_below) {
     return Linear{at, (at_right - at) * (1 / w), (at_below - at) * (1 / h)};
   };
-  origin_ = linear(corner.origin - Point3d{}, right.origin - Point3d{}, below.origin - Point3d{});
-  direction_ = linear(corner.direction, right.direction, below.direction);
+  linear_.origin = linear(corner.origin - Point3d{}, right.origin - Point3d{}, below.origin - Point3d{});
+  linear_.direction = linear(corner.direction, right.direction, below.direction);
 }
 
 CameraRay CameraSampler::ray(Point2d raster, Point2d lens, double time_s) const {
   if (is_linear_) {
-    const Vector3d o = origin_.at(raster);
-    return {cast<float>(Point3d{o.x, o.y, o.z}), encode_direction(direction_.at(raster))};
+    const Vector3d o = linear_.origin.at(raster);
+    return {cast<float>(Point3d{o.x, o.y, o.z}), encode_direction(linear_.direction.at(raster))};
   }
   std::optional<Transform> moved;
   if (motion_.moves()) moved = motion_.at(time_s);

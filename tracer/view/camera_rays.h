@@ -19,6 +19,18 @@ class CameraSampler {
   // All outlive it.
   CameraSampler(const Camera& camera, const Motion& motion, const FilmSettings& film);
 
+  // Linear in the raster position: at_corner + per_x·x + per_y·y.
+  struct Linear {
+    Vector3d at_corner, per_x, per_y;
+    Vector3d at(Point2d raster) const { return at_corner + per_x * raster.x + per_y * raster.y; }
+  };
+  // Where rays start, and their directions of any length.
+  struct LinearRays {
+    Linear origin, direction;
+  };
+  // Of a pinhole and of parallel rays that stand still; null of other cameras.
+  const LinearRays* linear() const { return is_linear_ ? &linear_ : nullptr; }
+
   // Whether rays need a point of the lens.
   bool has_lens() const { return has_lens_; }
   // The ray through raster position (x, y), in pixels of the whole film from the top left. `lens`, in [0,1)²,
@@ -35,13 +47,8 @@ class CameraSampler {
   const Motion& motion_;
   const FilmSettings& film_;
   bool has_lens_ = false;
-  // Of a pinhole and of parallel rays that stand still: both are linear in the raster position.
   bool is_linear_ = false;
-  struct Linear {
-    Vector3d at_corner, per_x, per_y;
-    Vector3d at(Point2d raster) const { return at_corner + per_x * raster.x + per_y * raster.y; }
-  };
-  Linear origin_, direction_;
+  LinearRays linear_;
 };
 
 // The square [0,1]² to the unit disk, area by area, neighbours staying neighbours (Shirley & Chiu 1997).

@@ -119,6 +119,12 @@ Neighbours FilterSampler::neighbours() const {
   return product(x_.neighbours(), y_.neighbours());
 }
 
+std::optional<Point2d> FilterSampler::even_radius() const {
+  if (splats_) return Point2d{0.5, 0.5};
+  if (!x_.cumulative.empty() || !y_.cumulative.empty()) return std::nullopt;
+  return Point2d{x_.radius, y_.radius};
+}
+
 FilterSample FilterSampler::sample(float u, float v) const {
   if (splats_) return {{static_cast<double>(u) - 0.5, static_cast<double>(v) - 0.5}, 1};
   const FilterSample x = x_.sample(static_cast<double>(u)), y = y_.sample(static_cast<double>(v));

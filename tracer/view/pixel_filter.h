@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "film/footprint.h"
@@ -23,7 +24,9 @@ class FilterSampler {
  public:
   explicit FilterSampler(const Filter& filter, bool splats = false);
   bool splats() const { return splats_; }
-  FilterSample sample(float u, float v) const;                                             // u, v in [0,1)
+  FilterSample sample(float u, float v) const;  // u, v in [0,1)
+  // Where samples lie evenly about the pixel's centre, with the weight 1: how far, in x and y.
+  std::optional<Point2d> even_radius() const;
   double weight(float u, float v) const { return has_lobes() ? sample(u, v).weight : 1; }  // of that sample
   Footprint footprint(float u, float v) const;  // of that sample; radii ≤ greatest_splat_radius
   Neighbours neighbours() const;                // none where samples do not splat

@@ -314,6 +314,17 @@ std::vector<Case> cases() {
          add_block(s, material(DielectricMaterial{ConstantSpectrum{1.5f}}));
          under({sun_and_sky(1)})(s);
        }},
+      {"parallel rays, a filter with lobes",
+       [](Scene& s) {
+         const auto to_world = std::get<PerspectiveCamera>(s.camera).camera_to_world;
+         s.camera = OrthographicCamera{to_world, {-1, 1, -1, 1}, {}};
+         s.film.filter = MitchellFilter{};
+       }},
+      {"a wide picture, a filter that is uneven",
+       [](Scene& s) {
+         s.film.width = 41, s.film.crop = {0, 41, 0, s.film.height};
+         s.film.filter = GaussianFilter{};
+       }},
       {"a lens",
        [](Scene& s) {
          std::get<PerspectiveCamera>(s.camera).lens = {0.05, 1.2};

@@ -10,6 +10,15 @@ struct Group {
   int valid;
 };
 
+// That of lane j.
+VITRAIL_LANES void set_code(DirectionCode& direction, const Code<U>& code, int j) {
+  const std::uint32_t first = lane(code.first, j), second = lane(code.second, j);
+  for (int i = 0; i < 3; ++i) {
+    direction.byte[i] = static_cast<std::uint8_t>(first >> 8 * i);
+    direction.byte[3 + i] = static_cast<std::uint8_t>(second >> 8 * i);
+  }
+}
+
 VITRAIL_LANES Group group_of(const LaneWork& work, const LaneList& list, std::size_t first) {
   Group g;
   g.valid = list.count - first < W ? static_cast<int>(list.count - first) : W;
@@ -150,11 +159,7 @@ VITRAIL_LANES void go_on_from(LaneWork& work, const Group& g, const Carried& car
     path.ray.direction.x = lane(ray.direction.x, j);
     path.ray.direction.y = lane(ray.direction.y, j);
     path.ray.direction.z = lane(ray.direction.z, j);
-    const std::uint32_t first = lane(ray.code.first, j), second = lane(ray.code.second, j);
-    for (int i = 0; i < 3; ++i) {
-      path.direction.byte[i] = static_cast<std::uint8_t>(first >> 8 * i);
-      path.direction.byte[3 + i] = static_cast<std::uint8_t>(second >> 8 * i);
-    }
+    set_code(path.direction, ray.code, j);
     path.random = lane(ray.random, j);
     for (int i = 0; i < 4; ++i) path.throughput.v[i] = lane(ray.throughput[i], j);
     path.hit.t = __builtin_inf();

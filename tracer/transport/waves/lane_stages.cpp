@@ -52,7 +52,9 @@ std::uint8_t group_of(const LaneWork& work, LightRef light) {
   return work.tracing.scene.groups.of(work.tracing.scene.lights, light);
 }
 
-double filter_weight(const Tracing& tracing, float u, float v) { return tracing.scene.filter.weight(u, v); }
+FilterSample filter_sample(const Tracing& tracing, float u, float v) {
+  return tracing.scene.filter.sample(u, v);
+}
 
 void evaluate(const FlatSpectrum& spectrum, const CameraPath& path, float (&value)[4]) {
   const SampledSpectrum values = vitrail::evaluate(*spectrum.other, path.wavelengths) * spectrum.factor;

@@ -11,6 +11,8 @@
 #include "tracer/prepared/lane_scene.h"
 #include "tracer/transport/scatterer.h"
 #include "tracer/transport/shadow_ray.h"
+#include "tracer/view/camera_rays.h"
+#include "tracer/view/pixel_filter.h"
 
 namespace vitrail {
 
@@ -54,9 +56,22 @@ struct LaneList {
   std::uint32_t candidates;  // for a light, of each
 };
 
+// Paths that begin, whose samples are set.
+struct NewPaths {
+  const Tracing& tracing;
+  CameraPath* paths;
+  const std::uint32_t* places;
+  std::size_t count;
+  const CameraSampler::LinearRays* rays;  // null: not of such a camera
+  double width;                           // of the whole picture, in pixels
+  bool is_even;                           // as FilterSampler::even_radius
+  Point2d radius;
+};
+
 struct LaneStages {
-  // Gives paths that begin their numbers for the camera, their wavelengths and what the sensor makes of them.
-  void (*begin)(const Tracing& tracing, CameraPath* paths, const std::uint32_t* places, std::size_t count);
+  // Gives them their numbers for the camera, their wavelengths and what the sensor makes of them; of a linear
+  // camera also their rays.
+  void (*begin)(const NewPaths& work);
 
   // Light that paths see which leave the scene: not within a pane, no medium there, no disc of a sun.
   void (*leave_scene)(LaneWork& work, const LaneList& list);
@@ -91,7 +106,7 @@ bool draw(const LaneWork& work, const CameraPath& path, Point3d p, const float (
           const ChosenLight& chosen, LightSample& light);
 // As GroupedLights says.
 std::uint8_t group_of(const LaneWork& work, LightRef light);
-double filter_weight(const Tracing& tracing, float u, float v);
+FilterSample filter_sample(const Tracing& tracing, float u, float v);
 // Of a spectrum that is an `other`.
 void evaluate(const FlatSpectrum& spectrum, const CameraPath& path, float (&value)[4]);
 // Radiance times throughput, of all that is around the scene.

@@ -170,21 +170,68 @@ void scatter_sheet(LaneWork& work, const LaneList& list) {
   }
 }
 
-void begin(const Tracing& tracing, CameraPath* paths, const std::uint32_t* places, std::size_t count) {
+// Of W paths that begin: where they lie from the centres of their pixels, and their weights.
+struct Offsets {
+  D x, y, weight;
+};
+
+VITRAIL_LANES Offsets offsets_of(const NewPaths& work, const Four<F>& u) {
+  if (work.is_even)
+    return {(2.0 * to_doubles(u[0]) - 1.0) * work.radius.x, (2.0 * to_doubles(u[1]) - 1.0) * work.radius.y,
+            fill<D>(1)};
+  Offsets offsets{};
+  for (int j = 0; j < W; ++j) {
+    const FilterSample sample = lane_by_lane::filter_sample(work.tracing, lane(u[0], j), lane(u[1], j));
+    set_lane(offsets.x, j, sample.offset.x);
+    set_lane(offsets.y, j, sample.offset.y);
+    set_lane(offsets.weight, j, sample.weight);
+  }
+  return offsets;
+}
+
+VITRAIL_LANES Vector<D> linear_at(const CameraSampler::Linear& of, D x, D y) {
+  return fill<D>(of.at_corner) + fill<D>(of.per_x) * x + fill<D>(of.per_y) * y;
+}
+
+// As CameraSampler::ray has it, of a linear camera. `pixel`, `seed`: of the paths' keys.
+VITRAIL_LANES void start_rays(const NewPaths& work, CameraPath* const (&path)[W], U pixel, L seed,
+                              const Offsets& offsets) {
+  const D place = to_doubles(pixel), row = to_doubles(convert<std::int32_t>(place / work.width)),
+          column = place - row * work.width;
+  const D x = column + 0.5 + offsets.x, y = row + 0.5 + offsets.y;
+  const Vector<F> origin = to_floats(linear_at(work.rays->origin, x, y));
+  const Code<U> code = encode_direction(linear_at(work.rays->direction, x, y));
+  const Vector<F> direction = decode_direction(code);
+  const L random = hash_of_ray<L>(seed, origin, code);
+  for (int j = 0; j < W; ++j) {
+    CameraPath& p = *path[j];
+    p.ray.origin.x = lane(origin.x, j);
+    p.ray.origin.y = lane(origin.y, j);
+    p.ray.origin.z = lane(origin.z, j);
+    p.ray.direction.x = lane(direction.x, j);
+    p.ray.direction.y = lane(direction.y, j);
+    p.ray.direction.z = lane(direction.z, j);
+    p.ray.exclude = no_triangle;
+    set_code(p.direction, code, j);
+    p.random = lane(random, j);
+  }
+}
+
+void begin(const NewPaths& work) {
   const WavelengthTables tables = wavelength_tables();
   const float* const observer = cie_1931()[0].data();
-  for (std::size_t first = 0; first < count; first += W) {
+  for (std::size_t first = 0; first < work.count; first += W) {
     CameraPath* path[W];
-    for (std::size_t j = 0; j < W; ++j) path[j] = paths + places[first + j < count ? first + j : count - 1];
+    for (std::size_t j = 0; j < W; ++j)
+      path[j] = work.paths + work.places[first + j < work.count ? first + j : work.count - 1];
     const U pixel = gather<U>(VITRAIL_EACH(path[j]->key.pixel)),
             sample = gather<U>(VITRAIL_EACH(path[j]->key.sample));
-    const L seed = sample_seed(tracing.scene.seed.value, pixel, sample);
-    Four<F> u = lanes::sample_4d(tracing.scene.seed, pixel, sample, pixel * 0u + sample_set::camera);
+    const L seed = sample_seed(work.tracing.scene.seed.value, pixel, sample);
+    Four<F> u = lanes::sample_4d(work.tracing.scene.seed, pixel, sample, pixel * 0u + sample_set::camera);
     lanes::place_hero(u);
     const Wavelengths<F> wavelengths = lanes::sample_wavelengths(tables, u[2]);
-    const D weight =
-        gather<D>(VITRAIL_EACH(lane_by_lane::filter_weight(tracing, lane(u[0], j), lane(u[1], j))));
-    const SensorXyz<F> sensor = lanes::sensor_weights(observer, wavelengths, weight);
+    const Offsets offsets = offsets_of(work, u);
+    const SensorXyz<F> sensor = lanes::sensor_weights(observer, wavelengths, offsets.weight);
     for (int j = 0; j < W; ++j) {
       CameraPath& p = *path[j];
       p.seed = lane(seed, j);
@@ -197,6 +244,7 @@ void begin(const Tracing& tracing, CameraPath* paths, const std::uint32_t* place
         p.film.sensor.z.data()[i] = lane(sensor.z[i], j);
       }
     }
+    if (work.rays) start_rays(work, path, pixel, seed, offsets);
   }
 }
 

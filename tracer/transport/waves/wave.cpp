@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/waves/wave.h"
 
+
 #include "tracer/rays/walk.h"
-#include "tracer/transport/generate.h"
 #include "tracer/transport/sensors.h"
 #include "tracer/transport/shading.h"
 
@@ -15,6 +15,8 @@ void Wave::add(const Tracing& tracing, int x, int y, std::uint32_t sample) {
 
 void Wave::trace(Tracing& tracing) {
   const bool in_lanes = LaneLists::apply_to(tracing);
+  std::optional<PixelSums> sums;
+  if (PixelSums::is_plain(tracing.film)) tracing.sums = &sums.emplace(tracing.film);
   generate(tracing, in_lanes);
   vitrail::trace(tracing, shadows_);
   while (!live_.empty()) {
@@ -22,15 +24,30 @@ void Wave::trace(Tracing& tracing) {
     shade_all(tracing, in_lanes);
     vitrail::trace(tracing, shadows_);
   }
+  tracing.sums = nullptr;
   next_ = 0;
+}
+
+Given Wave::begin_in_lanes(const Tracing& tracing) {
+  const auto radius = tracing.scene.filter.even_radius();
+  const NewPaths of{.tracing = tracing,
+                    .paths = paths_.get(),
+                    .places = new_.data(),
+                    .count = new_.size(),
+                    .rays = tracing.scene.camera.linear(),
+                    .width = static_cast<double>(tracing.film.full_width()),
+                    .is_even = radius.has_value(),
+                    .radius = radius.value_or(Point2d{})};
+  tracing.stages->begin(of);
+  return of.rays ? Given::ray : Given::numbers;
 }
 
 void Wave::generate(Tracing& tracing, bool in_lanes) {
   const bool has_numbers = in_lanes && tracing.film.bins().count == 0;
-  if (has_numbers) tracing.stages->begin(tracing, paths_.get(), new_.data(), new_.size());
+  const Given given = has_numbers ? begin_in_lanes(tracing) : Given::nothing;
   for (const std::uint32_t i : new_) {
     CameraPath& path = paths_[i];
-    if (!begin(tracing, path, has_numbers)) continue;
+    if (!begin(tracing, path, given)) continue;
     if (tracing.traffic) tracing.traffic->begin({});
     ++tracing.counters.born;
     at_[i].reset();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tracer/transport/find_hit.h"
+#include "tracer/transport/generate.h"
 #include "tracer/transport/scatterer.h"
 #include "tracer/transport/shadow_ray.h"
 #include "tracer/transport/waves/lane_lists.h"
@@ -27,7 +28,7 @@ class Wave {
   // Takes in a sample of the pixel (x, y) of the whole film; not where it is full.
   void add(const Tracing& tracing, int x, int y, std::uint32_t sample);
   // A place for a path that has begun, as new; it goes on where `resume` says so. Not where it is full.
-  CameraPath& place() { return paths_[next_++] = {}; }
+  CameraPath& place() { return *std::construct_at(&paths_[next_++]); }
   // Of the path in the place that was given last. `at`: of one that comes from elsewhere.
   void resume(const std::optional<Arrival>& at) {
     at_[next_ - 1] = at;
@@ -41,6 +42,7 @@ class Wave {
 
  private:
   void generate(Tracing& tracing, bool in_lanes);
+  Given begin_in_lanes(const Tracing& tracing);
   void find_hits(Tracing& tracing);
   void find_in_one(Tracing& tracing);
   void shade_all(Tracing& tracing, bool in_lanes);
