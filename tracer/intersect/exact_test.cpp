@@ -9,8 +9,8 @@ namespace {
 
 std::uint32_t greatest_axis(Vector3f d) {
   const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
-  const std::uint32_t of_two = x > y ? 0 : 1;
-  return std::max(x, y) > z ? of_two : 2;
+  const std::uint32_t of_two = !(x > y), is_third = !(std::max(x, y) > z);
+  return of_two + is_third * (2 - of_two);  // no branch: nobody can guess it
 }
 
 // A vertex as the sheared ray sees it: the ray runs along the third axis through 0.
@@ -62,18 +62,20 @@ RayConstants prepare(const Ray& ray, double time_s) {
   RayConstants r;
   // Arrays, so that an axis that chance has chosen is an index and no branch.
   const float direction[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
-  const float origin[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
   r.z = greatest_axis(ray.direction);
   r.x = r.z == 2 ? 0 : r.z + 1;
   r.y = r.x == 2 ? 0 : r.x + 1;
   const float dz = direction[r.z];
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    const float d = direction[axis];
+  // Not by the array, which the processor would wait for.
+  const auto set = [&](std::uint32_t axis, float o, float d) {
     const bool along = std::abs(d) * 1e18f > std::abs(dz);
-    r.origin[axis] = origin[axis];
+    r.origin[axis] = o;
     r.inverse_direction[axis] = along ? std::abs(dz) / d : std::copysign(1e18f, d);
     r.near_row[axis] = axis + 3 * static_cast<std::uint32_t>(std::signbit(d));
-  }
+  };
+  set(0, ray.origin.x, ray.direction.x);
+  set(1, ray.origin.y, ray.direction.y);
+  set(2, ray.origin.z, ray.direction.z);
   r.exact_shear_x = double{direction[r.x]} / double{dz};
   r.exact_shear_y = double{direction[r.y]} / double{dz};
   r.shear_x = static_cast<float>(r.exact_shear_x);
