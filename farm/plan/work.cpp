@@ -2,7 +2,9 @@
 #include "farm/plan/work.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
+#include <tuple>
 
 #include "scene/records/pixel_place.h"
 
@@ -17,6 +19,9 @@ std::uint64_t tiles(int extent) {
 std::uint64_t passes(const WorkPlan::Part& part) {
   return (part.end - part.first + part.samples_per_item - 1) / part.samples_per_item;
 }
+
+// A power of two.
+constexpr std::uint64_t passes_together = 8;
 
 // Knuth's multiplicative hash, its upper half.
 std::uint64_t mixed(std::uint64_t n) { return (n * 0x9E3779B97F4A7C15u) >> 32; }
@@ -110,6 +115,24 @@ std::vector<std::uint64_t> all_done(std::uint64_t items) {
   std::vector<std::uint64_t> done((items + 63) / 64, ~std::uint64_t{0});
   if (items % 64 != 0) done.back() = (std::uint64_t{1} << items % 64) - 1;
   return done;
+}
+
+void put_passes_together(const WorkPlan& plan, std::vector<std::uint64_t>& items) {
+  if (plan.adaptive() || plan.one_by_one) return;
+  const std::uint64_t a_pass = plan.tiles_x() * plan.tiles_y();
+  const auto order = [&](std::uint64_t item) {
+    const std::uint64_t pass = item / a_pass;
+    const std::uint64_t together = pass < passes_together ? static_cast<std::uint64_t>(std::bit_width(pass))
+                                                          : 3 + pass / passes_together;
+    return std::tuple(together, item % a_pass, pass);
+  };
+  std::ranges::sort(items, {}, order);
+}
+
+bool goes_on_with(const WorkPlan& plan, const WorkItem& item, const WorkItem& next) {
+  const auto corners = [](const PixelRect& r) { return std::tuple(r.x0, r.x1, r.y0, r.y1); };
+  return !plan.adaptive() && !plan.one_by_one && next.sample0 == item.sample1 &&
+         corners(next.pixels) == corners(item.pixels);
 }
 
 std::uint64_t list_bytes(const WorkPlan& plan, int ranks) {

@@ -78,6 +78,12 @@ void for_each_sample(const WorkPlan& plan, const WorkItem& item, std::uint64_t f
     }
 }
 
+// Puts the items of a tile in some successive passes behind each other, of a share in ascending order:
+// workers take them together (tasks.cpp). The first passes stay alone, so that a picture is soon seen whole.
+void put_passes_together(const WorkPlan& plan, std::vector<std::uint64_t>& items);
+// Whether a worker may take `next` with `item`: the next samples of the same pixels.
+bool goes_on_with(const WorkPlan& plan, const WorkItem& item, const WorkItem& next);
+
 // Of memory: a rank's share of the items by number, of which photon mapping has those of an iteration at a
 // time, and a bit of each, twice.
 std::uint64_t list_bytes(const WorkPlan& plan, int ranks);

@@ -49,8 +49,11 @@ void Phases::start_items(const Locked& locked, std::vector<std::uint64_t> done) 
     done.resize(words_of(state_.plan));
     mark_empty_items(state_.plan, done);
   }
-  if (!state_.photons)  // theirs are dealt out an iteration at a time
-    deal(locked, share_of(state_.plan, done, place_.rank, place_.ranks));
+  if (!state_.photons) {  // theirs are dealt out an iteration at a time
+    std::vector<std::uint64_t> items = share_of(state_.plan, done, place_.rank, place_.ranks);
+    put_passes_together(state_.plan, items);
+    deal(locked, std::move(items));
+  }
   state_.done.assign(words_of(state_.plan), 0);
   if (place_.rank != 0) return;
   items_before_ = bits_set(done);

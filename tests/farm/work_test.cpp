@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <set>
 
@@ -85,6 +86,24 @@ TEST(Work, SharesAreDisjointCompleteAndEven) {
   }
   EXPECT_EQ(all.size(), plan.items() - 4);
   EXPECT_FALSE(all.contains(5));
+}
+
+// Each item once, and eight successive samples of a tile behind each other where there are as many.
+TEST(Work, PassesOfATileAreTakenTogether) {
+  const WorkPlan plan = make_work_plan({3, 90, 0, 40}, 40);
+  std::vector<std::uint64_t> items = share_of(plan, {}, 0, 1);
+  const std::vector<std::uint64_t> ascending = items;
+  put_passes_together(plan, items);
+  const std::uint64_t tiles = plan.tiles_x() * plan.tiles_y();
+  EXPECT_TRUE(
+      std::equal(items.begin(), items.begin() + 2 * static_cast<std::ptrdiff_t>(tiles), ascending.begin()));
+  std::uint64_t going_on = 0;
+  for (std::size_t i = 1; i < items.size(); ++i)
+    going_on += goes_on_with(plan, plan.item(items[i - 1]), plan.item(items[i]));
+  // Runs of 1, 1, 2, 4, and four times 8 passes.
+  EXPECT_EQ(going_on, tiles * (1 + 3 + 4 * 7));
+  std::ranges::sort(items);
+  EXPECT_EQ(items, ascending);
 }
 
 // 63 tiles a row, one less than there are ranks: each has its share, and tiles from all over the picture.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/waves/wave.h"
 
-
 #include "tracer/rays/walk.h"
 #include "tracer/transport/sensors.h"
 #include "tracer/transport/shading.h"
