@@ -68,6 +68,49 @@ Notes on the rows:
 - Cycles gets spheres as meshes of 131,000 triangles; the others get spheres. Lamps of Cycles let light through, so it
   sees the ceiling behind them: its means are 1 % higher. It computes in RGB; the others sample wavelengths.
 
+## Where the time goes
+
+Shares of processor time in percent, of the rows that llvm wins, by `tests/bench/stages.py` (AVX-512, 64 samples,
+start-up included, other programs beside it). *Shading* has BSDFs and lights, which are one stage in lanes. *Begin*
+has all that a sample costs before its first ray: numbers, wavelengths, the sensor, its camera ray, the state of a
+path. The last columns say how many times as fast a render would be without intersection, and without shading.
+
+| | intersection | shading | film | begin | lists, hits | no intersection | no shading |
+|---|---|---|---|---|---|---|---|
+| arealight | 36 | 32 | 4 | 18 | 11 | 1.56 | 1.47 |
+| envmap | 24 | 51 | 8 | 11 | 6 | 1.32 | 2.04 |
+| various shapes | 20 | 22 | 20 | 33 | 6 | 1.25 | 1.28 |
+| box, diffuse | 35 | 39 | 8 | 10 | 8 | 1.54 | 1.64 |
+| box, spheres | 41 | 38 | 6 | 7 | 7 | 1.69 | 1.61 |
+| cbox of Mitsuba | 35 | 40 | 7 | 9 | 8 | 1.54 | 1.67 |
+| Cornell of Tungsten | 34 | 41 | 8 | 9 | 8 | 1.52 | 1.69 |
+| glass | 32 | 41 | 5 | 6 | 17 | 1.47 | 1.69 |
+| medium | 29 | 55 | 4 | 3 | 8 | 1.41 | 2.22 |
+| four lamps | 33 | 52 | 4 | 8 | 3 | 1.49 | 2.08 |
+| Veach's plates | 27 | 55 | 4 | 10 | 4 | 1.37 | 2.22 |
+| killeroo-simple | 51 | 29 | 5 | 8 | 7 | 2.04 | 1.41 |
+| hotel room | 66 | 25 | 1 | 1 | 6 | 2.94 | 1.33 |
+| city, 10⁶ triangles | 56 | 31 | 3 | 5 | 5 | 2.27 | 1.45 |
+
+Without intersection the hotel room would be won, without shading Veach's plates. *box, spheres* and killeroo-simple
+would be lost without either. What is left has these reasons:
+
+- *Doubles.* Shading takes 8 doubles in a register of AVX-512, Mitsuba 16 floats. The film is one bit pattern for any
+  division of the work, and decisions near an edge need doubles. With 16 lanes in two registers each, shading was 20 to
+  25 % slower ([waves](waves.md)).
+- *Trees.* In trees of more than one node rays go one by one, with eight boxes or triangles as lanes. In arealight 37 %
+  of a tree's samples lie on two instructions: the first behind the branch to a node or to triangles, which is guessed
+  wrongly. `llvm_ad_spectral` gives Embree many rays at once, which share these guesses. Eight camera rays at a time
+  gained 1.3 in the city's tree and lost in killeroo-simple ([waves](waves.md)).
+- *Two sequences.* They cost 0 to 20 % of the noise, and no cheaper estimate of the error was found
+  ([better samples](sampling.md#halves-of-one-sequence-as-groups)).
+- *The beginning of a sample.* Where paths end at once, as in *various shapes*, it is a third of the time. Over a
+  third of that is four wavelengths and what the sensor makes of them. A table of ready ones was not kept
+  ([better samples](sampling.md#costs-that-stay)).
+
+To pass, hotel room and city need rays that share the way through big trees. Rows of shading need 16 floats where no bit
+of the film hangs on it.
+
 ## Beside its own intersector
 
 On a room of 1.06 million triangles (`bench_render`), seconds of processors:
@@ -87,6 +130,7 @@ python3.11 -m venv VENV && VENV/bin/pip install bpy==4.5.15 # Cycles: 350 MB, GP
 tests/bench/speed.py --bin build/release/bin --bpy VENV/bin/python [--pbrt PBRT]  # {minutes:.0f} minutes; writes this page
 tests/bench/speed.py --quick --bpy VENV/bin/python         # smaller and with fewer samples; prints the table
 tests/bench/speed.py --also crown=crown.pbrt               # a scene that the corpus has not
+tests/bench/stages.py BUNDLE…                              # where the time goes; needs Linux's perf
 ```
 """
 
