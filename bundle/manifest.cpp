@@ -209,6 +209,7 @@ Features features_of(const Manifest& m) {
   require(m.film.working_gamma != 1, required_feature::working_gamma);
   require(std::ranges::any_of(m.domains, [](const DomainInfo& d) { return d.pack.has_value(); }),
           required_feature::packs);
+  require(clip_of(m.camera) != ClipRange{}, required_feature::clips);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }

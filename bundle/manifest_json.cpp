@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "bundle/checked_json.h"
 
 namespace vitrail {
@@ -128,6 +130,17 @@ RealisticCamera realistic_from_json(const Json& j, const Transform& camera_to_wo
   return camera;
 }
 
+// Of planes that cut nothing away there is no key.
+ClipRange clip_from_json(const Json& of) {
+  ClipRange clip;
+  if (!of.contains("clip")) return clip;
+  const Json& j = of["clip"];
+  if (j.contains("near")) clip.near = number<float>(j, "near");
+  if (j.contains("far")) clip.far = number<float>(j, "far");
+  if (!(clip.near >= 0 && clip.near < clip.far)) throw Error("the camera's clip planes make no sense");
+  return clip;
+}
+
 Camera camera_from_json(const Json& j) {
   const Transform t = transform_from_json(j.at("camera_to_world"));
   const std::size_t kind = kind_index(j, camera_kinds);
@@ -155,8 +168,9 @@ Camera camera_from_json(const Json& j) {
   Lens lens;
   if (j.contains("lens"))
     lens = {number<double>(j["lens"], "radius"), number<double>(j["lens"], "focal_distance")};
-  if (kind == 0) return PerspectiveCamera{t, screen, lens};
-  return OrthographicCamera{t, screen, lens};
+  const ClipRange clip = clip_from_json(j);
+  if (kind == 0) return PerspectiveCamera{t, screen, lens, clip};
+  return OrthographicCamera{t, screen, lens, clip};
 }
 
 SpectralBins bins_from_json(const Json& film) {
@@ -335,6 +349,8 @@ Json camera_to_json(const Camera& camera) {
           j["screen"] = {c.screen.x0, c.screen.x1, c.screen.y0, c.screen.y1};
           if (c.lens != Lens{})
             j["lens"] = {{"radius", c.lens.radius}, {"focal_distance", c.lens.focal_distance}};
+          if (c.clip.near > 0) j["clip"]["near"] = c.clip.near;
+          if (std::isfinite(c.clip.far)) j["clip"]["far"] = c.clip.far;
         }
       },
       camera);

@@ -360,10 +360,11 @@ void fields(auto& io, Is<CornerValues> auto& v) {
 
 void fields(auto& io, Is<ScreenWindow> auto& s) { io(s.x0), io(s.x1), io(s.y0), io(s.y1); }
 void fields(auto& io, Is<Lens> auto& l) { io(l.radius), io(l.focal_distance); }
+void fields(auto& io, Is<ClipRange> auto& c) { io(c.near), io.may_be_infinite(c.far); }
 template <class T>
 concept Framed = Is<T, PerspectiveCamera> || Is<T, OrthographicCamera>;
 void fields(auto& io, Framed auto& c) {
-  fields(io, c.camera_to_world), fields(io, c.screen), fields(io, c.lens);
+  fields(io, c.camera_to_world), fields(io, c.screen), fields(io, c.lens), fields(io, c.clip);
 }
 void fields(auto& io, Is<SphericalCamera> auto& c) {
   fields(io, c.camera_to_world), fields(io, c.projection);

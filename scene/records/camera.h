@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <variant>
 #include <vector>
 
@@ -24,11 +25,19 @@ struct Lens {
   bool operator==(const Lens&) const = default;
 };
 
+// Depths along the axis, in camera space: a ray of the camera begins at `near` and meets no surface from
+// `far` on. What lies around the scene is seen behind it.
+struct ClipRange {
+  float near = 0, far = std::numeric_limits<float>::infinity();  // these: nothing is cut away
+  bool operator==(const ClipRange&) const = default;
+};
+
 // A pinhole, or a thin lens.
 struct PerspectiveCamera {
   Transform camera_to_world;
   ScreenWindow screen;  // tan of the half angles: ±tan(fov/2) on the axis that fov measures
   Lens lens;
+  ClipRange clip{};
   bool operator==(const PerspectiveCamera&) const = default;
 };
 
@@ -37,6 +46,7 @@ struct OrthographicCamera {
   Transform camera_to_world;
   ScreenWindow screen;
   Lens lens;
+  ClipRange clip{};
   bool operator==(const OrthographicCamera&) const = default;
 };
 
@@ -111,5 +121,12 @@ struct WideCamera {
 
 using Camera = std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera, SensorCamera,
                             RealisticCamera, WideCamera>;
+
+// Other cameras have no planes.
+inline ClipRange clip_of(const Camera& camera) {
+  if (const auto* c = std::get_if<PerspectiveCamera>(&camera)) return c->clip;
+  if (const auto* c = std::get_if<OrthographicCamera>(&camera)) return c->clip;
+  return {};
+}
 
 }  // namespace vitrail

@@ -209,6 +209,19 @@ TEST_F(ManifestFile, EveryFilterAndCamera) {
   }
 }
 
+TEST_F(ManifestFile, NearAndFarPlanes) {
+  Manifest m = sample_manifest();
+  constexpr float infinite = ClipRange{}.far;
+  for (const ClipRange clip :
+       {ClipRange{}, ClipRange{0.1f, infinite}, ClipRange{0, 4}, ClipRange{0.1f, 1e4f}})
+    for (const Camera& camera :
+         {Camera{PerspectiveCamera{{}, {}, {}, clip}}, Camera{OrthographicCamera{{}, {}, {}, clip}}}) {
+      m.camera = camera;
+      EXPECT_EQ(written_and_read(m).camera, camera);
+      EXPECT_EQ((features_of(m).required & required_feature::clips) != 0, clip != ClipRange{});
+    }
+}
+
 TEST_F(ManifestFile, WithoutAnyTriangle) {
   Manifest m;
   m.domains.resize(1);

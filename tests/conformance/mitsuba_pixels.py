@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What Mitsuba 3 renders of a scene file whose film is "rgba".
+"""What Mitsuba 3 renders of a scene file.
 
 mitsuba_pixels.py SCENE.xml OUT.json --spp N --variant NAME
 
-OUT.json: a list of [r, g, b, a], row by row from the top left.
+OUT.json: a list of [r, g, b], and alpha if the film has it, row by row from the top left.
 """
 import argparse
 import json
@@ -22,4 +22,4 @@ arguments = parser.parse_args()
 mi.set_variant(arguments.variant)
 picture = np.array(mi.render(mi.load_file(arguments.scene), spp=arguments.spp))
 with open(arguments.out, "w") as out:
-    json.dump(picture.reshape(-1, 4).astype(float).tolist(), out)
+    json.dump(picture.reshape(-1, picture.shape[-1]).astype(float).tolist(), out)

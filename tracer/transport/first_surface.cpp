@@ -45,7 +45,7 @@ std::array<double, 3> value_at(const Tracing& tracing, const CameraPath& path, c
     case Layer::depth: {
       const CameraRay ray =
           camera_ray(tracing, path, column_of(tracing, path.film), row_of(tracing, path.film));
-      return {length(at.p - cast<double>(ray.origin))};
+      return {ray.before + length(at.p - cast<double>(ray.origin))};
     }
     default:
       return {};

@@ -46,6 +46,8 @@ bool begin(Tracing& tracing, CameraPath& path, Given given) {
     weight = ray.weight;
     path.direction = ray.direction;
     path.ray = {ray.origin, decode_direction(ray.direction), no_triangle};
+    path.hit.t = ray.end;
+    if (ray.before > 0) widen_cone(tracing, path, of.sample, ray.before);
     path.random = hash_of_ray(path);
   }
   path.unrecorded = film.layers().any();

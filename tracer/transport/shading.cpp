@@ -207,6 +207,7 @@ std::optional<Arrived> fly(Tracing& tracing, CameraPath& path) {
   if (!medium) return Arrived{};
   find_wavelengths(tracing, path, path.film);
   if (is_too_dark(tracing, path)) return std::nullopt;
+  if (!path.meets_surface()) path.hit.t = Hit{}.t;  // a medium goes on behind the camera's far plane
   const Flight flight = flight_of(tracing, path, tracing.scene.lights.has_background());
   RandomStream random(stream_of(path, RayRandom::flight));
   const FlightSample flown =

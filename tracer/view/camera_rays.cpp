@@ -169,6 +169,7 @@ struct WorldRay {
   Point3d origin;
   Vector3d direction;
   double weight = 1;
+  double depth = 1;  // along the camera's axis, of `direction`
 };
 
 // `moved`: where the camera is instead, if it moves.
@@ -178,20 +179,30 @@ WorldRay world_ray(const Camera& camera, const FilmSettings& film, Point2d raste
       [&](const auto& c) -> WorldRay {
         const LocalRay ray = local_ray(c, film, raster, lens);
         const Transform& to_world = moved ? *moved : c.camera_to_world;
-        return {transform_point(to_world, ray.origin), transform_vector(to_world, ray.direction), ray.weight};
+        return {transform_point(to_world, ray.origin), transform_vector(to_world, ray.direction), ray.weight,
+                ray.direction.z};
       },
       camera);
+}
+
+CameraRay clipped(const ClipRange& clip, const WorldRay& ray) {
+  const double near = static_cast<double>(clip.near) / ray.depth,
+               far = static_cast<double>(clip.far) / ray.depth;
+  const DirectionCode direction = encode_direction(ray.direction);
+  const double long_as = length(ray.direction);
+  return {cast<float>(ray.origin + near * ray.direction), direction, ray.weight, near * long_as,
+          (far - near) * long_as / length(cast<double>(decode_direction(direction)))};
 }
 
 }  // namespace
 
 CameraSampler::CameraSampler(const Camera& camera, const Motion& motion, const FilmSettings& film)
-    : camera_(camera), motion_(motion), film_(film) {
+    : camera_(camera), motion_(motion), film_(film), clips_(clip_of(camera) != ClipRange{}) {
   std::visit(
       [&](const auto& c) {
         if constexpr (requires { c.lens; }) {
           has_lens_ = c.lens.radius > 0;
-          is_linear_ = !has_lens_ && !motion.moves();
+          is_linear_ = !has_lens_ && !clips_ && !motion.moves();
         } else if constexpr (requires { c.surfaces; }) {
           has_lens_ = true;
         }
@@ -217,6 +228,7 @@ CameraRay CameraSampler::ray(Point2d raster, Point2d lens, double time_s) const 
   std::optional<Transform> moved;
   if (motion_.moves()) moved = motion_.at(time_s);
   const WorldRay ray = world_ray(camera_, film_, raster, lens, moved ? &*moved : nullptr);
+  if (clips_) return clipped(clip_of(camera_), ray);
   return {cast<float>(ray.origin), encode_direction(ray.direction), ray.weight};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "scene/records/scene.h"
@@ -12,6 +13,8 @@ struct CameraRay {
   Point3f origin;
   DirectionCode direction;
   double weight = 1;  // of what it brings; 0: the lens lets nothing through
+  double before = 0;  // the way from the camera to `origin`, which its near plane cuts off
+  double end = std::numeric_limits<double>::infinity();  // at its far plane, in lengths of the direction
 };
 
 class CameraSampler {
@@ -28,7 +31,7 @@ class CameraSampler {
   struct LinearRays {
     Linear origin, direction;
   };
-  // Of a pinhole and of parallel rays that stand still; null of other cameras.
+  // Of a pinhole and of parallel rays that stand still, without clip planes; null of other cameras.
   const LinearRays* linear() const { return is_linear_ ? &linear_ : nullptr; }
 
   // Whether rays need a point of the lens.
@@ -47,6 +50,7 @@ class CameraSampler {
   const Motion& motion_;
   const FilmSettings& film_;
   bool has_lens_ = false;
+  bool clips_ = false;  // near or far
   bool is_linear_ = false;
   LinearRays linear_;
 };

@@ -140,8 +140,11 @@ int write_camera(tinygltf::Model& model, ConversionNotes& notes, const Transform
   if (std::abs(screen.x0 + screen.x1) > 1e-6 * width || std::abs(screen.y0 + screen.y1) > 1e-6 * height)
     notes.approximated("a picture beside the camera's axis: about the axis");
   if (focal_radius > 0) notes.dropped("depth of field: glTF's cameras have none");
-  // Around all that there is: what goes by depth buffers cuts there.
-  const double far = 2 * reach(scene, transform_point(to_world, {0, 0, 0})), near = 1e-5 * far;
+  // Without planes of its own, around all that there is: what goes by depth buffers cuts there.
+  const ClipRange clip = clip_of(scene.camera);
+  const double around = 2 * reach(scene, transform_point(to_world, {0, 0, 0}));
+  const double far = std::isfinite(clip.far) ? short_number(clip.far) : around;
+  const double near = clip.near > 0 ? short_number(clip.near) : 1e-5 * std::min(far, around);
   if (out.type == "perspective") {
     out.perspective.yfov = 2 * std::atan(height), out.perspective.aspectRatio = width / height;
     out.perspective.znear = near, out.perspective.zfar = far;

@@ -23,10 +23,9 @@ namespace vitrail::mitsuba {
 // luminance v).
 enum class Quantity { reflectance, unbounded, emission };
 
-// What Mitsuba's camera cuts away, by the depth in front of it.
+// Mitsuba's own planes where the file gives its camera none.
 struct Clipping {
   double near_clip = 1e-2, far_clip = 1e4;
-  std::optional<Origin> place;  // where it is given
 };
 
 struct Builder {
@@ -67,9 +66,10 @@ Spectrum spectrum_value(Builder& builder, const Object& object, std::string_view
 Id<Texture> add_texture(Builder& builder, const Object& texture, bool as_float);
 
 // ---- clipping.cpp
-// Says where the planes cut something away: they are not kept. Looks at vertices that are read, but of
-// instances.
-void report_clipping(Builder& builder);
+// Throws Error for planes that Mitsuba refuses.
+void read_clipping(Builder& builder, const Object& sensor);
+// Gives the camera the planes that cut something away, when all shapes are read.
+void keep_clipping(Builder& builder);
 
 // ---- bsdfs.cpp
 // Adds a record that is made here; those that it refers to have been added.

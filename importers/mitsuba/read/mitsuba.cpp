@@ -70,8 +70,8 @@ static void build(Builder& b, const Object& root, const ImportOptions& options) 
   multiply_by_samples(b, root);
   report_null_depth(b);
   report_dark_bumps(b);
-  report_clipping(b);
   finish_integrator(b, options.all_media);
+  keep_clipping(b);
   root.ignore({"camera", "version"});
   root.children("sampler");
   root.children("film");

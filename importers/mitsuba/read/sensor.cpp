@@ -231,12 +231,7 @@ void read_sensor(Builder& builder, const Object& sensor) {
   for (const Object* object : {&sensor, &camera}) {
     builder.shutter_open = object->number("shutter_open", builder.shutter_open, report);
     builder.shutter_close = object->number("shutter_close", builder.shutter_close, report);
-    for (const auto& [name, value] :
-         {std::pair{"near_clip", &builder.clipping.near_clip}, {"far_clip", &builder.clipping.far_clip}}) {
-      if (!object->has(name)) continue;
-      *value = object->number(name, *value, report);
-      builder.clipping.place = place_of(*object, name);
-    }
+    read_clipping(builder, *object);
     object->ignore({"focus_distance"});
     object->children("film"), object->children("sampler");
     if (const Object* medium = object->child("medium")) scene.camera_medium = add_medium(builder, *medium);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/mitsuba/write/write_camera.h"
+#include "importers/reading/clip_planes.h"
 #include "importers/reading/sensor_view.h"
 
 #include <array>
@@ -9,9 +10,9 @@
 #include <numbers>
 
 #include "importers/mitsuba/aovs.h"
+#include "importers/mitsuba/clip_units.h"
 #include "importers/mitsuba/screen.h"
 #include "importers/mitsuba/write/write_film.h"
-#include "scene/geometry/bounds.h"
 #include "scene/models/paraxial_lens.h"
 
 namespace vitrail::mitsuba_writer {
@@ -24,47 +25,6 @@ using mitsuba::half_screen_of_height;
 using mitsuba::half_screen_of_width;
 using mitsuba::HalfScreen;
 using mitsuba::tan_half;
-
-struct ClipRange {
-  double near_clip = 1e-2, far_clip = 1e4;
-};
-
-void extend_by_corners(Bounds3d& box, const Bounds3d& of, const Transform& to_box) {
-  for (int corner = 0; !of.empty() && corner < 8; ++corner) {
-    const Point3d p{corner & 1 ? of.upper.x : of.lower.x, corner & 2 ? of.upper.y : of.lower.y,
-                    corner & 4 ? of.upper.z : of.lower.z};
-    extend(box, transform_point(to_box, p));
-  }
-}
-
-// Every mesh and every prototype is looked at once, however many instances there are.
-Bounds3d bounds_of(const Scene& scene) {
-  std::vector<Bounds3d> meshes;
-  for (const TriangleMesh& mesh : scene.meshes)
-    for (Bounds3d& box = meshes.emplace_back(); const Point3f p : mesh.positions)
-      extend(box, cast<double>(p));
-  const auto box_of = [&](const std::vector<Shape>& shapes) {
-    Bounds3d box;
-    for (const Shape& shape : shapes) extend_by_corners(box, meshes[shape.mesh.value], shape.object_to_world);
-    return box;
-  };
-  std::vector<Bounds3d> prototypes;
-  for (const Prototype& prototype : scene.prototypes) prototypes.push_back(box_of(prototype.shapes));
-  Bounds3d box = box_of(scene.shapes);
-  for (const Instance& instance : scene.instances)
-    extend_by_corners(box, prototypes[instance.prototype.value], instance.prototype_to_world);
-  return box;
-}
-
-// Mitsuba cuts away what is nearer or farther: so wide that nothing of the scene is.
-ClipRange clip_range(const Scene& scene, const Transform& camera_to_world) {
-  Bounds3d box = bounds_of(scene);
-  extend(box, transform_point(camera_to_world, {0, 0, 0}));
-  const double reach = 2 * length(extent(box));
-  if (!(reach > 0) || !std::isfinite(reach)) return {};
-  const double digits = std::ceil(std::log10(reach));
-  return {std::pow(10, std::min(digits - 6, -2.0)), std::pow(10, digits)};
-}
 
 // Camera space is mirrored in x between the Scene and Mitsuba.
 Transform mirrored(const Transform& camera_to_world) { return camera_to_world * scale({-1, 1, 1}); }
@@ -319,14 +279,27 @@ void write_integrator(Context& context, Element root) {
   add_boolean(element, "hide_emitters", scene.settings.hides_emitters);
 }
 
+namespace {
+
+// Mitsuba has both planes always: where the camera has none, so wide that they cut nothing away.
+void add_clip(Element sensor, const Scene& scene) {
+  const Transform to_world = std::visit([](const auto& c) { return c.camera_to_world; }, scene.camera);
+  const ClipRange wide = wide_clip(scene, to_world), kept = clip_of(scene.camera);
+  const ClipRange clip = mitsuba::to_mitsuba(kept, scene.camera);
+  float near = kept.near > 0 ? clip.near : wide.near;
+  const float far = std::isfinite(kept.far) ? clip.far : wide.far;
+  if (!(near < far)) near = 1e-6f * far;
+  add_float(sensor, "near_clip", near);
+  add_float(sensor, "far_clip", far);
+}
+
+}  // namespace
+
 void write_camera(Context& context, Element root) {
   const Scene& scene = context.scene;
   context.begin(RecordKind::camera, scene.camera_origin);
   Element sensor = std::visit([&](const auto& camera) { return write(context, root, camera); }, scene.camera);
-  const ClipRange clip =
-      std::visit([&](const auto& camera) { return clip_range(scene, camera.camera_to_world); }, scene.camera);
-  add_float(sensor, "near_clip", clip.near_clip);
-  add_float(sensor, "far_clip", clip.far_clip);
+  add_clip(sensor, scene);
   if (scene.camera_medium) add_reference(sensor, context.medium_ids[scene.camera_medium->value], "medium");
   write_film(context, sensor);
   Element sampler = add(sensor, "sampler", "independent");

@@ -8,6 +8,7 @@
 #include "importers/pbrt/read/gbuffer.h"
 #include "importers/pbrt/write/writer.h"
 #include "importers/reading/sensor_view.h"
+#include "importers/writing/clip_note.h"
 #include "scene/models/paraxial_lens.h"
 
 namespace vitrail::pbrt {
@@ -92,6 +93,7 @@ struct CameraWriter {
 
  private:
   void finish(const char* kind, const Transform& camera_to_world) {
+    if (const std::string note = clip_note(clip_of(w.scene.camera)); !note.empty()) p.dropped(note);
     const Motion& motion = w.scene.camera_motion;
     if (motion.moves())
       w.transforms(motion, w.scene.camera_origin, RecordKind::camera);

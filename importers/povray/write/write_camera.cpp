@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/povray/write/write_camera.h"
 #include "importers/reading/sensor_view.h"
+#include "importers/writing/clip_note.h"
 #include "scene/models/paraxial_lens.h"
 
 #include <cmath>
@@ -99,6 +100,8 @@ bool is_pixel_box(const Filter& filter) {
 }  // namespace
 
 std::string camera_text(Context& context) {
+  if (const std::string note = clip_note(clip_of(context.scene.camera)); !note.empty())
+    context.dropped(note, context.scene.camera_origin);
   return std::visit([&](const auto& camera) { return text_of(context, camera); }, context.scene.camera);
 }
 

@@ -254,22 +254,6 @@ TEST_F(WrittenCameras, TheCamerasMedium) {
   EXPECT_EQ(again.camera_medium, original.camera_medium);
 }
 
-TEST(MitsubaClipping, IsSaidWhereItCuts) {
-  const TemporaryFolder folder;
-  const auto notes = [&](const std::string& planes) {
-    const auto file = folder.write(
-        "clip.xml",
-        "<scene version='3.0.0'><integrator type='path'/><sensor type='perspective'>" + planes +
-            "<transform name='to_world'><lookat origin='0,0,5' target='0,0,0' up='0,1,0'/></transform>"
-            "<film type='hdrfilm'><rfilter type='box'/></film></sensor>"
-            "<emitter type='constant'/><shape type='rectangle'><bsdf type='diffuse'/></shape></scene>");
-    return read_mitsuba(file).diagnostics;
-  };
-  EXPECT_THAT(notes("<float name='near_clip' value='0.5'/><float name='far_clip' value='100'/>"), IsEmpty());
-  for (const char* cut : {"<float name='near_clip' value='6'/>", "<float name='far_clip' value='4'/>"})
-    EXPECT_THAT(notes(cut), Contains(Field(&Diagnostic::message, HasSubstr("is seen")))) << cut;
-}
-
 // ---- Integrators
 
 RenderSettings integrator(const std::string& xml) { return read_text(xml).scene.settings; }

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "bundle/manifest.h"
 #include "film/film_progress.h"
 #include "tests/support/command.h"
@@ -66,6 +68,39 @@ TEST_F(OnePictureOfLayers, WhateverTheDomainsRanksThreadsAndMemory) {
         }
   }
   fmt::print("film {}\n", hash);
+}
+
+// A ray that is handed on keeps its end.
+TEST_F(OnePictureOfLayers, OfNearAndFarPlanes) {
+  const auto scene = [](const char* planes) {
+    return fmt::format(
+        "<scene version='3.0.0'><integrator type='volpath'/><sensor type='thinlens'>{}"
+        "<float name='aperture_radius' value='.1'/><float name='focus_distance' value='5'/>"
+        "<medium type='homogeneous'><float name='sigma_t' value='.2'/></medium><transform name='to_world'>"
+        "<lookat origin='0,1,5' target='0,0,0' up='0,1,0'/></transform><film type='hdrfilm'>"
+        "<integer name='width' value='32'/><integer name='height' value='32'/></film></sensor>"
+        "<emitter type='constant'/><shape type='sphere'><float name='radius' value='.7'/>"
+        "<bsdf type='dielectric'/></shape><shape type='rectangle'><transform name='to_world'>"
+        "<scale value='4'/><translate z='-1'/></transform></shape><shape type='cube'><transform "
+        "name='to_world'><scale value='.4'/><rotate y='1' angle='30'/><translate x='1'/></transform></shape>"
+        "<shape type='cube'><transform name='to_world'><scale value='.3'/><translate y='-1'/></transform>"
+        "</shape></scene>",
+        planes);
+  };
+  const auto write = [&](const char* name, const char* planes) {
+    std::ofstream(directory_ / "appearance" / name) << scene(planes);
+  };
+  write("clip.xml", "<float name='near_clip' value='4.3'/><float name='far_clip' value='5.6'/>");
+  write("whole.xml", "");
+  const std::uint64_t hash = render(bundle(1, "clip.xml"), "--spp 4").hash();
+  EXPECT_NE(render(bundle(1, "whole.xml"), "--spp 4").hash(), hash);
+  const auto cut = bundle(8, "clip.xml");
+  std::uint64_t largest = 0;
+  for (const DomainInfo& d : read_manifest(cut).domains) largest = std::max(largest, d.bytes);
+  for (const int ranks : {1, 3})
+    for (const std::string& memory :
+         {std::string(), fmt::format("--domain-memory {} --shuffle-delivery 3", largest)})
+      EXPECT_EQ(render(cut, "--spp 4 " + memory, ranks).hash(), hash) << ranks << " ranks " << memory;
 }
 
 TEST_F(OnePictureOfLayers, ResumedCroppedAndMerged) {

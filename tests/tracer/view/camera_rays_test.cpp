@@ -71,6 +71,32 @@ TEST(ThinLens, RaysMeetInThePlaneInFocus) {
   expect_focus(OrthographicCamera{{}, {-2, 2, -1, 1}, {}});
 }
 
+// Rays of every raster position and point of the lens begin in one plane and end in another, and go the way
+// that they go without planes.
+template <class Camera>
+void expect_clipped(Camera camera) {
+  Camera without = camera;
+  camera.clip = {1.5f, 6};
+  const auto depth_of = [](Point3d p) { return p.z; };
+  for_each_cell([&](Point2d u) {
+    const Point2d raster{u.x * film.width, u.y * film.height}, lens{u.y, u.x};
+    const CameraRay ray = camera_ray(camera, raster, lens), whole = camera_ray(without, raster, lens);
+    const Vector3d d = cast<double>(decode_direction(ray.direction));
+    EXPECT_EQ(ray.direction, whole.direction);
+    EXPECT_NEAR(depth_of(cast<double>(ray.origin)), 1.5, 1e-6);
+    EXPECT_NEAR(depth_of(cast<double>(ray.origin) + ray.end * d), 6, 1e-5);
+    EXPECT_NEAR(length(cast<double>(ray.origin) - cast<double>(whole.origin)), ray.before, 1e-6);
+    EXPECT_TRUE(std::isinf(whole.end) && whole.before == 0);
+  });
+}
+
+TEST(ClipPlanes, RaysBeginAndEndInThem) {
+  for (const Lens& lens : {Lens{}, Lens{0.3, 4}}) {
+    expect_clipped(PerspectiveCamera{{}, {-2, 2, -1, 1}, lens});
+    expect_clipped(OrthographicCamera{{}, {-2, 2, -1, 1}, lens});
+  }
+}
+
 TEST(ThinLens, APinholeHasNone) {
   EXPECT_FALSE(has_lens(PerspectiveCamera{}));
   EXPECT_FALSE(has_lens(SphericalCamera{}));
