@@ -44,13 +44,19 @@ std::string strength(const Context& context, const auto& light) {
                      light.fading->fade_power);
 }
 
+// Of a light without extent: all lights shoot photons else.
+const char* no_photons(const Context& context) {
+  return context.has_caustics ? " photons { reflection off refraction off }" : "";
+}
+
 std::string point(const Context& context, Point3d position, RGB intensity, const std::string& words) {
-  return fmt::format("light_source {{ {} {} {}{} }}\n", at(context, position),
-                     intensity_color(context, intensity), words, fading(context));
+  return fmt::format("light_source {{ {} {} {}{}{} }}\n", at(context, position),
+                     intensity_color(context, intensity), words, fading(context), no_photons(context));
 }
 
 std::string text_of(Context& context, const PointLight& light, const Origin&) {
-  return fmt::format("light_source {{ {} {} }}\n", at(context, light.position), strength(context, light));
+  return fmt::format("light_source {{ {} {}{} }}\n", at(context, light.position), strength(context, light),
+                     no_photons(context));
 }
 
 std::string text_of(Context& context, const SpotLight& light, const Origin& origin) {
@@ -61,17 +67,18 @@ std::string text_of(Context& context, const SpotLight& light, const Origin& orig
   const Vector3d axis = normalize(transform_vector(light.light_to_world, {0, 0, 1}));
   if (light.cutoff_deg > 90)
     context.approximated("spot light of more than 90 degrees: POV-Ray's end there", origin);
-  return fmt::format("light_source {{ {} {} spotlight radius {} falloff {} tightness {} point_at {} }}\n",
+  return fmt::format("light_source {{ {} {} spotlight radius {} falloff {} tightness {} point_at {}{} }}\n",
                      at(context, from), strength(context, light), std::min(light.beam_deg, 90.0f),
                      std::min(light.cutoff_deg, 90.0f), light.tightness,
-                     at(context, from + axis * context.units.radius));
+                     at(context, from + axis * context.units.radius), no_photons(context));
 }
 
 std::string text_of(Context& context, const DistantLight& light, const Origin&) {
   const Point3d target = context.units.center;
   const Point3d from = target - normalize(light.direction) * (4 * context.units.radius);
-  return fmt::format("light_source {{ {} {} parallel point_at {} }}\n", at(context, from),
-                     color(signed_emission_rgb(light.irradiance) * (1 / pi)), at(context, target));
+  return fmt::format("light_source {{ {} {} parallel point_at {}{} }}\n", at(context, from),
+                     color(signed_emission_rgb(light.irradiance) * (1 / pi)), at(context, target),
+                     no_photons(context));
 }
 
 std::string text_of(Context& context, const ProjectionLight& light, const Origin& origin) {

@@ -73,6 +73,20 @@ TEST_F(PovrayOracle, GlassGathersTheLightOfLamps) {
   EXPECT_LT(middle(), 31 * without);
 }
 
+// Light of a point goes straight through a ball of glass, photons or not.
+TEST_F(PovrayOracle, PointsShineStraightThroughGlass) {
+  Scene scene = plane();
+  scene.settings.max_depth = 4;
+  scene.lights.push_back({PointLight{{-6, 0, 6}, emission_from_rgb({20, 20, 20})}});
+  add_emitter(scene, square(-9.1f, -9, -.1f, .1f, 9), {.001, .001, .001});
+  const double without = render_povray(scene, folder_).at(16, 16)[0];
+  TriangleMesh ball;
+  ball.quadric = Quadric{.kind = QuadricKind::sphere};
+  add(scene, ball, DielectricMaterial{ConstantSpectrum{1.5f}}).object_to_world =
+      translate({-3, 0, 3}) * scale({1.2, 1.2, 1.2});
+  EXPECT_NEAR(render_povray(scene, folder_).at(16, 16)[0], without, 0.1 * without);
+}
+
 // Nothing shows of a ball that scatters all light, under a sky of one radiance.
 TEST_F(PovrayOracle, MediaScatterTheSky) {
   Scene scene = empty_scene();
