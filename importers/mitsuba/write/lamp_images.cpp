@@ -110,32 +110,56 @@ const char* wrap_mode(Wrap wrap) {
   return wrap == Wrap::repeat ? "repeat" : wrap == Wrap::mirror ? "mirror" : "clamp";
 }
 
-void add_grid(Context& context, Element lit, const Image& image, const ImageTexture& texture,
-              const Transform& to_world) {
+// The lowest row first.
+Grid grid_of(const Image& image) {
   Grid grid;
   grid.nx = image.width, grid.ny = image.height, grid.nz = 1, grid.channels = image.channels;
   const auto row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
   grid.values.resize(image.values.size());
-  for (std::size_t from = image.values.size(), to = 0; from > 0; to += row) {  // the lowest row first
+  for (std::size_t from = image.values.size(), to = 0; from > 0; to += row) {
     from -= row;
     std::copy_n(image.values.begin() + static_cast<std::ptrdiff_t>(from), row,
                 grid.values.begin() + static_cast<std::ptrdiff_t>(to));
   }
-  const std::string name = context.new_file("volumes", "vol", context.derived_volumes);
-  write_volume_file(context.file.parent_path() / name, grid);
+  return grid;
+}
+
+std::pair<std::uint32_t, float> key_of(const AreaLight& light) {
+  return {std::get<Id<Texture>>(light.radiance).value, light.scale};
+}
+
+// The file of a lamp's image times its scale, written once.
+const std::string& image_file(Context& context, const AreaLight& light, const Image& image) {
+  std::string& name = context.lamp_images[key_of(light)];
+  if (name.empty()) {
+    name = context.new_file("images", "exr", context.derived_images);
+    write_exr_image(context.file.parent_path() / name, image);
+  }
+  return name;
+}
+
+const std::string& grid_file(Context& context, const AreaLight& light, const Image& image) {
+  std::string& name = context.lamp_grids[key_of(light)];
+  if (name.empty()) {
+    name = context.new_file("volumes", "vol", context.derived_volumes);
+    write_volume_file(context.file.parent_path() / name, grid_of(image));
+  }
+  return name;
+}
+
+void add_grid(Context& context, Element lit, const AreaLight& light, const Image& image,
+              const ImageTexture& texture, const Transform& to_world) {
   const std::string id = context.new_id("", "lamp_image", context.derived_volumes);
   Element volume = add(add(lit, "texture", "volume", "nested"), "volume", "gridvolume", "volume", id);
-  add_string(volume, "filename", name);
+  add_string(volume, "filename", grid_file(context, light, image));
   add_string(volume, "filter_type", texture.filter == TextureFilter::nearest ? "nearest" : "trilinear");
   add_string(volume, "wrap_mode", wrap_mode(texture.wrap));
   add_boolean(volume, "raw", false);
   add_transform(volume, to_world);
   // For our own reader, which looks no grid up on a surface.
-  const std::string picture = context.new_file("images", "exr", context.derived_images);
-  write_exr_image(context.file.parent_path() / picture, image);
   Element value = lit.root().child("scene").prepend_child("default");
   value.append_attribute("name") = ("picture:" + id).c_str();
-  value.append_attribute("value") = picture.c_str();
+  value.append_attribute("value") = image_file(context, light, image).c_str();
 }
 
 // Whether it could be said exactly.
@@ -159,16 +183,15 @@ bool add_exactly(Context& context, Element emitter, const AreaLight& light, cons
             greatest / light.scale));
       return false;
     }
-    add_grid(context, add(emitter, "texture", "d65", "radiance"), image, tinted->image, *to_world);
+    add_grid(context, add(emitter, "texture", "d65", "radiance"), light, image, tinted->image, *to_world);
     context.approximated(
         "a lamp's image above 1 is a grid: in Mitsuba's spectral variants its colours are other spectra of "
         "the same "
         "colour");
     return true;
   }
-  const std::string name = context.new_file("images", "exr", context.derived_images);
-  write_exr_image(context.file.parent_path() / name, image);
-  add_bitmap(context, add(emitter, "texture", "d65", "radiance"), "nested", {name, false}, tinted->image);
+  add_bitmap(context, add(emitter, "texture", "d65", "radiance"), "nested",
+             {image_file(context, light, image), false}, tinted->image);
   return true;
 }
 

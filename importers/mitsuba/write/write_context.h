@@ -86,7 +86,9 @@ struct Context : ConversionNotes {
   std::vector<WrittenTexture> textures;
   mutable std::unordered_map<std::uint32_t, RGB> means;  // of the textures whose mean was asked for
   std::unordered_map<std::size_t, std::string>
-      interiors;                    // media inside of subsurface materials, by material
+      interiors;  // media inside of subsurface materials, by material
+  // Files of the images that lamps have, by texture and scale: many shapes may shine by one.
+  std::map<std::pair<std::uint32_t, float>, std::string> lamp_images, lamp_grids;
   bool colored_extinction = false;  // of a medium that was written
   std::size_t unseen_lamps = 0;     // of the written scene (is_unseen_lamp), with those of instances
   std::size_t curve_files = 0, derived_meshes = 0, derived_images = 0, derived_volumes = 0;

@@ -274,6 +274,26 @@ TEST_F(LampsImages, OfGreysOrBelowOneAreImagesTimesTheScale) {
   EXPECT_EQ(values(dim), (std::vector<float>{.25f, .125f, 0, .0625f, 0, .125f}));
 }
 
+// As the two sides of a lamp are, and shapes of one material.
+TEST_F(LampsImages, OfSeveralShapesAreWrittenOnce) {
+  for (const bool coloured : {true, false}) {
+    Scene scene = coloured ? lamp({.8f, .4f, .2f, .1f, .4f, 1}, 3) : lamp({.5f, 2}, 1);
+    scene.area_lights[0].two_sided = true;
+    scene.shapes.push_back(scene.shapes[0]);
+    scene.shapes[1].object_to_world = translate({0, 0, 5});
+    write(scene);
+    const auto files_in = [&](const char* folder) {
+      return std::filesystem::exists(folder_ / folder)
+                 ? std::ranges::distance(std::filesystem::directory_iterator(folder_ / folder))
+                 : 0;
+    };
+    EXPECT_EQ(files_in("scene-images"), 1) << text_;
+    EXPECT_EQ(files_in("scene-volumes"), coloured ? 1 : 0) << text_;
+    std::filesystem::remove_all(folder_ / "scene-images");
+    std::filesystem::remove_all(folder_ / "scene-volumes");
+  }
+}
+
 TEST_F(LampsImages, OnWhatIsNotFlatAreReported) {
   Scene scene = lamp({.8f, .4f, .2f, .1f, .4f, 1}, 3);
   scene.meshes[0].uvs[2] = {0.5f, 1};
