@@ -79,6 +79,16 @@ Filter read_filter(const Object& film, Report& report) {
 // Of Mitsuba 3 and of 0.6: rgba, luminance_alpha, luminanceAlpha, xyza …
 bool has_alpha(std::string_view pixel_format) { return pixel_format.ends_with('a'); }
 
+void read_pixel_format(FilmSettings& settings, const Object& film, Report& report) {
+  const std::string format = film.text("pixel_format", "rgb", report);
+  if (has_alpha(format)) settings.layers.add(Layer::alpha);
+  const bool grey = format.starts_with("luminance");
+  if (grey || format.starts_with("xyz"))
+    report.approximated(fmt::format("pixels of \"{}\": the film keeps red, green and blue{}", format,
+                                    grey ? ", of which they are the luminance" : ""),
+                        place_of(film, "pixel_format"));
+}
+
 }  // namespace
 
 void read_film(Builder& builder, const Object& sensor) {
@@ -98,7 +108,7 @@ void read_film(Builder& builder, const Object& sensor) {
   settings.height = pixels(*film, "height", 576, report);
   settings.crop = read_crop(*film, settings.width, settings.height, report);
   settings.filter = read_filter(*film, report);
-  if (has_alpha(film->text("pixel_format", "rgb", report))) settings.layers.add(Layer::alpha);
+  read_pixel_format(settings, *film, report);
   if (film->type == "specfilm") read_bands(builder, *film);
   film->ignore({"filename", "file_format", "component_format", "sample_border", "compensate", "banner",
                 "attach_log", "high_quality_edges", "gamma", "variable", "digits", "channel_names"});

@@ -254,6 +254,18 @@ TEST_F(WrittenCameras, TheCamerasMedium) {
   EXPECT_EQ(again.camera_medium, original.camera_medium);
 }
 
+TEST(MitsubaFilm, PixelsThatAreNotRedGreenAndBlueAreReported) {
+  const auto notes = [](const std::string& format) {
+    return read_text("<sensor type='perspective'><film type='hdrfilm'><string name='pixel_format' value='" +
+                     format + "'/><rfilter type='box'/></film></sensor>")
+        .diagnostics;
+  };
+  for (const char* kept : {"rgb", "rgba"}) EXPECT_THAT(notes(kept), IsEmpty()) << kept;
+  for (const char* other : {"luminance", "luminance_alpha", "xyz", "xyza"})
+    EXPECT_THAT(notes(other), Contains(Field(&Diagnostic::message, HasSubstr("red, green and blue"))))
+        << other;
+}
+
 // ---- Integrators
 
 RenderSettings integrator(const std::string& xml) { return read_text(xml).scene.settings; }
