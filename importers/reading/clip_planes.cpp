@@ -150,7 +150,6 @@ void keep_clip(Scene& scene, const ClipRange& planes) {
   ClipRange* const clip = clip_in(scene.camera);
   if (!clip) return;
   *clip = planes;
-  if (scene.camera_motion.moves() || !scene.motions.empty()) return;
   const Transform to_camera =
       std::visit([](const auto& c) { return inverse(c.camera_to_world); }, scene.camera);
   const Boxes boxes(scene);

@@ -11,7 +11,7 @@ namespace vitrail {
 ClipRange wide_clip(const Scene& scene, const Transform& camera_to_world);
 
 // Gives the camera those of the planes that cut away something that is in its picture. Where it stands in a
-// medium, the near one shortens the way through that. All of them where anything moves.
+// medium, the near one shortens the way through that. What moves is where it is when the shutter opens.
 void keep_clip(Scene& scene, const ClipRange& planes);
 
 }  // namespace vitrail
