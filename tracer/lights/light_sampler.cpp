@@ -75,6 +75,7 @@ std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const 
 
 Variety variety(const LightSampler& s, Point3d p) {
   if (s.one_is_enough) return Variety::none;
+  if (s.tree_chooses) return Variety::little;
   const Vector3d way = p - s.lamp_center;
   return s.lamp_radius2 > 0 && dot(way, way) > 16 * s.lamp_radius2 ? Variety::little : Variety::much;
 }

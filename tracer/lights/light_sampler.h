@@ -129,11 +129,12 @@ struct LightSampler {
 
   // sample_light has no use for u[3]: there is nothing but the tree, and it is small enough for 24 bits.
   bool three_numbers = false;
-  // There is one light, and one direction to it; or a sun among others, that brings most wherever nothing is
-  // in its way, which is mostly not so.
+  // There is one light, and one direction to it; or some are all around. A sun, the sky about it or what
+  // shines into a room brings most wherever nothing is in its way, and most shadows are where something is.
   bool one_is_enough = false;
-  Point3d lamp_center;      // where there is one lamp, of one or two surfaces and one radiance,
-  double lamp_radius2 = 0;  // a sphere around it; else 0
+  bool tree_chooses = false;  // among several lamps of one radiance each
+  Point3d lamp_center;        // where there is one lamp, of one or two surfaces and one radiance,
+  double lamp_radius2 = 0;    // a sphere around it; else 0
 
   // The first choice (LightNumbers) that is an environment.
   std::size_t first_environment() const { return LightNumbers::choice_of_tree + 1 + distant.size(); }
@@ -208,7 +209,7 @@ std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, 
                                         const SampledWavelengths& wavelengths);
 
 // How much samples of the lights differ by what they bring to a diffuse point: not at all; little, one lamp
-// that is small from there; or much.
+// that is small from there, or lamps that the tree chooses from by what they send there; or much.
 enum class Variety : std::uint8_t { none, little, much };
 Variety variety(const LightSampler& sampler, Point3d p);
 

@@ -118,19 +118,14 @@ struct Sorter {
 };
 
 void find_variety(std::span<const LightBounds> lights, LightSampler& s) {
-  const std::size_t kinds =
-      static_cast<std::size_t>(std::ranges::count_if(s.share, [](double share) { return share > 0; }));
-  if (kinds != 1) {
-    s.one_is_enough = !s.distant.empty();
-    return;
-  }
-  const bool local = s.share[LightNumbers::choice_of_tree] > 0;
   const std::span<const std::uint32_t> chosen = s.tree.order();
-  s.one_is_enough = local ? chosen.size() == 1 && s.emitters.size() == 1 : s.environments.empty();
+  s.one_is_enough =
+      !s.distant.empty() || !s.environments.empty() || (chosen.size() == 1 && s.emitters.size() == 1);
   const bool plain = std::ranges::all_of(s.scene.area_lights, [](const AreaLight& light) {
     return !light.sampled || std::holds_alternative<Spectrum>(light.radiance);
   });
-  if (!local || !s.emitters.empty() || chosen.size() > 2 || !plain) return;
+  s.tree_chooses = plain && (chosen.size() > 2 || !s.emitters.empty());
+  if (s.one_is_enough || s.tree_chooses || !plain) return;
   Bounds3d box;
   for (const std::uint32_t number : chosen) extend(box, lights[number].box);
   s.lamp_center = box.lower + (box.upper - box.lower) * 0.5;

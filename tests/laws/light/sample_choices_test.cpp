@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "compare/metrics.h"
 #include "compare/ztest.h"
@@ -119,6 +120,22 @@ TEST(SampleChoices, DarkFloorsHaveLittleNoise) {
   scene.lights.push_back(Light{InfiniteLight{ConstantSpectrum{1}}, {}});
   set_camera(scene, {0, 2, 0}, {0, 0, 0}, {0, 0, 1}, 0.7, 32, 32);
   EXPECT_LT(noise(rendered(scene, 64, {}, 1), rendered(scene, 64, {}, 2)), 1e-4);
+}
+
+// A floor behind a wall that hides the sun, under the rest of the sky: neither the sun nor what shines around
+// it may win over the rest.
+TEST(SampleChoices, ShadowsOfTheSunHaveLittleNoise) {
+  Scene scene;
+  add_shape(scene, add_quads(scene, {{{{-10, 0, -10}, {-10, 0, 10}, {10, 0, 10}, {10, 0, -10}}}}),
+            Material{DiffuseMaterial{ConstantSpectrum{0.5f}}});
+  add_shape(scene, add_quads(scene, {{{{1.5f, 0, -9}, {1.5f, 9, -9}, {1.5f, 9, 9}, {1.5f, 0, 9}}}}),
+            Material{DiffuseMaterial{ConstantSpectrum{0}}});
+  SkyLight sky;
+  sky.light_to_world = rotate(-std::numbers::pi / 2, {1, 0, 0});  // its zenith is y
+  sky.to_sun = {0.8, 0, 0.6};
+  scene.lights.push_back(Light{sky});
+  set_camera(scene, {-2, 2, 0}, {0, 0, 0}, {0, 0, 1}, 0.5, 32, 32);
+  EXPECT_LT(noise(rendered(scene, 64, {}, 1), rendered(scene, 64, {}, 2)), 6e-3);
 }
 
 struct Way {
