@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "cli/common/run_program.h"
-#include "scene/system/temporary_folder.h"
 #include "scene/system/diagnostics.h"
+#include "scene/system/temporary_folder.h"
 
 namespace vitrail {
 

@@ -12,9 +12,9 @@
 #include <sstream>
 
 #include "cli/common/run_program.h"
-#include "scene/system/temporary_folder.h"
 #include "cli/convert/block_luminances.h"
 #include "scene/system/diagnostics.h"
+#include "scene/system/temporary_folder.h"
 
 namespace vitrail {
 

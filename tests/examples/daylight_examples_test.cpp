@@ -77,7 +77,7 @@ TEST(Year, InTheOpenIsTheWeatherFile) {
   const std::string front = vitrail(""), python = "/usr/bin/python3 " VITRAIL_SOURCE_DIR "/examples/frames/";
   const CommandResult made = run(fmt::format(
       "cd '{}' && {}made_up_weather.py > w.epw && {}year.py open.obj w.epw --sensors up.txt -o year "
-      "--every 91 --spp 16 --vitrail {}",
+      "--every 91 --spp 64 --vitrail {}",
       directory.path().string(), python, python, front.substr(0, front.find_last_not_of(' ') + 1)));
   ASSERT_EQ(made.status, 0) << made.output;
   EXPECT_THAT(made.output, testing::HasSubstr("sDA300,50%: 50 % of 2 sensors"));
