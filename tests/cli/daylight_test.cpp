@@ -78,7 +78,7 @@ TEST_F(Daylight, IlluminanceIsAsPrinted) {
   EXPECT_NEAR(json["azimuth_deg"], 128.83, 0.02);
 
   const CommandResult rendered = verb(
-      "render", fmt::format("scene.pbrt --sky {} --sensors sensors.txt -o out.csv --spp 256 --quiet", paris));
+      "render", fmt::format("scene.pbrt --sky {} --sensors sensors.txt -o out.csv --spp 1024 --quiet", paris));
   ASSERT_EQ(rendered.status, 0) << rendered.output;
   std::ifstream table(directory_ / "out.csv");
   std::string line;
@@ -98,7 +98,7 @@ TEST_F(Daylight, IlluminanceIsAsPrinted) {
       EXPECT_NEAR(found, expected, 5 * error + 1e-3 * expected) << names[i];
       EXPECT_LT(error, 0.02 * expected);
     }
-    EXPECT_EQ(numbers[12], 256 * 16);
+    EXPECT_EQ(numbers[12], 1024 * 16);
   }
   EXPECT_EQ(sensors, 5);
 }
