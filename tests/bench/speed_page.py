@@ -70,7 +70,7 @@ Notes on the rows:
 
 ## Where the time goes
 
-Shares of processor time in percent, of the rows that llvm wins, by `tests/bench/stages.py` (AVX-512, 64 samples,
+Shares of processor time in percent, of fourteen rows, by `tests/bench/stages.py` (AVX-512, 64 samples,
 start-up included, other programs beside it). *Shading* has BSDFs and lights, which are one stage in lanes. *Begin*
 has all that a sample costs before its first ray: numbers, wavelengths, the sensor, its camera ray, the state of a
 path. The last columns say how many times as fast a render would be without intersection, and without shading.
@@ -92,8 +92,8 @@ path. The last columns say how many times as fast a render would be without inte
 | hotel room | 66 | 25 | 1 | 1 | 6 | 2.94 | 1.33 |
 | city, 10⁶ triangles | 56 | 31 | 3 | 5 | 5 | 2.27 | 1.45 |
 
-Without intersection the hotel room would be won, without shading Veach's plates. *box, spheres* and killeroo-simple
-would be lost without either. What is left has these reasons:
+Without intersection arealight, medium, four lamps and the hotel room would be won; without shading arealight, envmap,
+medium and four lamps. *box, spheres* and killeroo-simple would be lost without either. What is left has these reasons:
 
 - *Doubles.* Shading takes 8 doubles in a register of AVX-512, Mitsuba 16 floats. The film is one bit pattern for any
   division of the work, and decisions near an edge need doubles. With 16 lanes in two registers each, shading was 20 to

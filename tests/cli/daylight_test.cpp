@@ -77,8 +77,9 @@ TEST_F(Daylight, IlluminanceIsAsPrinted) {
   EXPECT_NEAR(json["elevation_deg"], 56.31, 0.02);
   EXPECT_NEAR(json["azimuth_deg"], 128.83, 0.02);
 
-  const CommandResult rendered = verb(
-      "render", fmt::format("scene.pbrt --sky {} --sensors sensors.txt -o out.csv --spp 1024 --quiet", paris));
+  const CommandResult rendered =
+      verb("render",
+           fmt::format("scene.pbrt --sky {} --sensors sensors.txt -o out.csv --spp 1024 --quiet", paris));
   ASSERT_EQ(rendered.status, 0) << rendered.output;
   std::ifstream table(directory_ / "out.csv");
   std::string line;
