@@ -58,10 +58,11 @@ void declare_sample_options(CLI::App& app, SampleArguments& a) {
                  "none: distant textures are not blurred; nearest: not blurred, and texels are squares; "
                  "default: the scene's for each texture")
       ->check(CLI::IsMember({"none", "nearest"}));
-  app.add_option("--roulette", a.roulette,
-                 "when paths may end by chance: once they carry less than a camera ray (early), less than a "
-                 "quarter of it (usual), or after 254 events (never). Early is quicker and noisier, never is "
-                 "slower; the mean is the same")
+  app.add_option(
+         "--roulette", a.roulette,
+         "when paths may end by chance, behind the first surface: once they carry less than a camera "
+         "ray (early), less than a quarter of it (usual), or after 254 events (never). Early is quicker "
+         "and noisier, never is slower; the mean is the same")
       ->check(CLI::IsMember({"early", "usual", "never"}))
       ->capture_default_str();
   app.add_option("--wavelengths", a.wavelengths,
@@ -73,9 +74,10 @@ void declare_sample_options(CLI::App& app, SampleArguments& a) {
                  "which is quicker for few lamps")
       ->check(CLI::IsMember({"tree", "power"}))
       ->capture_default_str();
-  app.add_option("--light-candidates", a.light_candidates,
-                 "points on lamps to compare before a connection, where the camera sees the surface and the "
-                 "lamps differ")
+  app.add_option(
+         "--light-candidates", a.light_candidates,
+         "points on lamps to compare before a connection, where the camera sees a surface that is near "
+         "a large lamp, or glossy. One, where there is a sky, an image of surroundings or a distant light")
       ->check(CLI::Range(1u, most_light_candidates))
       ->capture_default_str();
 }

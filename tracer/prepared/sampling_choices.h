@@ -8,9 +8,9 @@
 
 namespace vitrail {
 
-// When paths end by chance, mirrors and smooth interfaces apart: where they carry less than all of what a
-// camera ray does, less than a quarter of it, or only after 254 events; one that never did would go on for
-// ever between white walls.
+// When paths end by chance, mirrors, smooth interfaces and the first other event apart: where they carry less
+// than all of what a camera ray does, less than a quarter of it, or only after 254 events; one that never did
+// would go on for ever between white walls.
 enum class Roulette : std::uint32_t { early, usual, never };
 // Paths that carry less than this, of 1 at first, end by chance.
 constexpr float worth_going_on(Roulette roulette) { return roulette == Roulette::usual ? 0.25f : 1.0f; }

@@ -118,9 +118,8 @@ void scatter_straight(const Tracing& tracing, T& t, const Event& event) {
 }
 
 // The chance that it lives on after the event at hand: what it carries over what is worth going on for, which
-// is what it carries then.
-// It is 1 after the first event that is not a mirror's or smooth glass's: the ray from there brings light
-// that the camera sees on what it looks at.
+// is what it carries then. 1 after the first event that is not a mirror's or smooth glass's: the ray from
+// there brings light that the camera sees on what it looks at.
 float survival(const Tracing& tracing, const CameraPath& path);
 // Counts a scattering event, and decides by roulette whether it lives on. A path that is to scatter no more
 // lives on for the light that it may still see directly.

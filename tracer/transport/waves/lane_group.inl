@@ -66,7 +66,7 @@ struct Carried {
 
   VITRAIL_LANES explicit Carried(const Group& g) {
     for (int i = 0; i < 4; ++i) throughput[i] = gather<F>(VITRAIL_EACH(g.path[j]->throughput.v[i]));
-    brightness = gather<F>(VITRAIL_EACH(!g.path[j]->connected  ? 1e30f
+    brightness = gather<F>(VITRAIL_EACH(!g.path[j]->connected  ? std::numeric_limits<float>::infinity()
                                         : g.path[j]->dispersed ? 1.0f / hero_count
                                                                : 1.0f));
     pixel = gather<U>(VITRAIL_EACH(g.path[j]->key.pixel));
