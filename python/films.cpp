@@ -3,7 +3,6 @@
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/string.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
@@ -13,6 +12,7 @@
 #include "python/arrays.h"
 #include "python/parts.h"
 #include "scene/system/diagnostics.h"
+#include "scene/system/temporary_folder.h"
 
 namespace nb = nanobind;
 
@@ -52,26 +52,9 @@ nb::dict layers_of(const DevelopedFilm& self) {
 }
 
 // write_png needs a name.
-class TemporaryFolder {
- public:
-  TemporaryFolder() : path_((std::filesystem::temp_directory_path() / "vitrail-XXXXXX").string()) {
-    if (!::mkdtemp(path_.data())) throw MachineError("cannot make a folder for temporary files");
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code kept;
-    std::filesystem::remove_all(path_, kept);
-  }
-  std::filesystem::path operator/(const char* name) const { return std::filesystem::path(path_) / name; }
-
- private:
-  std::string path_;
-};
-
 nb::bytes as_png(const DevelopedFilm& self) {
   const TemporaryFolder folder;
-  const std::filesystem::path file = folder / "film.png";
+  const std::filesystem::path file = folder.file("film.png");
   write_png(file, self.picture);
   std::ifstream in(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
