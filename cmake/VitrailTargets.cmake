@@ -33,9 +33,10 @@ endfunction()
 vitrail_precompile(vitrail_precompiled)
 vitrail_precompile(vitrail_precompiled_cli <CLI/CLI.hpp> <nlohmann/json.hpp>)
 
-# What is compiled with -frounding-math, CGAL's flag, cannot use headers precompiled without it.
+# What is compiled with -frounding-math, CGAL's flag, cannot use headers precompiled without it. Its files are long as they are: no
+# batches of them.
 function(vitrail_without_precompiled_headers)
-  set_target_properties(${ARGN} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
+  set_target_properties(${ARGN} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON UNITY_BUILD OFF)
 endfunction()
 
 # vitrail_library(NAME SOURCES … LIBRARIES …): the library vitrail::NAME. The global property VITRAIL_LIBRARIES lists all targets.

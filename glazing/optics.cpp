@@ -25,9 +25,9 @@ Header header_of(std::string_view line) {
   return {lower(trimmed(inside.substr(0, colon))), std::string(trimmed(inside.substr(colon + 1)))};
 }
 
-class Reader {
+class OpticsReader {
  public:
-  Reader(const std::string& text, const std::string& file) : lines_(text), file_(file) {}
+  OpticsReader(const std::string& text, const std::string& file) : lines_(text), file_(file) {}
 
   Product read() {
     for (std::string_view line; lines_.next(line);) {
@@ -104,7 +104,7 @@ bool is_optics(std::string_view text) {
 }
 
 std::vector<Product> optics_products(const std::string& text, const std::string& file) {
-  return {Reader(text, file).read()};
+  return {OpticsReader(text, file).read()};
 }
 
 }  // namespace vitrail

@@ -16,9 +16,9 @@ constexpr const char* expected_header =
     "T R, "
     "or n k";
 
-class Reader {
+class ProductReader {
  public:
-  Reader(const std::string& text, const std::string& file) : lines_(text), file_(file) {}
+  ProductReader(const std::string& text, const std::string& file) : lines_(text), file_(file) {}
 
   Product read() {
     read_header();
@@ -92,7 +92,7 @@ class Reader {
 }  // namespace
 
 std::vector<Product> table_products(const std::string& text, const std::string& file) {
-  return {Reader(text, file).read()};
+  return {ProductReader(text, file).read()};
 }
 
 }  // namespace vitrail

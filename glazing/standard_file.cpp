@@ -64,9 +64,9 @@ std::vector<double> arguments(const std::string& text) {
   return result;
 }
 
-class Reader {
+class StandardReader {
  public:
-  explicit Reader(const fs::path& file) : file_(file), text_(read_text(file)) {}
+  explicit StandardReader(const fs::path& file) : file_(file), text_(read_text(file)) {}
 
   Standard read() {
     Lines lines(text_);
@@ -165,6 +165,6 @@ class Reader {
 
 }  // namespace
 
-Standard read_standard(const fs::path& file) { return Reader(file).read(); }
+Standard read_standard(const fs::path& file) { return StandardReader(file).read(); }
 
 }  // namespace vitrail

@@ -40,7 +40,7 @@ constexpr double d65[] = {
     51.959, 54.6998, 57.4406, 58.8765, 60.3125,
 };
 
-constexpr std::array<double, 3> observer_1964[] = {
+constexpr std::array<double, 3> observer_1964_5nm[] = {
     {1.222e-07, 1.3398e-08, 5.35027e-07},
     {9.1927e-07, 1.0065e-07, 4.0283e-06},
     {5.9586e-06, 6.511e-07, 2.61437e-05},
@@ -142,6 +142,6 @@ constexpr std::array<double, 3> observer_1964[] = {
 
 std::span<const std::pair<double, double>> astm_e891() { return e891; }
 std::span<const double> cie_d65_5nm() { return d65; }
-std::span<const std::array<double, 3>> cie_1964_5nm() { return observer_1964; }
+std::span<const std::array<double, 3>> cie_1964_5nm() { return observer_1964_5nm; }
 
 }  // namespace vitrail

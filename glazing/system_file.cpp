@@ -48,9 +48,9 @@ bool may_be_text(const std::string& file) {
   return std::find(head.begin(), end, '\0') == end && fs::file_size(file, ignored) < (64u << 20);
 }
 
-class Reader {
+class SystemReader {
  public:
-  explicit Reader(ReadSystem& into) : into_(into) {}
+  explicit SystemReader(ReadSystem& into) : into_(into) {}
 
   void add(const std::string& file) {
     if (const auto root = system_root(file))
@@ -269,7 +269,7 @@ void add_switched(const std::string& text, ReadSystem& into) {
     file = switched->file;
   }
   ReadSystem part;
-  Reader(part).add(file);
+  SystemReader(part).add(file);
   if ((state && !set(part.system, Quantity::state, *state)) ||
       (temperature_c && !set(part.system, Quantity::temperature, *temperature_c)))
     throw Error("no pane of it switches so", {text});

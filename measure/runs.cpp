@@ -19,7 +19,7 @@ namespace vitrail {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using RunJson = nlohmann::json;
 
 // FNV-1a of 64 bits: names files after what is in them; the whole key stands in the file.
 std::string short_name(const std::string& key) {
@@ -29,9 +29,9 @@ std::string short_name(const std::string& key) {
 }
 
 // Empty where the file is missing or no JSON: it is then made again.
-Json read_json(const fs::path& file) {
+RunJson read_json(const fs::path& file) {
   std::ifstream in(file);
-  return in ? Json::parse(in, nullptr, false) : Json();
+  return in ? RunJson::parse(in, nullptr, false) : RunJson();
 }
 
 // Little-endian floats, three a pixel.
@@ -94,10 +94,10 @@ fs::path Runs::record(const RunRequest& r) { return folder_ / "runs" / (short_na
 RunResult Runs::operator()(const RunRequest& request) {
   const fs::path file = record(request), pixels = fs::path(file).replace_extension(".rgb"),
                  profile = fs::path(file).replace_extension(".profile");
-  Json json = read_json(file);
+  RunJson json = read_json(file);
   RunResult result;
   const auto take = [&] {
-    const Json& stats = json["stats"];
+    const RunJson& stats = json["stats"];
     result.cpu_s = stats.value("cpu_s", 0.0);
     result.wall_s = stats.value("wall_s", 0.0);
     result.rays =
@@ -155,9 +155,9 @@ PlannedJob Runs::plan_job(const RunRequest& request, const Farm& farm, double ti
       (short_name(fmt::format("{}; {} × {}, {} times", key(request), farm.ranks, farm.threads, times)) +
        ".plan");
   const auto known = [&]() -> std::optional<PlannedJob> {
-    const Json json = read_json(file);
+    const RunJson json = read_json(file);
     if (!json.is_object() || !json.contains("plan")) return std::nullopt;
-    const Json& point = json["plan"].at(0);
+    const RunJson& point = json["plan"].at(0);
     return PlannedJob{point.value("seconds", 0.0), point.value("efficiency", 0.0), point.value("limit", "")};
   };
   if (const auto job = known()) return *job;
@@ -178,18 +178,18 @@ PlannedJob Runs::plan_job(const RunRequest& request, const Farm& farm, double ti
 }
 
 double Runs::full_size_ratio() {
-  const Json manifest = read_json(bundle({}) / "manifest.json");
+  const RunJson manifest = read_json(bundle({}) / "manifest.json");
   const double width = manifest.at("film").value("width_px", 1.0);
   return width * width / (static_cast<double>(width_) * width_);
 }
 
 bool Runs::scene_is_direct() {
-  const Json manifest = read_json(bundle({}) / "manifest.json");
+  const RunJson manifest = read_json(bundle({}) / "manifest.json");
   return manifest.is_object() && manifest.at("settings").value("direct_only", false);
 }
 
 int Runs::scene_spp() {
-  const Json manifest = read_json(bundle({}) / "manifest.json");
+  const RunJson manifest = read_json(bundle({}) / "manifest.json");
   return std::max(1, manifest.at("settings").value("samples_per_pixel", 1));
 }
 

@@ -16,13 +16,13 @@ namespace {
 // Counts of a domain's triangles are then known to about 2 %.
 constexpr std::uint64_t samples_per_domain = 2048, least_samples = 65536;
 
-Bounds3f bounds_of(const Triangle& t) {
+Bounds3f box_of(const Triangle& t) {
   Bounds3f b;
   for (const Point3f& v : t) extend(b, v);
   return b;
 }
 
-Bounds3f bounds_of(std::span<const Point3d> polygon) {
+Bounds3f box_of(std::span<const Point3d> polygon) {
   Bounds3f b;
   for (const Point3d& v : polygon) extend(b, cast<float>(v));
   return b;
@@ -39,7 +39,7 @@ std::vector<Bounds3f> sample_of(const NumberedTriangles& triangles, const CellCo
   for (std::uint32_t i = 0; i < count; ++i) {
     const bool is_piece = piece != cut.pieces.end() && piece->triangle == i;
     if ((mixed(1, i) & ((std::uint64_t{1} << shift) - 1)) == 0)
-      sample.push_back(is_piece ? bounds_of(cut.polygon(*piece)) : bounds_of(triangles.triangles[i]));
+      sample.push_back(is_piece ? box_of(cut.polygon(*piece)) : box_of(triangles.triangles[i]));
     if (is_piece) ++piece;
   }
   return sample;

@@ -107,8 +107,6 @@ Fidelity worst(const std::vector<const Diagnostic*>& notes) {
   return Fidelity::approximated;
 }
 
-const char* word(Fidelity fidelity) { return fidelity == Fidelity::dropped ? "dropped" : "approximated"; }
-
 void put_place(Json& json, const SourceLocation& place) {
   json["file"] = place.file;
   json["line"] = place.line;
@@ -159,8 +157,10 @@ ConversionCounts count(const std::vector<ConversionItem>& items) {
   return counts;
 }
 
+const char* name_of(Fidelity fidelity) { return fidelity == Fidelity::dropped ? "dropped" : "approximated"; }
+
 const char* fidelity_of(const ConversionItem& item) {
-  return item.notes.empty() ? "exact" : word(worst(item.notes));
+  return item.notes.empty() ? "exact" : name_of(worst(item.notes));
 }
 
 void write_conversion_report(const std::filesystem::path& file, const std::filesystem::path& in,
@@ -180,7 +180,7 @@ void write_conversion_report(const std::filesystem::path& file, const std::files
     if (!item.notes.empty()) entry["notes"] = Json::array();
     for (const Diagnostic* note : item.notes) {
       Json& said =
-          entry["notes"].emplace_back(Json{{"fidelity", word(note->fidelity)}, {"what", note->message}});
+          entry["notes"].emplace_back(Json{{"fidelity", name_of(note->fidelity)}, {"what", note->message}});
       put_place(said, note->location);
     }
     report["items"].push_back(std::move(entry));

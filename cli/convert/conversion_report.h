@@ -26,6 +26,8 @@ std::vector<ConversionItem> conversion_items(const Scene& scene, const Diagnosti
 struct ConversionCounts {
   std::size_t exact = 0, approximated = 0, dropped = 0;  // items
 };
+// Returns "approximated" or "dropped".
+const char* name_of(Fidelity fidelity);
 // "exact", "approximated" or "dropped".
 const char* fidelity_of(const ConversionItem& item);
 ConversionCounts count(const std::vector<ConversionItem>& items);

@@ -37,8 +37,6 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-const char* word(Fidelity fidelity) { return fidelity == Fidelity::dropped ? "dropped" : "approximated"; }
-
 std::string cell(std::string_view text) { return fmt::format("<td>{}</td>", text); }
 std::string place_of(const SourceLocation& place) {
   const std::string text = to_string(place);
@@ -60,7 +58,7 @@ std::string losses(const Diagnostics& diagnostics) {
   std::string text =
       "<h2>Differences from the source</h2>\n<table><tr><th><th>times<th>difference<th>where</tr>\n";
   for (const NoteGroup& group : groups)
-    text += fmt::format("<tr><td class={0}>{0}</td>{1}{2}{3}</tr>\n", word(group.fidelity),
+    text += fmt::format("<tr><td class={0}>{0}</td>{1}{2}{3}</tr>\n", name_of(group.fidelity),
                         cell(fmt::format("{}", group.places.size())), cell(escaped(group.message)),
                         cell(places_of(group)));
   return text + "</table>\n";

@@ -15,7 +15,7 @@ namespace vitrail {
 
 namespace {
 
-constexpr double mib = 1 << 20;
+constexpr double bytes_a_mib = 1 << 20;
 
 std::uint64_t pixels_without_samples(const Film& film) {
   std::uint64_t none = 0;
@@ -31,10 +31,10 @@ void print_estimate(const RenderStats& s, const Job& job, std::uint64_t samples_
   const std::uint64_t in_memory = job.plan.memory.domains_bytes, all_domains = job.plan.all_domains;
   const std::uint64_t samples_in_all = std::uint64_t{job.plan.goal.samples} * job.film.pixels();
   show("memory of a rank: {:.0f} MiB of program, {}film and textures, {:.0f} MiB of domains{}{}\n",
-       static_cast<double>(s.base_rss_bytes) / mib, s.ranks > 1 ? "MPI, " : "",
-       static_cast<double>(std::min(in_memory, all_domains)) / mib,
+       static_cast<double>(s.base_rss_bytes) / bytes_a_mib, s.ranks > 1 ? "MPI, " : "",
+       static_cast<double>(std::min(in_memory, all_domains)) / bytes_a_mib,
        in_memory < all_domains
-           ? fmt::format(" of {:.0f}: they come and go", static_cast<double>(all_domains) / mib)
+           ? fmt::format(" of {:.0f}: they come and go", static_cast<double>(all_domains) / bytes_a_mib)
            : "",
        s.ranks > 1 ? "" : "; under mpirun MPI takes 10 to 20 MiB more");
   const double here = static_cast<double>(s.samples - samples_before),
@@ -127,8 +127,8 @@ void require_kept_memory(const RenderStats& stats) {
   const auto of = std::ranges::max_element(stats.by_rank, {}, &RankStats::peak_rss_bytes);
   throw MachineError(
       fmt::format("rank {} took {:.1f}M of memory, and --memory allows {:.1f}M; what it made is whole",
-                  of - stats.by_rank.begin(), static_cast<double>(stats.peak_rss_bytes) / mib,
-                  static_cast<double>(stats.memory_budget_bytes) / mib));
+                  of - stats.by_rank.begin(), static_cast<double>(stats.peak_rss_bytes) / bytes_a_mib,
+                  static_cast<double>(stats.memory_budget_bytes) / bytes_a_mib));
 }
 
 }  // namespace vitrail

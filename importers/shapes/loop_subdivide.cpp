@@ -95,11 +95,11 @@ Vec edge_point(const HalfEdges& mesh, OpenMesh::EdgeHandle e) {
   return ends * 0.375 + (opposite(h) + opposite(o)) * 0.125;
 }
 
-using Corners = std::vector<std::array<Point2d, 3>>;
+using CornerParameters = std::vector<std::array<Point2d, 3>>;
 
 Point2d between(Point2d a, Point2d b) { return {(a.x + b.x) / 2, (a.y + b.y) / 2}; }
 
-void refine(std::vector<Vec>& positions, Triangles& triangles, Corners* parameters) {
+void refine(std::vector<Vec>& positions, Triangles& triangles, CornerParameters* parameters) {
   const HalfEdges mesh = connect(positions, triangles);
   positions.resize(mesh.n_vertices() + mesh.n_edges());
   std::vector<Vec> ring;
@@ -113,7 +113,7 @@ void refine(std::vector<Vec>& positions, Triangles& triangles, Corners* paramete
   for (const auto e : mesh.edges()) positions[edge_vertex(e)] = edge_point(mesh, e);
   Triangles finer;
   finer.reserve(4 * triangles.size());
-  Corners finer_parameters;
+  CornerParameters finer_parameters;
   for (const auto f : mesh.faces()) {
     std::array<std::uint32_t, 3> corner{}, middle{};  // middle[i] lies between corner[i] and corner[i + 1]
     auto h = mesh.halfedge_handle(f);

@@ -63,9 +63,9 @@ struct Cell {
 // By wavelength and angle.
 using Grid = std::map<double, std::map<double, Cell>>;
 
-class Reader {
+class SheetReader {
  public:
-  Reader(std::string_view text, std::string name) : words_(text), name_(std::move(name)) {}
+  SheetReader(std::string_view text, std::string name) : words_(text), name_(std::move(name)) {}
 
   MeasuredSheetFile read() {
     if (!skip_header(words_)) fail("a table of measured glass begins with \"wavelength_nm angle_deg R T\"");
@@ -170,7 +170,7 @@ MeasuredSheetFile read_measured_sheet(const std::filesystem::path& path) {
   constexpr std::size_t most_bytes = 64 << 20;
   if (bytes.size() > most_bytes)
     throw Error("a table of measured glass is larger than 64 MiB", {path.string(), 0, 0});
-  return Reader({bytes.begin(), bytes.size()}, path.string()).read();
+  return SheetReader({bytes.begin(), bytes.size()}, path.string()).read();
 }
 
 }  // namespace vitrail

@@ -15,9 +15,9 @@ namespace {
 
 using Kind = SpectrumFile::Kind;
 
-class Reader {
+class SpectrumXmlReader {
  public:
-  Reader(std::string_view text, const std::string& name) : text_(text), name_(name) {
+  SpectrumXmlReader(std::string_view text, const std::string& name) : text_(text), name_(name) {
     // Bytes that are not UTF-8, as in Latin-1 comments, go through unread.
     const auto result =
         document_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
@@ -91,7 +91,7 @@ class Reader {
 }  // namespace
 
 SpectrumFile parse_spectrum_xml(std::string_view text, const std::string& name) {
-  return Reader(text, name).read();
+  return SpectrumXmlReader(text, name).read();
 }
 
 }  // namespace vitrail

@@ -49,7 +49,7 @@ struct Vertex {
   std::array<Column3, 3> half_slope{};  // ½∂x/∂colour, [component of the colour]
 };
 
-class Grid {
+class StartGrid {
  public:
   Column3 start(RGB color) {
     const std::array<double, 3> rgb{color.r, color.g, color.b};
@@ -121,8 +121,8 @@ class Grid {
 };
 
 // One for all fitters: what it holds depends on nothing.
-Grid& grid() {
-  static Grid shared;
+StartGrid& grid() {
+  static StartGrid shared;
   return shared;
 }
 

@@ -9,9 +9,9 @@
 
 namespace vitrail {
 
-namespace {
-
 double greatest(Vector3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+namespace {
 
 double distance(const Viewpoint& eye, Point3d p) {
   const Vector3d way = p - eye.at;

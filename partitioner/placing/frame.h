@@ -12,6 +12,9 @@
 
 namespace vitrail {
 
+// Returns the greatest of |x|, |y| and |z|.
+double greatest(Vector3d v);
+
 // What lies in one place, in the coordinates that the origin is sought in.
 struct FramePart {
   Point3d centre;

@@ -47,8 +47,6 @@ Bounds3d checked(const Bounds3d& box, const Placement& p) {
 
 }  // namespace
 
-double greatest(Vector3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 double greatest_row(const Transform& t) {
   return std::max({row_sum(t.m[0]), row_sum(t.m[1]), row_sum(t.m[2])});
 }

@@ -10,8 +10,6 @@
 
 namespace vitrail {
 
-// The greatest coordinate, regardless of sign.
-double greatest(Vector3d v);
 // The greatest sum of magnitudes in a row of the linear part: by so much a vector's greatest coordinate
 // grows.
 double greatest_row(const Transform& t);

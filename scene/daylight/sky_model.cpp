@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "scene/daylight/sky_tables.h"
+#include "scene/geometry/pi.h"
 #include "scene/geometry/portable_math.h"
 
 namespace vitrail {
 
 namespace {
 
-constexpr double radian = pi / 180;
 // What the sun's data are of.
 constexpr double model_sun_radius_rad = 0.5358 / 2 * radian;
 // Of the sky's curves: so many that the rounding of floats is the greater part of what they are off by.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "scene/geometry/pi.h"
 #include "scene/geometry/portable_math.h"
 #include "scene/system/diagnostics.h"
 
@@ -14,7 +15,6 @@ namespace vitrail {
 
 namespace {
 
-constexpr double radian = pi / 180;
 double sine(double degrees) { return portable_sin(degrees * radian); }
 double cosine(double degrees) { return portable_cos(degrees * radian); }
 

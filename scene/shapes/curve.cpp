@@ -9,10 +9,6 @@ namespace vitrail {
 
 namespace {
 
-CurvePoint mix(const CurvePoint& a, const CurvePoint& b, double t) {
-  return {a.position + (b.position - a.position) * t, a.radius + (b.radius - a.radius) * t};
-}
-
 // Degree 2 written as degree 3.
 CurveSegment elevated(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
   return {a, mix(a, b, 2.0 / 3), mix(c, b, 2.0 / 3), c};

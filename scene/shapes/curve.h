@@ -20,6 +20,9 @@ struct CurvePoint {
 // Cubic, by its Bézier control points; radii are interpolated like positions.
 using CurveSegment = std::array<CurvePoint, 4>;
 
+inline CurvePoint mix(const CurvePoint& a, const CurvePoint& b, double t) {
+  return {a.position + (b.position - a.position) * t, a.radius + (b.radius - a.radius) * t};
+}
 inline CurvePoint halfway(const CurvePoint& a, const CurvePoint& b) {
   return {a.position + (b.position - a.position) * 0.5, (a.radius + b.radius) * 0.5};
 }

@@ -15,10 +15,6 @@ namespace vitrail {
 
 namespace {
 
-CurvePoint mix(const CurvePoint& a, const CurvePoint& b, double t) {
-  return {a.position + (b.position - a.position) * t, a.radius + (b.radius - a.radius) * t};
-}
-
 // A point of the curve: what a ring or the two edges of a ribbon are made of.
 struct Sample {
   Point3d center;

@@ -13,7 +13,7 @@ namespace vitrail {
 namespace {
 
 // Bounds of a set of lights. Two-sided normals are turned to one half space to be bounded.
-struct Cluster {
+struct LightCluster {
   Bounds3d box;
   NormalCone cone;
   double theta_e_rad = 0, power = 0, least_power = 0;
@@ -24,7 +24,7 @@ struct Cluster {
   bool empty = true;
 };
 
-Cluster cluster_of(const LightBounds& l) {
+LightCluster cluster_of(const LightBounds& l) {
   return {l.box,
           {l.axis, l.theta_o_rad},
           l.theta_e_rad,
@@ -35,10 +35,10 @@ Cluster cluster_of(const LightBounds& l) {
           false};
 }
 
-Cluster united(const Cluster& a, const Cluster& b) {
+LightCluster united(const LightCluster& a, const LightCluster& b) {
   if (a.empty) return b;
   if (b.empty) return a;
-  Cluster c = a;
+  LightCluster c = a;
   extend(c.box, b.box);
   // A set with a two-sided light counts as two-sided: it may be asked more often than it has light, never
   // less.
@@ -200,7 +200,7 @@ class LightTreeBuilder {
     return order_.begin() + static_cast<std::ptrdiff_t>(i);
   }
 
-  Cluster build_node(std::size_t index, Range all, int depth) {
+  LightCluster build_node(std::size_t index, Range all, int depth) {
     std::array<Range, LightNode::width> parts{all};
     std::size_t count = 1;
     const auto end = [&] { return parts.begin() + static_cast<std::ptrdiff_t>(count); };
@@ -224,11 +224,11 @@ class LightTreeBuilder {
       if (parts[lane].size() > 1) node.below[lane] = inner++;
     }
     tree_.nodes_.resize(tree_.nodes_.size() + inner);
-    Cluster sum;
+    LightCluster sum;
     for (std::size_t lane = 0; lane < count; ++lane) {
       const Range r = parts[lane];
-      const Cluster part = r.size() == 1 ? cluster_of(lights_[order_[r.begin]])
-                                         : build_node(node.children + node.below[lane], r, depth + 1);
+      const LightCluster part = r.size() == 1 ? cluster_of(lights_[order_[r.begin]])
+                                              : build_node(node.children + node.below[lane], r, depth + 1);
       set_lane(node, lane, part);
       sum = united(sum, part);
     }
@@ -249,7 +249,7 @@ class LightTreeBuilder {
   }
 
   // Angles grow by what rounding may lose: 1/32767 of an axis, and of a cosine as much as θ_o needs.
-  void set_lane(LightNode& node, std::size_t lane, const Cluster& c) const {
+  void set_lane(LightNode& node, std::size_t lane, const LightCluster& c) const {
     const Point3f middle = tree_.local(center(c.box));
     node.center_x[lane] = middle.x;
     node.center_y[lane] = middle.y;

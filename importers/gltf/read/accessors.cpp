@@ -64,7 +64,7 @@ int size_of(int component_type) {
   }
 }
 
-float number(const unsigned char* from, int type, bool normalized) {
+float number_at(const unsigned char* from, int type, bool normalized) {
   const auto of = [&](auto value, float greatest) {
     const auto v = static_cast<float>(value);
     return normalized ? std::max(v / greatest, -1.0f) : v;
@@ -194,7 +194,7 @@ std::vector<float> read_floats(const Document& document, int index, int componen
   std::vector<float> values(count_of(document, index) * static_cast<std::size_t>(components));
   visit(document, index, components, [&](std::size_t element, int component, const unsigned char* from) {
     values[element * static_cast<std::size_t>(components) + static_cast<std::size_t>(component)] =
-        number(from, a.componentType, normalized);
+        number_at(from, a.componentType, normalized);
   });
   return values;
 }

@@ -30,14 +30,14 @@ bool is_texture(const Object* object) { return object && object->tag == "texture
 
 // What a texture that shines is times, beside D65: 1 inside of a "d65", the inverse of D65 where it stands by
 // itself, which leaves it the flat white that Mitsuba's spectral variants have.
-struct Image {
+struct EmitterImage {
   SpectrumParameter colors;
   Spectrum scale = ConstantSpectrum{1};
 };
 
-Image image_of(Builder& builder, const Object& emitter, std::string_view name) {
+EmitterImage image_of(Builder& builder, const Object& emitter, std::string_view name) {
   const Object* texture = object_of(emitter, name);
-  Image image;
+  EmitterImage image;
   if (!is_texture(texture) || texture->type != "d65") {
     image.colors = spectrum_parameter(builder, emitter, name, Quantity::emission, white());
     if (std::holds_alternative<Id<Texture>>(image.colors)) image.scale = inverse_d65();
@@ -139,7 +139,7 @@ double read_projector_fov(Builder& builder, const Object& emitter, double aspect
 LightModel projector(Builder& builder, const Object& emitter) {
   ProjectionLight light;
   light.light_to_world = emitter.transform("to_world", builder.report) * scale({-1, 1, 1});
-  const Image image = image_of(builder, emitter, "irradiance");
+  const EmitterImage image = image_of(builder, emitter, "irradiance");
   light.image = image.colors;
   light.scale = scaled(image.scale, emitter.number("scale", 1, builder.report));
   light.fov_deg =
@@ -197,13 +197,13 @@ LightModel environment(Builder& builder, const Object& emitter) {
   return light;
 }
 
-struct Kind {
+struct EmitterKind {
   const char* name;
   LightModel (*make)(Builder&, const Object&);
 };
-constexpr Kind kinds[]{{"point", point},         {"spot", spot},
-                       {"projector", projector}, {"directional", directional},
-                       {"constant", constant},   {"envmap", environment}};
+constexpr EmitterKind emitter_kinds[]{{"point", point},         {"spot", spot},
+                                      {"projector", projector}, {"directional", directional},
+                                      {"constant", constant},   {"envmap", environment}};
 
 const std::vector<std::string> properties{"position",   "to_world", "intensity", "cutoff_angle", "beam_width",
                                           "texture",    "scale",    "fov",       "fov_axis",     "direction",
@@ -211,7 +211,7 @@ const std::vector<std::string> properties{"position",   "to_world", "intensity",
 
 std::vector<std::string> names() {
   std::vector<std::string> all{"area", "directionalarea"};
-  for (const Kind& kind : kinds) all.emplace_back(kind.name);
+  for (const EmitterKind& kind : emitter_kinds) all.emplace_back(kind.name);
   return all;
 }
 
@@ -237,7 +237,7 @@ void add_emitter(Builder& builder, const Object& emitter) {
     report.approximated("motion of an emitter: its first keyframe holds for the whole picture",
                         emitter.origin);
   if (is_daylight(emitter.type)) return add_daylight(builder, emitter);
-  for (const Kind& kind : kinds) {
+  for (const EmitterKind& kind : emitter_kinds) {
     if (emitter.type != kind.name) continue;
     Light light{kind.make(builder, emitter), emitter.origin, name_of(emitter)};
     // Of weight 0, Mitsuba shows only the light that rays meet by themselves.
@@ -268,7 +268,7 @@ std::optional<Id<AreaLight>> add_area_light(Builder& builder, const Object& emit
         emitter.origin);
   emitter.ignore({"sampling_weight"});
   emitter.children("medium");
-  Image image = image_of(builder, emitter, "radiance");
+  EmitterImage image = image_of(builder, emitter, "radiance");
   AreaLight light{image.colors, 1, false, directional};
   light.origin = emitter.origin;
   light.name = name_of(emitter);

@@ -13,29 +13,29 @@ namespace vitrail::mitsuba {
 
 namespace {
 
-using Kind = AskedIntegrator::Kind;
+using IntegratorKind = AskedIntegrator::Kind;
 
 // Of all versions. Those that show another quantity ("depth", "ao") are not here.
-constexpr std::array<NamedIntegrator, 20> kinds{{{"path", Kind::paths},
-                                                 {"volpath", Kind::paths},
-                                                 {"volpathmis", Kind::paths},
-                                                 {"volpath_simple", Kind::paths},
-                                                 {"prb", Kind::paths},
-                                                 {"prb_projective", Kind::paths},
-                                                 {"prbvolpath", Kind::paths},
-                                                 {"vpl", Kind::paths},
-                                                 {"prb_basic", Kind::by_chance},
-                                                 {"bdpt", Kind::both_ends},
-                                                 {"mlt", Kind::both_ends},
-                                                 {"pssmlt", Kind::both_ends},
-                                                 {"erpt", Kind::both_ends},
-                                                 {"ptracer", Kind::from_lamps},
-                                                 {"sppm", Kind::photons},
-                                                 {"ppm", Kind::photons},
-                                                 {"photonmapper", Kind::photon_map},
-                                                 {"direct", Kind::first_hit},
-                                                 {"direct_projective", Kind::first_hit},
-                                                 {"emission", Kind::first_hit}}};
+constexpr std::array<NamedIntegrator, 20> integrator_kinds{{{"path", IntegratorKind::paths},
+                                                            {"volpath", IntegratorKind::paths},
+                                                            {"volpathmis", IntegratorKind::paths},
+                                                            {"volpath_simple", IntegratorKind::paths},
+                                                            {"prb", IntegratorKind::paths},
+                                                            {"prb_projective", IntegratorKind::paths},
+                                                            {"prbvolpath", IntegratorKind::paths},
+                                                            {"vpl", IntegratorKind::paths},
+                                                            {"prb_basic", IntegratorKind::by_chance},
+                                                            {"bdpt", IntegratorKind::both_ends},
+                                                            {"mlt", IntegratorKind::both_ends},
+                                                            {"pssmlt", IntegratorKind::both_ends},
+                                                            {"erpt", IntegratorKind::both_ends},
+                                                            {"ptracer", IntegratorKind::from_lamps},
+                                                            {"sppm", IntegratorKind::photons},
+                                                            {"ppm", IntegratorKind::photons},
+                                                            {"photonmapper", IntegratorKind::photon_map},
+                                                            {"direct", IntegratorKind::first_hit},
+                                                            {"direct_projective", IntegratorKind::first_hit},
+                                                            {"emission", IntegratorKind::first_hit}}};
 const std::vector<std::string> volumetric{"volpath", "volpathmis", "volpath_simple", "prbvolpath"};
 // These take what is between surfaces for vacuum.
 const std::vector<std::string> without_media{"path",      "prb",    "prb_projective",
@@ -120,14 +120,15 @@ void read_integrator(Builder& builder, const Object& integrator) {
     return read_integrator(builder, *nested);
   }
   builder.scene.integrator_origin = integrator.origin;
-  builder.integrator = asked_for(integrator.type, kinds, wrappers);
+  builder.integrator = asked_for(integrator.type, integrator_kinds, wrappers);
   if (is_one_of(integrator.type, wrappers)) builder.integrator.suggestion = ": it has none inside";
   if (integrator.type == "aov") read_aovs(builder, integrator);
   RenderSettings& settings = builder.scene.settings;
-  const Kind kind = builder.integrator.kind;
-  settings.direct_only = kind == Kind::first_hit;
+  const IntegratorKind kind = builder.integrator.kind;
+  settings.direct_only = kind == IntegratorKind::first_hit;
   settings.photons.reset();
-  if (kind == Kind::photons || kind == Kind::photon_map) settings.photons = read_photons(builder, integrator);
+  if (kind == IntegratorKind::photons || kind == IntegratorKind::photon_map)
+    settings.photons = read_photons(builder, integrator);
   // Mitsuba's direct light ends at the first surface, specular or not.
   settings.max_depth = settings.direct_only ? 1 : read_depth(integrator, report);
   if (integrator.type == "emission") settings.max_depth = 0;

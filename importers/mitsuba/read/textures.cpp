@@ -187,22 +187,22 @@ TextureModel lines(Builder& b, const Object& o, bool as_float) {
   return MixTexture{between, line, static_cast<float>(share)};
 }
 
-struct Kind {
+struct TextureKind {
   std::string_view name;
   TextureModel (*make)(Builder&, const Object&, bool);
 };
-constexpr std::array<Kind, 8> kinds{{{"bitmap", bitmap},
-                                     {"volume", volume_texture},
-                                     {"checkerboard", checkerboard},
-                                     {"mesh_attribute", mesh_attribute},
-                                     {"vertexcolors", mesh_attribute},
-                                     {"gridtexture", lines},
-                                     {"wireframe", lines},
-                                     {"scale", scaled_texture}}};
+constexpr std::array<TextureKind, 8> texture_kinds{{{"bitmap", bitmap},
+                                                    {"volume", volume_texture},
+                                                    {"checkerboard", checkerboard},
+                                                    {"mesh_attribute", mesh_attribute},
+                                                    {"vertexcolors", mesh_attribute},
+                                                    {"gridtexture", lines},
+                                                    {"wireframe", lines},
+                                                    {"scale", scaled_texture}}};
 
 TextureModel make_model(Builder& b, const Object& o, bool as_float) {
   std::vector<std::string> names;
-  for (const Kind& kind : kinds) {
+  for (const TextureKind& kind : texture_kinds) {
     names.emplace_back(kind.name);
     if (o.type != kind.name) continue;
     TextureModel model = kind.make(b, o, as_float);

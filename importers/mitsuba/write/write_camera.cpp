@@ -19,8 +19,6 @@ namespace vitrail::mitsuba_writer {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 using mitsuba::half_screen_of_height;
 using mitsuba::half_screen_of_width;
 using mitsuba::HalfScreen;
@@ -182,7 +180,7 @@ Element write(Context& context, Element root, const RealisticCamera& camera) {
 }  // namespace
 
 double field_of_view_deg(double half_width) {
-  const double nearest = 2 * std::atan(half_width) * 180 / pi;
+  const double nearest = 2 * std::atan(half_width) * 180 / std::numbers::pi;
   for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
     const double rounded = std::strtod(fmt::format("{:.{}g}", nearest, digits).c_str(), nullptr);
     if (tan_half(rounded) == half_width) return rounded;

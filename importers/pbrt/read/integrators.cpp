@@ -10,23 +10,23 @@ namespace vitrail::pbrt {
 
 namespace {
 
-using Kind = AskedIntegrator::Kind;
+using IntegratorKind = AskedIntegrator::Kind;
 
 // Of all versions. What is not here is another picture ("ambientocclusion").
-constexpr std::array<NamedIntegrator, 14> kinds{{{"path", Kind::paths},
-                                                 {"volpath", Kind::paths},
-                                                 {"simplepath", Kind::paths},
-                                                 {"simplevolpath", Kind::paths},
-                                                 {"bdpt", Kind::both_ends},
-                                                 {"mlt", Kind::both_ends},
-                                                 {"metropolis", Kind::both_ends},
-                                                 {"lightpath", Kind::from_lamps},
-                                                 {"randomwalk", Kind::by_chance},
-                                                 {"sppm", Kind::photons},
-                                                 {"photonmap", Kind::photon_map},
-                                                 {"exphotonmap", Kind::photon_map},
-                                                 {"directlighting", Kind::direct},
-                                                 {"whitted", Kind::direct}}};
+constexpr std::array<NamedIntegrator, 14> integrator_kinds{{{"path", IntegratorKind::paths},
+                                                            {"volpath", IntegratorKind::paths},
+                                                            {"simplepath", IntegratorKind::paths},
+                                                            {"simplevolpath", IntegratorKind::paths},
+                                                            {"bdpt", IntegratorKind::both_ends},
+                                                            {"mlt", IntegratorKind::both_ends},
+                                                            {"metropolis", IntegratorKind::both_ends},
+                                                            {"lightpath", IntegratorKind::from_lamps},
+                                                            {"randomwalk", IntegratorKind::by_chance},
+                                                            {"sppm", IntegratorKind::photons},
+                                                            {"photonmap", IntegratorKind::photon_map},
+                                                            {"exphotonmap", IntegratorKind::photon_map},
+                                                            {"directlighting", IntegratorKind::direct},
+                                                            {"whitted", IntegratorKind::direct}}};
 
 // Its radius shrinks by the same share, γ = ⅔. v4 has an iteration for each of the sampler's samples.
 PhotonSettings read_photons(ParameterSet& parameters, Context& context, ViewSettings& view) {
@@ -60,14 +60,14 @@ void read_integrator(const std::string& kind, ParameterSet& parameters, Context&
                      ViewSettings& view) {
   const int depth = parameters.integer("maxdepth", 5);
   if (depth < 0) fail("\"maxdepth\" is negative", parameters.place());
-  view.integrator = asked_for(kind, kinds);
+  view.integrator = asked_for(kind, integrator_kinds);
   view.render.max_depth = depth;
-  view.render.direct_only = view.integrator.kind == Kind::direct;
+  view.render.direct_only = view.integrator.kind == IntegratorKind::direct;
   view.render.photons.reset();
   view.iterations.reset();
-  if (view.integrator.kind == Kind::photons)
+  if (view.integrator.kind == IntegratorKind::photons)
     view.render.photons = read_photons(parameters, context, view);
-  else if (view.integrator.kind == Kind::photon_map)
+  else if (view.integrator.kind == IntegratorKind::photon_map)
     view.render.photons.emplace();
   if (parameters.boolean("regularize", false))
     context.report.dropped("rough paths are not regularised", parameters.place());

@@ -22,7 +22,7 @@ namespace {
 
 using std::numbers::pi;
 
-struct Maker {
+struct LightMaker {
   const std::string& kind;
   ParameterSet& parameters;
   const Transform& ctm;
@@ -67,19 +67,19 @@ struct Maker {
 };
 
 // Where the luminous `power` is given, what it divides by; else 1.
-double power_factor(const Maker& m, double steradians) {
+double power_factor(const LightMaker& m, double steradians) {
   const double power = m.parameters.number("power", -1);
   return power > 0 ? power / steradians : 1;
 }
 
 // The origin of a light. v4 moves `from` by the CTM; v3 puts the origin of the CTM to it.
-Point3d origin(const Maker& m) {
+Point3d origin(const LightMaker& m) {
   const auto from = m.parameters.triple("from").value_or(std::array<double, 3>{});
   if (m.scope.context.version == Version::v4) return transform_point(m.ctm, {from[0], from[1], from[2]});
   return transform_point(m.ctm, {0, 0, 0}) + Vector3d{from[0], from[1], from[2]};
 }
 
-LightModel point_light(const Maker& m) {
+LightModel point_light(const LightMaker& m) {
   const Point3d position = origin(m);
   return PointLight{position, m.emission("I", power_factor(m, 4 * pi))};
 }
@@ -87,7 +87,7 @@ LightModel point_light(const Maker& m) {
 // Takes +z to `z` (unit) and is the identity where they agree.
 Transform frame(Vector3d z) { return transform_of(Frame(z)); }
 
-LightModel spot_light(const Maker& m) {
+LightModel spot_light(const LightMaker& m) {
   const bool v3 = m.scope.context.version == Version::v3;
   const double full = m.parameters.number("coneangle", 30);
   const double delta = m.parameters.number("conedeltaangle", m.parameters.number("conedelta", 5));
@@ -105,7 +105,7 @@ LightModel spot_light(const Maker& m) {
   return light;
 }
 
-LightModel projection_light(const Maker& m) {
+LightModel projection_light(const LightMaker& m) {
   ProjectionLight light;
   light.light_to_world = m.ctm;
   const Parameter* file = m.image();
@@ -121,7 +121,7 @@ LightModel projection_light(const Maker& m) {
   return light;
 }
 
-LightModel goniometric_light(const Maker& m) {
+LightModel goniometric_light(const LightMaker& m) {
   GoniometricLight light;
   light.light_to_world = m.ctm;
   const Parameter* file = m.image();
@@ -139,7 +139,7 @@ LightModel goniometric_light(const Maker& m) {
   return light;
 }
 
-LightModel distant_light(const Maker& m) {
+LightModel distant_light(const LightMaker& m) {
   const auto from = m.parameters.triple("from").value_or(std::array<double, 3>{0, 0, 0});
   const auto to = m.parameters.triple("to").value_or(std::array<double, 3>{0, 0, 1});
   const Vector3d way{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
@@ -150,7 +150,7 @@ LightModel distant_light(const Maker& m) {
   return DistantLight{direction, m.emission("L", illuminance > 0 ? illuminance : 1)};
 }
 
-std::optional<std::array<Point3d, 4>> read_portal(const Maker& m) {
+std::optional<std::array<Point3d, 4>> read_portal(const LightMaker& m) {
   const Parameter* portal = m.parameters.find_numbers("portal");
   if (!portal) return std::nullopt;
   if (portal->numbers.size() != 12) fail("a portal needs four points", portal->place);
@@ -163,7 +163,7 @@ std::optional<std::array<Point3d, 4>> read_portal(const Maker& m) {
 }
 
 // An extension: "string sky" with the words of --sky. As of pbrt's images, +z is up; +y is north, +x east.
-LightModel sky_light(const Maker& m, const Parameter& words) {
+LightModel sky_light(const LightMaker& m, const Parameter& words) {
   if (words.strings.size() != 1) fail("a sky takes one string", words.place);
   try {
     SkyLight light = parse_sky(words.strings.front()).light;
@@ -174,7 +174,7 @@ LightModel sky_light(const Maker& m, const Parameter& words) {
   }
 }
 
-LightModel infinite_light(const Maker& m) {
+LightModel infinite_light(const LightMaker& m) {
   m.parameters.ignore({"nsamples", "samples"});
   if (const Parameter* words = m.parameters.find("sky", {ParameterType::text}); words)
     return sky_light(m, *words);
@@ -197,25 +197,25 @@ LightModel infinite_light(const Maker& m) {
   return light;
 }
 
-struct Kind {
+struct LightKind {
   std::string_view name;
-  LightModel (*make)(const Maker&);
+  LightModel (*make)(const LightMaker&);
 };
-constexpr std::array<Kind, 7> kinds{{{"point", point_light},
-                                     {"spot", spot_light},
-                                     {"projection", projection_light},
-                                     {"goniometric", goniometric_light},
-                                     {"distant", distant_light},
-                                     {"infinite", infinite_light},
-                                     {"exinfinite", infinite_light}}};
+constexpr std::array<LightKind, 7> light_kinds{{{"point", point_light},
+                                                {"spot", spot_light},
+                                                {"projection", projection_light},
+                                                {"goniometric", goniometric_light},
+                                                {"distant", distant_light},
+                                                {"infinite", infinite_light},
+                                                {"exinfinite", infinite_light}}};
 
 }  // namespace
 
 std::optional<Light> make_light(const std::string& kind, ParameterSet& parameters, const Transform& ctm,
                                 const Scope& scope) {
-  const Maker maker{kind, parameters, ctm, scope};
+  const LightMaker maker{kind, parameters, ctm, scope};
   std::vector<std::string> names;
-  for (const Kind& known : kinds) {
+  for (const LightKind& known : light_kinds) {
     names.emplace_back(known.name);
     if (kind != known.name) continue;
     Light light{known.make(maker), scope.origin};
@@ -229,7 +229,7 @@ std::optional<Light> make_light(const std::string& kind, ParameterSet& parameter
 
 AreaEmission make_area_emission(const std::string& kind, ParameterSet& parameters, const Scope& scope) {
   const Transform identity;
-  const Maker maker{kind, parameters, identity, scope};
+  const LightMaker maker{kind, parameters, identity, scope};
   if (kind != "diffuse" && kind != "area") maker.approximated("is not known and read as \"diffuse\"");
   parameters.ignore({"nsamples", "samples"});
   AreaEmission emission;

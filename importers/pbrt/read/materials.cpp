@@ -202,34 +202,34 @@ MaterialModel mix(const Maker& m) {
   return BlendMaterial{m.slots.named(names[0]), m.slots.named(names[1]), amount};
 }
 
-struct Kind {
+struct MaterialKind {
   std::string_view name;
   MaterialModel (*make)(const Maker&);
 };
 
-constexpr std::array<Kind, 15> kinds{{{"diffuse", diffuse},
-                                      {"dielectric", dielectric},
-                                      {"thindielectric", thin_dielectric},
-                                      {"interface", interface},
-                                      {"none", interface},
-                                      {"", interface},
-                                      {"coateddiffuse", coated_diffuse},
-                                      {"conductor", conductor},
-                                      {"coatedconductor", coated_conductor},
-                                      {"diffusetransmission", diffuse_transmission},
-                                      {"subsurface", subsurface},
-                                      {"kdsubsurface", subsurface},
-                                      {"hair", hair},
-                                      {"measured", measured},
-                                      {"mix", mix}}};
+constexpr std::array<MaterialKind, 15> material_kinds{{{"diffuse", diffuse},
+                                                       {"dielectric", dielectric},
+                                                       {"thindielectric", thin_dielectric},
+                                                       {"interface", interface},
+                                                       {"none", interface},
+                                                       {"", interface},
+                                                       {"coateddiffuse", coated_diffuse},
+                                                       {"conductor", conductor},
+                                                       {"coatedconductor", coated_conductor},
+                                                       {"diffusetransmission", diffuse_transmission},
+                                                       {"subsurface", subsurface},
+                                                       {"kdsubsurface", subsurface},
+                                                       {"hair", hair},
+                                                       {"measured", measured},
+                                                       {"mix", mix}}};
 
 MaterialModel make_model(const Maker& m) {
-  for (const Kind& known : kinds)
+  for (const MaterialKind& known : material_kinds)
     if (m.kind == known.name) return known.make(m);
   if (auto model = make_v3_material(m)) return *model;
   std::vector<std::string> names{"matte", "plastic",     "substrate", "uber",   "glass",
                                  "metal", "translucent", "mirror",    "disney", "fourier"};
-  for (const Kind& known : kinds) names.emplace_back(known.name);
+  for (const MaterialKind& known : material_kinds) names.emplace_back(known.name);
   const std::string closest = closest_word(m.kind, names);
   m.approximated(closest.empty()
                      ? "is not known and becomes diffuse"

@@ -219,26 +219,26 @@ MaterialModel fourier(const Maker& m) {
   return TabulatedMaterial{TabulatedMaterial::Format::fourier, find_file(*file, m.scope.context)};
 }
 
-struct Kind {
+struct V3MaterialKind {
   std::string_view name;
   MaterialModel (*make)(const Maker&);
 };
-constexpr std::array<Kind, 11> kinds{{{"matte", matte},
-                                      {"plastic", plastic},
-                                      {"substrate", substrate},
-                                      {"uber", uber},
-                                      {"glass", glass},
-                                      {"mirror", mirror},
-                                      {"metal", metal},
-                                      {"translucent", translucent},
-                                      {"disney", disney},
-                                      {"principled", disney},
-                                      {"fourier", fourier}}};
+constexpr std::array<V3MaterialKind, 11> v3_material_kinds{{{"matte", matte},
+                                                            {"plastic", plastic},
+                                                            {"substrate", substrate},
+                                                            {"uber", uber},
+                                                            {"glass", glass},
+                                                            {"mirror", mirror},
+                                                            {"metal", metal},
+                                                            {"translucent", translucent},
+                                                            {"disney", disney},
+                                                            {"principled", disney},
+                                                            {"fourier", fourier}}};
 
 }  // namespace
 
 std::optional<MaterialModel> make_v3_material(const MaterialMaker& m) {
-  for (const Kind& known : kinds)
+  for (const V3MaterialKind& known : v3_material_kinds)
     if (m.kind == known.name) return known.make(m);
   return std::nullopt;
 }

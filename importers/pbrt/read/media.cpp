@@ -18,7 +18,7 @@ namespace vitrail::pbrt {
 
 namespace {
 
-struct Maker {
+struct MediumMaker {
   const std::string& kind;
   ParameterSet& parameters;
   const Scope& scope;
@@ -39,7 +39,7 @@ struct Maker {
   Bounds3d bounds() const { return {point("p0", {0, 0, 0}), point("p1", {1, 1, 1})}; }
 };
 
-AbsorptionScattering coefficients(const Maker& m, const Spectrum& sigma_a, const Spectrum& sigma_s) {
+AbsorptionScattering coefficients(const MediumMaker& m, const Spectrum& sigma_a, const Spectrum& sigma_s) {
   return {m.coefficient("sigma_a", sigma_a), m.coefficient("sigma_s", sigma_s)};
 }
 
@@ -56,7 +56,7 @@ void to_linear_srgb(std::vector<float>& values, const std::string& color_space) 
 }
 
 // nx·ny·nz values of `channels` floats under `name`. All grids of pbrt are 0 outside of their cells.
-Grid grid(const Maker& m, std::string_view name, int channels) {
+Grid grid(const MediumMaker& m, std::string_view name, int channels) {
   Grid g;
   g.edge = GridEdge::zero;
   g.nx = m.parameters.integer("nx", 1);
@@ -80,7 +80,7 @@ Grid grid(const Maker& m, std::string_view name, int channels) {
 
 // What pbrt-v4 has in the place of a grid that is not given: one cell, so that what shines fades from the
 // middle of the bounds on.
-Grid one_cell(const Maker& m, float value) {
+Grid one_cell(const MediumMaker& m, float value) {
   Grid g;
   g.nx = g.ny = g.nz = 1;
   g.values = {value};
@@ -89,19 +89,19 @@ Grid one_cell(const Maker& m, float value) {
   return g;
 }
 
-void read_emission_of(const Maker& m, Medium& medium) {
+void read_emission_of(const MediumMaker& m, Medium& medium) {
   if (const Parameter* le = m.parameters.find_spectrum("Le"))
     medium.emission = read_emission(*le, 1, m.scope);
 }
 
 // Temperatures and what goes with them.
-void read_temperature(const Maker& m, Medium& medium) {
+void read_temperature(const MediumMaker& m, Medium& medium) {
   medium.temperature_scale = m.number("temperaturescale", 1);
   medium.temperature_offset = m.number("temperatureoffset", m.parameters.number("temperaturecutoff", 0));
 }
 
 // v3's defaults are those of skim milk, per mm; v4's are 1.
-void homogeneous(const Maker& m, Medium& medium) {
+void homogeneous(const MediumMaker& m, Medium& medium) {
   const Spectrum skim_milk_a = unbounded_from_rgb({0.0011, 0.0024, 0.014}),
                  skim_milk_s = unbounded_from_rgb({2.55, 3.21, 3.77}), one = ConstantSpectrum{1};
   const std::string preset = m.parameters.text("preset", "");
@@ -114,7 +114,7 @@ void homogeneous(const Maker& m, Medium& medium) {
   medium.emission_factor = m.number("Lescale", 1);
 }
 
-void uniform_grid(const Maker& m, Medium& medium) {
+void uniform_grid(const MediumMaker& m, Medium& medium) {
   medium.coefficients = coefficients(m, ConstantSpectrum{1}, ConstantSpectrum{1});
   medium.density = grid(m, "density", 1);
   read_emission_of(m, medium);
@@ -128,7 +128,7 @@ void uniform_grid(const Maker& m, Medium& medium) {
   read_temperature(m, medium);
 }
 
-void rgb_grid(const Maker& m, Medium& medium) {
+void rgb_grid(const MediumMaker& m, Medium& medium) {
   AbsorptionScattering c;
   if (m.has("sigma_a")) c.sigma_a = grid(m, "sigma_a", 3);
   if (m.has("sigma_s")) c.sigma_s = grid(m, "sigma_s", 3);
@@ -140,14 +140,14 @@ void rgb_grid(const Maker& m, Medium& medium) {
   medium.emission_factor = m.number("Lescale", 1);
 }
 
-void cloud(const Maker& m, Medium& medium) {
+void cloud(const MediumMaker& m, Medium& medium) {
   medium.coefficients = coefficients(m, ConstantSpectrum{1}, ConstantSpectrum{1});
   medium.density =
       CloudDensity{m.bounds(), m.number("density", 1), m.number("wispiness", 1), m.number("frequency", 5)};
 }
 
 // Both grids have one frame: the density's.
-void nanovdb_grids(const std::string& path, const Parameter& file, const Maker& m, Medium& medium) {
+void nanovdb_grids(const std::string& path, const Parameter& file, const MediumMaker& m, Medium& medium) {
   try {
     const auto density = read_nanovdb_header(path, "density"),
                heat = read_nanovdb_header(path, "temperature");
@@ -164,7 +164,7 @@ void nanovdb_grids(const std::string& path, const Parameter& file, const Maker& 
   }
 }
 
-void nanovdb(const Maker& m, Medium& medium) {
+void nanovdb(const MediumMaker& m, Medium& medium) {
   medium.coefficients = coefficients(m, ConstantSpectrum{1}, ConstantSpectrum{1});
   const Parameter* file = m.parameters.find("filename", {ParameterType::text});
   if (!file || file->strings.size() != 1)
@@ -183,16 +183,16 @@ void nanovdb(const Maker& m, Medium& medium) {
   read_temperature(m, medium);
 }
 
-struct Kind {
+struct MediumKind {
   std::string_view name;
-  void (*read)(const Maker&, Medium&);
+  void (*read)(const MediumMaker&, Medium&);
 };
-constexpr std::array<Kind, 6> kinds{{{"homogeneous", homogeneous},
-                                     {"uniformgrid", uniform_grid},
-                                     {"heterogeneous", uniform_grid},
-                                     {"rgbgrid", rgb_grid},
-                                     {"cloud", cloud},
-                                     {"nanovdb", nanovdb}}};
+constexpr std::array<MediumKind, 6> medium_kinds{{{"homogeneous", homogeneous},
+                                                  {"uniformgrid", uniform_grid},
+                                                  {"heterogeneous", uniform_grid},
+                                                  {"rgbgrid", rgb_grid},
+                                                  {"cloud", cloud},
+                                                  {"nanovdb", nanovdb}}};
 
 }  // namespace
 
@@ -207,7 +207,7 @@ bool is_measured(const std::string& name, const ParameterSet& parameters, const 
 
 Medium make_medium(const std::string& kind, const std::string& name, ParameterSet& parameters,
                    const Transform& ctm, const Scope& scope) {
-  const Maker maker{kind, parameters, scope};
+  const MediumMaker maker{kind, parameters, scope};
   Medium medium;
   medium.name = name;
   medium.origin = scope.origin;
@@ -216,7 +216,7 @@ Medium make_medium(const std::string& kind, const std::string& name, ParameterSe
   medium.g = maker.number("g", 0);
   parameters.ignore({"type"});
   std::vector<std::string> names;
-  for (const Kind& known : kinds) {
+  for (const MediumKind& known : medium_kinds) {
     names.emplace_back(known.name);
     if (kind != known.name) continue;
     known.read(maker, medium);

@@ -74,7 +74,7 @@ Spectrum read_quantity(const Parameter& parameter, Quantity quantity, const Spec
 
 // ---- Texture directives
 
-struct Maker {
+struct TextureMaker {
   const std::string& kind;
   const std::string& name;
   bool is_float;
@@ -124,7 +124,7 @@ struct Maker {
   }
 };
 
-Wrap read_wrap(const Maker& m) {
+Wrap read_wrap(const TextureMaker& m) {
   const std::string wrap = m.parameters.text("wrap", "repeat");
   if (wrap == "clamp") return Wrap::clamp;
   if (wrap == "black") return Wrap::black;
@@ -132,7 +132,7 @@ Wrap read_wrap(const Maker& m) {
   return Wrap::repeat;
 }
 
-TextureFilter read_texture_filter(const Maker& m) {
+TextureFilter read_texture_filter(const TextureMaker& m) {
   m.parameters.ignore({"maxanisotropy"});
   if (m.parameters.boolean("trilinear", false)) return TextureFilter::trilinear;
   const std::string filter = m.parameters.text("filter", m.is_v3() ? "ewa" : "bilinear");
@@ -143,7 +143,7 @@ TextureFilter read_texture_filter(const Maker& m) {
   return TextureFilter::bilinear;
 }
 
-void read_encoding(const Maker& m, Encoding& encoding, float& gamma) {
+void read_encoding(const TextureMaker& m, Encoding& encoding, float& gamma) {
   if (m.parameters.find("gamma", {ParameterType::boolean})) {
     encoding = m.parameters.boolean("gamma", true) ? Encoding::srgb : Encoding::linear;
     return;
@@ -163,7 +163,7 @@ void read_encoding(const Maker& m, Encoding& encoding, float& gamma) {
   }
 }
 
-std::string file_of(const Maker& m) {
+std::string file_of(const TextureMaker& m) {
   const Parameter* filename = m.parameters.find("filename", {ParameterType::text});
   if (!filename) filename = m.parameters.find("mapname", {ParameterType::text});
   if (!filename || filename->strings.size() != 1)
@@ -171,7 +171,7 @@ std::string file_of(const Maker& m) {
   return find_file(*filename, m.scope.context);
 }
 
-TextureModel image_texture(const Maker& m) {
+TextureModel image_texture(const TextureMaker& m) {
   ImageTexture t;
   t.filename = file_of(m);
   t.mapping = m.mapping();
@@ -187,7 +187,7 @@ TextureModel image_texture(const Maker& m) {
   return t;
 }
 
-TextureModel ptex_texture(const Maker& m) {
+TextureModel ptex_texture(const TextureMaker& m) {
   PtexTexture t;
   t.filename = file_of(m);
   read_encoding(m, t.encoding, t.gamma);
@@ -199,7 +199,7 @@ TextureModel ptex_texture(const Maker& m) {
   return t;
 }
 
-TextureModel checkerboard_texture(const Maker& m) {
+TextureModel checkerboard_texture(const TextureMaker& m) {
   CheckerboardTexture t{m.input("tex1", 1), m.input("tex2", 0)};
   t.solid = m.parameters.integer("dimension", 2) == 3;
   if (t.solid)
@@ -211,22 +211,22 @@ TextureModel checkerboard_texture(const Maker& m) {
 }
 
 // pbrt-v3 and v4 show what is named "inside" around the dots, and what is named "outside" in them.
-TextureModel dots_texture(const Maker& m) {
+TextureModel dots_texture(const TextureMaker& m) {
   return DotsTexture{m.input("outside", 0), m.input("inside", 1), m.mapping()};
 }
 
-TextureModel mix_texture(const Maker& m) {
+TextureModel mix_texture(const TextureMaker& m) {
   return MixTexture{m.input("tex1", 0), m.input("tex2", 1), m.number_input("amount", 0.5)};
 }
 
-TextureModel direction_mix_texture(const Maker& m) {
+TextureModel direction_mix_texture(const TextureMaker& m) {
   const auto v = m.parameters.triple("dir").value_or(std::array<double, 3>{0, 1, 0});
   return DirectionMixTexture{m.input("tex1", 0), m.input("tex2", 1),
                              unit(transform_vector(m.texture_to_world, {v[0], v[1], v[2]}))};
 }
 
 // v4: tex · scale, a float; v3: tex1 · tex2.
-TextureModel product_texture(const Maker& m) {
+TextureModel product_texture(const TextureMaker& m) {
   const bool v3 = m.parameters.find("tex1", {ParameterType::texture, ParameterType::number,
                                              ParameterType::rgb, ParameterType::spectrum}) != nullptr;
   if (v3) return ProductTexture{m.input("tex1", 1), m.input("tex2", 1)};
@@ -236,12 +236,12 @@ TextureModel product_texture(const Maker& m) {
   return ProductTexture{tex, std::get<Id<Texture>>(scale)};
 }
 
-TextureModel bilinear_texture(const Maker& m) {
+TextureModel bilinear_texture(const TextureMaker& m) {
   return BilinearTexture{m.input("v00", 0), m.input("v01", 1), m.input("v10", 0), m.input("v11", 1),
                          m.mapping()};
 }
 
-TextureModel noise_texture(const Maker& m) {
+TextureModel noise_texture(const TextureMaker& m) {
   NoiseTexture t;
   t.kind = m.kind == "wrinkled" ? NoiseTexture::Kind::wrinkled
            : m.kind == "windy"  ? NoiseTexture::Kind::windy
@@ -259,28 +259,28 @@ TextureModel noise_texture(const Maker& m) {
   return t;
 }
 
-TextureModel uv_texture(const Maker& m) { return UvTexture{m.mapping()}; }
+TextureModel uv_texture(const TextureMaker& m) { return UvTexture{m.mapping()}; }
 
-struct Kind {
+struct TextureKind {
   std::string_view name;
-  TextureModel (*make)(const Maker&);
+  TextureModel (*make)(const TextureMaker&);
 };
-constexpr std::array<Kind, 13> kinds{{{"imagemap", image_texture},
-                                      {"ptex", ptex_texture},
-                                      {"checkerboard", checkerboard_texture},
-                                      {"dots", dots_texture},
-                                      {"mix", mix_texture},
-                                      {"directionmix", direction_mix_texture},
-                                      {"scale", product_texture},
-                                      {"bilerp", bilinear_texture},
-                                      {"fbm", noise_texture},
-                                      {"wrinkled", noise_texture},
-                                      {"windy", noise_texture},
-                                      {"marble", noise_texture},
-                                      {"uv", uv_texture}}};
+constexpr std::array<TextureKind, 13> texture_kinds{{{"imagemap", image_texture},
+                                                     {"ptex", ptex_texture},
+                                                     {"checkerboard", checkerboard_texture},
+                                                     {"dots", dots_texture},
+                                                     {"mix", mix_texture},
+                                                     {"directionmix", direction_mix_texture},
+                                                     {"scale", product_texture},
+                                                     {"bilerp", bilinear_texture},
+                                                     {"fbm", noise_texture},
+                                                     {"wrinkled", noise_texture},
+                                                     {"windy", noise_texture},
+                                                     {"marble", noise_texture},
+                                                     {"uv", uv_texture}}};
 
-Id<Texture> make_texture(const Maker& m) {
-  for (const Kind& known : kinds) {
+Id<Texture> make_texture(const TextureMaker& m) {
+  for (const TextureKind& known : texture_kinds) {
     if (m.kind != known.name) continue;
     Texture texture{known.make(m), m.is_float, m.name, m.scope.origin};
     m.parameters.report_unused(m.scope.context.report);
@@ -288,7 +288,7 @@ Id<Texture> make_texture(const Maker& m) {
     return {static_cast<std::uint32_t>(m.scope.made.size() - 1)};
   }
   std::vector<std::string> names{"constant"};
-  for (const Kind& known : kinds) names.emplace_back(known.name);
+  for (const TextureKind& known : texture_kinds) names.emplace_back(known.name);
   fail(fmt::format("texture \"{}\" is of the unknown kind \"{}\"{}", m.name, m.kind,
                    suggestion(m.kind, names)),
        m.parameters.place());
@@ -336,7 +336,7 @@ bool textures_are_known(const ParameterSet& parameters, const TextureTable& text
 
 SpectrumParameter make_spectrum_texture(const std::string& kind, const std::string& name,
                                         ParameterSet& parameters, const Transform& ctm, const Scope& scope) {
-  const Maker m{kind, name, false, parameters, ctm, scope};
+  const TextureMaker m{kind, name, false, parameters, ctm, scope};
   if (kind != "constant") return make_texture(m);
   const SpectrumParameter value = m.input("value", 1);
   parameters.report_unused(scope.context.report);
@@ -345,7 +345,7 @@ SpectrumParameter make_spectrum_texture(const std::string& kind, const std::stri
 
 FloatParameter make_float_texture(const std::string& kind, const std::string& name, ParameterSet& parameters,
                                   const Transform& ctm, const Scope& scope) {
-  const Maker m{kind, name, true, parameters, ctm, scope};
+  const TextureMaker m{kind, name, true, parameters, ctm, scope};
   if (kind != "constant") return make_texture(m);
   const FloatParameter value = m.number_input("value", 1);
   parameters.report_unused(scope.context.report);

@@ -14,39 +14,39 @@ namespace vitrail::pov {
 
 namespace {
 
-using Op = PatternStep::Op;
+using StepOp = PatternStep::Op;
 using From = Instruction::Op;
 
-std::optional<Op> op_of(From from) {
+std::optional<StepOp> op_of(From from) {
   switch (from) {
     case From::add:
-      return Op::add;
+      return StepOp::add;
     case From::subtract:
-      return Op::subtract;
+      return StepOp::subtract;
     case From::multiply:
-      return Op::multiply;
+      return StepOp::multiply;
     case From::divide:
-      return Op::divide;
+      return StepOp::divide;
     case From::negate:
-      return Op::negate;
+      return StepOp::negate;
     case From::invert:
-      return Op::invert;
+      return StepOp::invert;
     case From::less:
-      return Op::less;
+      return StepOp::less;
     case From::greater:
-      return Op::greater;
+      return StepOp::greater;
     case From::less_equal:
-      return Op::less_equal;
+      return StepOp::less_equal;
     case From::greater_equal:
-      return Op::greater_equal;
+      return StepOp::greater_equal;
     case From::equal:
-      return Op::equal;
+      return StepOp::equal;
     case From::unequal:
-      return Op::unequal;
+      return StepOp::unequal;
     case From::both:
-      return Op::both;
+      return StepOp::both;
     case From::either:
-      return Op::either;
+      return StepOp::either;
     default:
       return std::nullopt;
   }
@@ -54,18 +54,18 @@ std::optional<Op> op_of(From from) {
 
 struct NamedOp {
   Word word;
-  Op op;
+  StepOp op;
 };
 constexpr NamedOp named[] = {
-    {Word::abs_, Op::absolute}, {Word::acos_, Op::acos},   {Word::acosh_, Op::acosh},
-    {Word::asin_, Op::asin},    {Word::asinh_, Op::asinh}, {Word::atan_, Op::atan},
-    {Word::atanh_, Op::atanh},  {Word::ceil_, Op::ceil},   {Word::cos_, Op::cos},
-    {Word::cosh_, Op::cosh},    {Word::exp_, Op::exp},     {Word::floor_, Op::floor},
-    {Word::int_, Op::trunc},    {Word::ln_, Op::ln},       {Word::sgn_, Op::sign},
-    {Word::sin_, Op::sin},      {Word::sinh_, Op::sinh},   {Word::sqr_, Op::square},
-    {Word::sqrt_, Op::sqrt},    {Word::tan_, Op::tan},     {Word::tanh_, Op::tanh},
-    {Word::trunc_, Op::trunc},  {Word::atan2_, Op::atan2}, {Word::mod_, Op::modulo},
-    {Word::pow_, Op::power},    {Word::max_, Op::max},     {Word::min_, Op::min},
+    {Word::abs_, StepOp::absolute}, {Word::acos_, StepOp::acos},   {Word::acosh_, StepOp::acosh},
+    {Word::asin_, StepOp::asin},    {Word::asinh_, StepOp::asinh}, {Word::atan_, StepOp::atan},
+    {Word::atanh_, StepOp::atanh},  {Word::ceil_, StepOp::ceil},   {Word::cos_, StepOp::cos},
+    {Word::cosh_, StepOp::cosh},    {Word::exp_, StepOp::exp},     {Word::floor_, StepOp::floor},
+    {Word::int_, StepOp::trunc},    {Word::ln_, StepOp::ln},       {Word::sgn_, StepOp::sign},
+    {Word::sin_, StepOp::sin},      {Word::sinh_, StepOp::sinh},   {Word::sqr_, StepOp::square},
+    {Word::sqrt_, StepOp::sqrt},    {Word::tan_, StepOp::tan},     {Word::tanh_, StepOp::tanh},
+    {Word::trunc_, StepOp::trunc},  {Word::atan2_, StepOp::atan2}, {Word::mod_, StepOp::modulo},
+    {Word::pow_, StepOp::power},    {Word::max_, StepOp::max},     {Word::min_, StepOp::min},
 };
 
 // The functions of functions.inc, by their numbers there.
@@ -133,20 +133,20 @@ void FormulaMaker::code(const Function& f, Slot a) {
         if (found != std::end(named))
           op(found->op);
         else if (word == Word::degrees_)
-          op(Op::multiply, 180 / std::numbers::pi);
+          op(StepOp::multiply, 180 / std::numbers::pi);
         else if (word == Word::radians_)
-          op(Op::multiply, std::numbers::pi / 180);
+          op(StepOp::multiply, std::numbers::pi / 180);
         else if (word == Word::log_)
-          op(Op::ln), op(Op::multiply, 1 / std::numbers::ln10);
+          op(StepOp::ln), op(StepOp::multiply, 1 / std::numbers::ln10);
         else if (word == Word::div_)
-          op(Op::divide), op(Op::trunc);
+          op(StepOp::divide), op(StepOp::trunc);
         else
           refuse();
         continue;
       }
       case From::choose:
         if (i.index == 3) pick(top_ - 1);
-        op(Op::choose);
+        op(StepOp::choose);
         continue;
       case From::call:
       case From::part: {
@@ -188,8 +188,9 @@ void FormulaMaker::spline(const Spline& s, std::uint8_t which, Slot a) {
   std::ranges::stable_sort(part.map, {}, &PatternStop::at);
   const Slot first = top_;
   constant(0);
-  pick(a), op(Op::add, -low), op(Op::multiply, 1 / (high - low)), op(Op::max, 0), op(Op::min, 1);
-  op(Op::negate), op(Op::add, 1);
+  pick(a), op(StepOp::add, -low), op(StepOp::multiply, 1 / (high - low)), op(StepOp::max, 0),
+      op(StepOp::min, 1);
+  op(StepOp::negate), op(StepOp::add, 1);
   constant(0);
   ask(std::move(part), first);
   keep_at(first);
@@ -198,43 +199,45 @@ void FormulaMaker::spline(const Spline& s, std::uint8_t which, Slot a) {
 void FormulaMaker::rounded_box(Slot a) {
   const Slot first = top_;
   for (Slot i = 0; i < 3; ++i) {
-    pick_and(a + i, Op::absolute), pick(a + 4 + i), op(Op::subtract), pick(a + 3), op(Op::add);
-    op(Op::max, 0);
+    pick_and(a + i, StepOp::absolute), pick(a + 4 + i), op(StepOp::subtract), pick(a + 3), op(StepOp::add);
+    op(StepOp::max, 0);
   }
   lengths(std::array{first, first + 1, first + 2});
-  pick(a + 3), op(Op::subtract);
+  pick(a + 3), op(StepOp::subtract);
   keep_at(first);
 }
 
 void FormulaMaker::superellipsoid(Slot a) {
   const auto power = [&](Slot x) {  // |x|^(2/e), n
-    pick_and(x, Op::absolute), constant(2), pick(x == a + 2 ? a + 4 : a + 3), op(Op::divide), op(Op::power);
+    pick_and(x, StepOp::absolute), constant(2), pick(x == a + 2 ? a + 4 : a + 3), op(StepOp::divide),
+        op(StepOp::power);
   };
-  power(a), power(a + 1), op(Op::add);
-  pick(a + 3), pick(a + 4), op(Op::divide), op(Op::power);
-  power(a + 2), op(Op::add);
-  pick(a + 4), op(Op::multiply, 0.5), op(Op::power);
-  op(Op::negate), op(Op::add, 1);
+  power(a), power(a + 1), op(StepOp::add);
+  pick(a + 3), pick(a + 4), op(StepOp::divide), op(StepOp::power);
+  power(a + 2), op(StepOp::add);
+  pick(a + 4), op(StepOp::multiply, 0.5), op(StepOp::power);
+  op(StepOp::negate), op(StepOp::add, 1);
 }
 
 void FormulaMaker::internal(int number, Slot a) {
   const Slot first = top_;
   switch (number) {
     case f_ellipsoid:
-      for (Slot i = 0; i < 3; ++i) pick(a + i), pick(a + 3 + i), op(Op::multiply);
+      for (Slot i = 0; i < 3; ++i) pick(a + i), pick(a + 3 + i), op(StepOp::multiply);
       lengths(std::array{first, first + 1, first + 2});
       return keep_at(first);
     case f_hetero_mf:
     case f_ridged_mf:
       for (Slot i = 0; i < 9; ++i) pick(a + i);
-      return op(number == f_ridged_mf ? Op::ridged_mf : Op::hetero_mf);
+      return op(number == f_ridged_mf ? StepOp::ridged_mf : StepOp::hetero_mf);
     case f_paraboloid:
-      pick(a + 1), pick_and(a, Op::square), pick_and(a + 2, Op::square), op(Op::add), op(Op::subtract);
-      pick(a + 3), op(Op::multiply);
+      pick(a + 1), pick_and(a, StepOp::square), pick_and(a + 2, StepOp::square), op(StepOp::add),
+          op(StepOp::subtract);
+      pick(a + 3), op(StepOp::multiply);
       return;
     case f_ph:
       lengths(std::array{a, a + 2});
-      pick(a + 1), op(Op::atan2);
+      pick(a + 1), op(StepOp::atan2);
       return;
     case f_r:
       return lengths(std::array{a, a + 1, a + 2});
@@ -242,23 +245,23 @@ void FormulaMaker::internal(int number, Slot a) {
       return rounded_box(a);
     case f_sphere:
       lengths(std::array{a, a + 1, a + 2});
-      pick(a + 3), op(Op::subtract);
+      pick(a + 3), op(StepOp::subtract);
       return;
     case f_superellipsoid:
       return superellipsoid(a);
     case f_th:
-      pick(a), pick(a + 2), op(Op::atan2);
+      pick(a), pick(a + 2), op(StepOp::atan2);
       return;
     case f_torus:
       lengths(std::array{a, a + 2});
-      pick(a + 3), op(Op::subtract);
+      pick(a + 3), op(StepOp::subtract);
       lengths(std::array{first, a + 1});
-      pick(a + 4), op(Op::subtract);
+      pick(a + 4), op(StepOp::subtract);
       return keep_at(first);
     case f_noise3d:
     case f_noise_generator:
       for (Slot i = 0; i < 3; ++i) pick(a + i);
-      return op(Op::noise);
+      return op(StepOp::noise);
     default:
       return refuse();
   }

@@ -18,7 +18,7 @@ namespace vitrail::pov {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 // Tops of layers over the offset, in units of `alt`. What lies above the last is an eightieth of the column.
 constexpr std::array tops{0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.1,  1.3,  1.55, 1.85,
                           2.2, 2.7,  3.3, 4.0,  5.0, 6.5,  9.0, 13.0, 20.0, 50.0};
@@ -150,13 +150,13 @@ void SceneMaker::add_fog() {
   }
   const Fog& fog = **(layered == fogs_.end() ? fogs_.begin() : layered);
   if (layered == fogs_.end() && atmosphere_)
-    add_fog_side(edge_of(fog, dot(eye() - Point3d{}, fog.up)), -infinity, infinity, *atmosphere_);
+    add_fog_side(edge_of(fog, dot(eye() - Point3d{}, fog.up)), -unbounded, unbounded, *atmosphere_);
   if (fog.color.v[3] > 0) add_fog_filter(fog);
 }
 
 void SceneMaker::add_layers(const Fog& fog) {
   const FogEdge edge = edge_of(fog, dot(eye() - Point3d{}, fog.up));
-  double low = -infinity, high = fog.offset;
+  double low = -unbounded, high = fog.offset;
   std::optional<Id<Medium>> layer = fog_between(low, high), around = layer;
   const std::size_t count = fog.alt > 0 ? tops.size() : 1;
   for (std::size_t i = 0; i < count; ++i) {
@@ -164,7 +164,7 @@ void SceneMaker::add_layers(const Fog& fog) {
     const std::optional<Id<Medium>> below = layer;
     low = high;
     // Above the last one the rest of the column is left out, where it is alone.
-    high = i + 1 < count ? fog.offset + fog.alt * tops[i + 1] : infinity;
+    high = i + 1 < count ? fog.offset + fog.alt * tops[i + 1] : unbounded;
     layer = i + 1 < count || fogs_.size() > 1 ? fog_between(low, std::isinf(high) ? 1e3 * reach_ : high)
                                               : std::nullopt;
     add_fog_face(edge, low, below, layer);
