@@ -23,7 +23,7 @@ constexpr double two_sided_95 = 1.96;
 // Errors of the mean (95 %): beyond the first, more samples are worth their time; beyond the second nothing
 // is seen.
 constexpr double wanted_error = 0.02, blind_error = 0.1;
-constexpr std::array samples{32, 256};
+constexpr std::array sample_counts{32, 256};
 
 // Nothing where the reference is black.
 std::optional<double> number(const nlohmann::ordered_json& pictures, const char* key) {
@@ -64,7 +64,7 @@ nlohmann::ordered_json compare_pictures(const fs::path& in, const std::vector<st
     run_program("vitrail-render", words);
   };
   nlohmann::ordered_json pictures;
-  for (const int count : samples) {
+  for (const int count : sample_counts) {
     const std::string spp = std::to_string(count), name = folder.file(spp), before = name + "-before.film",
                       after = name + "-after.film", said = name + ".json";
     render(in, before, spp, "1", options);

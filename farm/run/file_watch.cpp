@@ -24,20 +24,20 @@ FileWatch::~FileWatch() {
 }
 
 void FileWatch::watch() {
-  using Clock = std::chrono::steady_clock;
   constexpr int bad_input = 3;  // the exit status of that
-  Clock::duration pause = std::chrono::seconds(1);
+  std::chrono::steady_clock::duration pause = std::chrono::seconds(1);
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, pause, [&] { return ended_; })) {
     lock.unlock();
-    const Clock::time_point begin = Clock::now();
+    const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
     try {
       require_unchanged_files();
     } catch (const Error& e) {
       say("vitrail: {}{}: {}\n", who_, e.location.file, e.what());
       std::_Exit(bad_input);
     }
-    pause = std::max<Clock::duration>(std::chrono::seconds(1), 100 * (Clock::now() - begin));
+    pause = std::max<std::chrono::steady_clock::duration>(std::chrono::seconds(1),
+                                                          100 * (std::chrono::steady_clock::now() - begin));
     lock.lock();
   }
 }

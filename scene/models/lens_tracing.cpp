@@ -61,7 +61,7 @@ std::optional<LensRay> through_lens(std::span<const LensSurface> surfaces, Point
 
 namespace {
 
-constexpr int rings = 64, coarse = 64, fine = 16;
+constexpr int pupil_rings = 64, coarse = 64, fine = 16;
 // Of the rear surface's radius: what is searched on each side, and what is added to what was found, which is
 // twice the distance of pbrt's 2²⁰ samples there.
 constexpr double searched = 1.5, added = 2 * (2 * searched * 1.4142135623730951) / 1024;
@@ -123,8 +123,8 @@ std::vector<ExitPupil> exit_pupils(std::span<const LensSurface> surfaces, double
   constexpr int a_ring = 2;  // points of the film: its edges and its middle
   std::vector<std::optional<ScreenWindow>> found;
   ScreenWindow guess{-rear / 8, rear / 8, -rear / 8, rear / 8};
-  for (int i = 0; i <= a_ring * rings; ++i) {
-    PupilSearch search(surfaces, i * film_radius / (a_ring * rings));
+  for (int i = 0; i <= a_ring * pupil_rings; ++i) {
+    PupilSearch search(surfaces, i * film_radius / (a_ring * pupil_rings));
     found.push_back(search.find(guess));
     if (!found.back()) continue;
     const ScreenWindow& f = *found.back();  // the next point's is near it
@@ -132,7 +132,7 @@ std::vector<ExitPupil> exit_pupils(std::span<const LensSurface> surfaces, double
     guess = {f.x0 - wide, f.x1 + wide, f.y0 - high, f.y1 + high};
   }
   std::vector<ExitPupil> pupils;
-  for (std::size_t i = 0; i < rings; ++i) {
+  for (std::size_t i = 0; i < pupil_rings; ++i) {
     std::optional<ScreenWindow> all;
     for (std::size_t j = a_ring * i; j <= a_ring * (i + 1); ++j)
       if (found[j]) all = together(all, found[j]);

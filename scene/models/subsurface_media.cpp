@@ -12,42 +12,43 @@ namespace vitrail {
 
 namespace {
 
-constexpr std::size_t half = 8, n = 2 * half;  // directions of a hemisphere, those of each range of it
-constexpr std::size_t terms = 2 * half;        // of the phase function: what `half` nodes integrate exactly
+constexpr std::size_t half = 8,
+                      ordinates = 2 * half;  // directions of a hemisphere, those of each range of it
+constexpr std::size_t terms = 2 * half;      // of the phase function: what `half` nodes integrate exactly
 
-using Vector = std::array<double, n>;
-using Matrix = std::array<Vector, n>;
+using Vector = std::array<double, ordinates>;
+using Matrix = std::array<Vector, ordinates>;
 
 Matrix operator*(const Matrix& a, const Matrix& b) {
   Matrix c{};
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t j = 0; j < n; ++j) c[i][j] += a[i][k] * b[k][j];
+  for (std::size_t i = 0; i < ordinates; ++i)
+    for (std::size_t k = 0; k < ordinates; ++k)
+      for (std::size_t j = 0; j < ordinates; ++j) c[i][j] += a[i][k] * b[k][j];
   return c;
 }
 
 Vector operator*(const Matrix& a, const Vector& v) {
   Vector c{};
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < n; ++k) c[i] += a[i][k] * v[k];
+  for (std::size_t i = 0; i < ordinates; ++i)
+    for (std::size_t k = 0; k < ordinates; ++k) c[i] += a[i][k] * v[k];
   return c;
 }
 
 // x of (1 − a)·x = b, by elimination: 1 − a is diagonally dominant where a loses light. Columns of b beside
 // each other.
 template <class Row>
-std::array<Row, n> solve_one_minus(const Matrix& a, std::array<Row, n> b) {
+std::array<Row, ordinates> solve_one_minus(const Matrix& a, std::array<Row, ordinates> b) {
   Matrix m{};
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) m[i][j] = (i == j) - a[i][j];
-  for (std::size_t k = 0; k < n; ++k)
-    for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < ordinates; ++i)
+    for (std::size_t j = 0; j < ordinates; ++j) m[i][j] = (i == j) - a[i][j];
+  for (std::size_t k = 0; k < ordinates; ++k)
+    for (std::size_t i = 0; i < ordinates; ++i) {
       if (i == k) continue;
       const double f = m[i][k] / m[k][k];
-      for (std::size_t j = k; j < n; ++j) m[i][j] -= f * m[k][j];
+      for (std::size_t j = k; j < ordinates; ++j) m[i][j] -= f * m[k][j];
       for (std::size_t j = 0; j < b[i].size(); ++j) b[i][j] -= f * b[k][j];
     }
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < ordinates; ++i)
     for (double& x : b[i]) x /= m[i][i];
   return b;
 }
@@ -99,9 +100,9 @@ Matrix half_space(double albedo, double g, const Directions& d) {
   const double scaled_albedo = albedo * (1 - peak) / (1 - albedo * peak);
   constexpr double thickness = 1.0 / (1 << 26);
   Matrix r{}, t{};
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < ordinates; ++i) {
     const auto pi = legendre(d.mu[i]);
-    for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t j = 0; j < ordinates; ++j) {
       const auto pj = legendre(d.mu[j]);
       double forward = 0, back = 0, moment = 1;
       for (std::size_t l = 0; l < terms; ++l, moment *= g) {
@@ -122,8 +123,8 @@ Matrix half_space(double albedo, double g, const Directions& d) {
   // Twice the layer: light goes back and forth between the two.
   for (int doublings = 0; doublings < 64 && passes(); ++doublings) {
     const Matrix between = solve_one_minus(r * r, t), more = t * (r * between);
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) r[i][j] += more[i][j];
+    for (std::size_t i = 0; i < ordinates; ++i)
+      for (std::size_t j = 0; j < ordinates; ++j) r[i][j] += more[i][j];
     t = t * between;
   }
   return r;
@@ -175,18 +176,18 @@ double diffuse_reflectance(double albedo, double g, double eta) {
   const Matrix r = half_space(albedo, g, d);
   // Just inside, downwards: what enters and what the boundary sends back, (1 − F R)⁻¹ (1 − F).
   Matrix held{};
-  std::array<std::array<double, 1>, n> enters{};
-  for (std::size_t i = 0; i < n; ++i) {
+  std::array<std::array<double, 1>, ordinates> enters{};
+  for (std::size_t i = 0; i < ordinates; ++i) {
     const double f = reflectance_inside(d.mu[i], eta);
     enters[i][0] = 1 - f;
-    for (std::size_t j = 0; j < n; ++j) held[i][j] = f * r[i][j];
+    for (std::size_t j = 0; j < ordinates; ++j) held[i][j] = f * r[i][j];
   }
   const auto downwards = solve_one_minus(held, enters);
   Vector down{};
-  for (std::size_t i = 0; i < n; ++i) down[i] = downwards[i][0];
+  for (std::size_t i = 0; i < ordinates; ++i) down[i] = downwards[i][0];
   const Vector up = r * down;
   double left = 0, entered = 0;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < ordinates; ++i) {
     left += enters[i][0] * up[i] * d.mu[i] * d.weight[i];
     entered += enters[i][0] * d.mu[i] * d.weight[i];
   }

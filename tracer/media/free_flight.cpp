@@ -19,6 +19,8 @@ constexpr int most_steps = 1 << 20;
 
 using Values = std::array<double, hero_count>;
 
+double exponential(double u) { return -portable_log(1 - u); }  // u < 1
+
 Values at_wavelengths(const Spectrum& spectrum, const SampledWavelengths& w) {
   Values v;
   for (std::size_t i = 0; i < hero_count; ++i)
@@ -52,6 +54,7 @@ class Coefficients {
       first_volume_ = &e->sigma_t, second_volume_ = &e->albedo;
     first_ = constant(*first_volume_);
     second_ = constant(*second_volume_);
+    for (std::size_t i = 0; i < hero_count; ++i) constants_[i] = is_sum_ ? first_[i] + second_[i] : first_[i];
     scale_ = static_cast<double>(m.medium->scale);
     std::copy(w.lambda_nm.begin(), w.lambda_nm.end(), lambda_nm_.begin());
   }
@@ -78,27 +81,20 @@ class Coefficients {
     return one;
   }
 
-  // σ_t is nowhere greater, at any of the wavelengths.
-  double majorant() const {
-    const auto greatest = [&](const VolumeParameter& volume, const Values& v) {
-      const auto* grid = std::get_if<Grid>(&volume);
-      return grid ? greatest_value(*grid) : *std::max_element(v.begin(), v.end());
-    };
-    const double a = greatest(*first_volume_, first_), b = greatest(*second_volume_, second_);
-    return scale_ * m_.density_max * (is_sum_ ? a + b : a);
-  }
+  // k (ExtinctionRange) at each wavelength, and the greatest of them.
+  double greatest_constant() const { return *std::ranges::max_element(constants_); }
+  const Values& constants() const { return constants_; }
 
  private:
   const PreparedMedium& m_;
   const VolumeParameter* first_volume_ = nullptr;
   const VolumeParameter* second_volume_ = nullptr;
-  Values first_{}, second_{};
+  Values first_{}, second_{}, constants_{};
   Wavelengths lambda_nm_{};
   double scale_ = 1;
   bool is_sum_ = false;
 };
 
-double exponential(double u) { return -portable_log(1 - u); }  // u < 1
 double attenuation(double sigma, double t) {
   const double depth = sigma * t;  // ∞·0 is no medium
   return sigma <= 0 ? 1 : depth > 700 ? 0 : portable_exp(-depth);
@@ -165,10 +161,11 @@ struct Inside {
 };
 Inside inside(const PreparedMedium& m, const Flight& f) {
   Inside in{transform_point(m.to_medium, f.p), transform_vector(m.to_medium, f.d), 0, f.t_max};
-  if (m.bounds.empty()) return in;
+  const Bounds3d& bounds = m.extinction.bounds;
+  if (bounds.empty()) return in;
   for (int axis = 0; axis < 3; ++axis) {
-    const double d = in.d[axis], lower = m.bounds.lower[axis] - in.p[axis],
-                 upper = m.bounds.upper[axis] - in.p[axis];
+    const double d = in.d[axis], lower = bounds.lower[axis] - in.p[axis],
+                 upper = bounds.upper[axis] - in.p[axis];
     if (std::abs(d) < 1e-300) {
       if (lower > 0 || upper < 0) in.t1 = -1;
       continue;
@@ -179,13 +176,52 @@ Inside inside(const PreparedMedium& m, const Flight& f) {
   return in;
 }
 
+// Where a flight may collide: points with a density, per unit of length, that each cell of the medium has.
+class Collisions {
+ public:
+  // The flight meets the medium.
+  Collisions(const PreparedMedium& m, const Inside& in)
+      : in_(in), walk_(m.extinction, in.p, in.d, in.t0, in.t1), t_(in.t0) {}
+
+  // Moves on to the next one. `density_of` gives the density for a cell's range, ≥ 0; `passed(range, length)`
+  // is called for each stretch between. False where there is none before the end.
+  template <class DensityOf, class Passed>
+  bool advance(RandomStream& random, const DensityOf& density_of, const Passed& passed) {
+    double depth = exponential(random.next());
+    for (;;) {
+      density_ = density_of(walk_.range());
+      const double length = walk_.end() - t_;
+      if (density_ > 0 && depth < density_ * length) {
+        passed(walk_.range(), depth / density_);
+        t_ += depth / density_;
+        return true;
+      }
+      if (density_ > 0) depth -= density_ * length;
+      passed(walk_.range(), length);
+      t_ = walk_.end();
+      if (!walk_.advance()) return false;
+    }
+  }
+
+  double t() const { return t_; }
+  Point3d p() const { return in_.p + in_.d * t_; }
+  const ExtinctionRange& range() const { return walk_.range(); }
+  double density() const { return density_; }  // > 0
+
+ private:
+  const Inside& in_;
+  CellWalk walk_;
+  double t_, density_ = 0;
+};
+
 // Collisions per unit of length at least, so that a grid that shines is met however thin it is: the more of
 // them are null, the less chance is in what it adds.
 double least_majorant(const PreparedMedium& m, const SampledSpectrum& glow) {
   constexpr double least_collisions = 8;  // along the diagonal
   if (is_black(glow)) return 0;
+  const Bounds3d& bounds = m.extinction.bounds;
   const Bounds3d& box =
-      m.bounds.empty() && m.medium->emission_scale ? m.medium->emission_scale->bounds : m.bounds;
+      bounds.empty() && m.medium->emission_scale ? m.medium->emission_scale->bounds : bounds;
   if (box.empty()) return 0;
   return least_collisions / length(transform_vector(m.medium->medium_to_world, extent(box)));
 }
@@ -206,22 +242,23 @@ PreparedMedium prepare(const Medium& medium) {
   m.to_medium = inverse(medium.medium_to_world);
   m.g = static_cast<double>(medium.g);
   // Outside of a density and of a grid of extinction, or of what it is the sum of, there is nothing.
+  Bounds3d bounds;
   if (const auto* e = std::get_if<ExtinctionAlbedo>(&medium.coefficients))
-    if (const auto* grid = std::get_if<Grid>(&e->sigma_t)) m.bounds = grid->bounds;
+    if (const auto* grid = std::get_if<Grid>(&e->sigma_t)) bounds = grid->bounds;
   if (const auto* grid = std::get_if<Grid>(&medium.density)) {
     m.homogeneous = false;
-    m.bounds = grid->bounds;
-    m.density_max = greatest_value(*grid);
+    bounds = grid->bounds;
   }
   const auto varies = [](const auto& v) { return std::holds_alternative<Grid>(v); };
   if (const auto* k = std::get_if<AbsorptionScattering>(&medium.coefficients)) {
     m.homogeneous &= !varies(k->sigma_a) && !varies(k->sigma_s);
     for (const VolumeParameter* volume : {&k->sigma_a, &k->sigma_s})
-      if (const auto* grid = std::get_if<Grid>(volume)) extend(m.bounds, grid->bounds);
+      if (const auto* grid = std::get_if<Grid>(volume)) extend(bounds, grid->bounds);
   }
   if (const auto* k = std::get_if<ExtinctionAlbedo>(&medium.coefficients))
     m.homogeneous &= !varies(k->sigma_t) && !varies(k->albedo);
   m.homogeneous &= !medium.emission_scale;
+  if (!m.homogeneous) m.extinction = bound_extinction(medium, bounds);
   return m;
 }
 
@@ -239,16 +276,19 @@ FlightSample sample_flight(const PreparedMedium& m, const Flight& flight,
   if (m.homogeneous) return sample_homogeneous(coefficients, flight.t_max, active, glow, throughput, random);
 
   FlightSample s{std::nullopt, filled(1), {}};
-  const double majorant = std::max(coefficients.majorant(), least_majorant(m, glow));
-  if (!(majorant > 0)) return s;
   const Inside in = inside(m, flight);
-  double t = in.t0;
+  if (!(in.t0 < in.t1)) return s;
+  const double least = least_majorant(m, glow), constant = coefficients.greatest_constant();
+  const auto majorant_of = [&](const ExtinctionRange& r) {
+    return std::max(static_cast<double>(r.constants_high) * constant + static_cast<double>(r.grids_high),
+                    least);
+  };
+  Collisions collisions(m, in);
   for (int step = 0; step < most_steps; ++step) {
-    t += exponential(random.next()) / majorant;
-    if (!(t < in.t1)) return s;
-    const Point3d p = in.p + in.d * t;
+    if (!collisions.advance(random, majorant_of, [](const ExtinctionRange&, double) {})) return s;
+    const double majorant = collisions.density();
     Values sigma_t, sigma_s;
-    coefficients.at(p, sigma_t, sigma_s);
+    coefficients.at(collisions.p(), sigma_t, sigma_s);
     double real = 0, sum = 0;
     for (std::size_t i = 0; i < active; ++i) {
       const double w = static_cast<double>(throughput.v[i]) * static_cast<double>(s.weight.v[i]);
@@ -258,7 +298,7 @@ FlightSample sample_flight(const PreparedMedium& m, const Flight& flight,
     if (!(sum > 0)) return s;
     const double p_real = std::clamp(real / sum, 0.0, 1.0);
     if (!is_black(glow)) {
-      const Values scale = coefficients.emission_scale(p);
+      const Values scale = coefficients.emission_scale(collisions.p());
       for (std::size_t i = 0; i < active; ++i)
         s.emitted.v[i] +=
             s.weight.v[i] * glow.v[i] * static_cast<float>(scale[i] * (sigma_t[i] - sigma_s[i]) / majorant);
@@ -268,7 +308,7 @@ FlightSample sample_flight(const PreparedMedium& m, const Flight& flight,
       s.weight.v[i] *= static_cast<float>(is_real ? sigma_s[i] / (majorant * p_real)
                                                   : std::max(0.0, 1 - sigma_t[i] / majorant) / (1 - p_real));
     if (is_real) {
-      s.scattered_at = t;
+      s.scattered_at = collisions.t();
       return s;
     }
   }
@@ -287,16 +327,37 @@ SampledSpectrum transmittance(const PreparedMedium& m, const Flight& flight,
       through.v[i] = static_cast<float>(attenuation(sigma_t[i], flight.t_max));
     return through;
   }
-  const double majorant = coefficients.majorant();
-  if (!(majorant > 0)) return through;
   const Inside in = inside(m, flight);
-  double t = in.t0;
-  for (int step = 0; step < most_steps; ++step) {
-    t += exponential(random.next()) / majorant;
-    if (!(t < in.t1)) return through;
-    coefficients.at(in.p + in.d * t, sigma_t, sigma_s);
+  if (!(in.t0 < in.t1)) return through;
+  const Values& constants = coefficients.constants();
+  const double greatest = coefficients.greatest_constant();
+  const auto residual_of = [&](const ExtinctionRange& r) {
+    return (static_cast<double>(r.constants_high) - static_cast<double>(r.constants_low)) * greatest +
+           (static_cast<double>(r.grids_high) - static_cast<double>(r.grids_low));
+  };
+  // ∫ of the least extinction since the last collision, as an ExtinctionRange has it.
+  double constant_depth = 0, grid_depth = 0;
+  const auto pass = [&](const ExtinctionRange& r, double length) {
+    if (r.constants_low > 0) constant_depth += static_cast<double>(r.constants_low) * length;
+    if (r.grids_low > 0) grid_depth += static_cast<double>(r.grids_low) * length;
+  };
+  const auto fade = [&] {
     for (std::size_t i = 0; i < hero_count; ++i)
-      through.v[i] *= static_cast<float>(std::max(0.0, 1 - sigma_t[i] / majorant));
+      through.v[i] *= static_cast<float>(attenuation(constant_depth * constants[i] + grid_depth, 1));
+    constant_depth = grid_depth = 0;
+  };
+  Collisions collisions(m, in);
+  for (int step = 0; step < most_steps; ++step) {
+    const bool collides = collisions.advance(random, residual_of, pass);
+    fade();
+    if (!collides) return through;
+    coefficients.at(collisions.p(), sigma_t, sigma_s);
+    const ExtinctionRange& r = collisions.range();
+    for (std::size_t i = 0; i < hero_count; ++i) {
+      const double low =
+          static_cast<double>(r.constants_low) * constants[i] + static_cast<double>(r.grids_low);
+      through.v[i] *= static_cast<float>(std::clamp(1 - (sigma_t[i] - low) / collisions.density(), 0.0, 1.0));
+    }
     // Little light left: go on with it rarely, but then with more.
     constexpr float little = 0.1f;
     const float most = max_value(through);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Free flight through a medium. Homogeneous media are sampled in closed form, by a wavelength chosen at
 // random and weighted by the mean density of all, or not at all where they only absorb; grids by null
-// collisions (Woodcock et al. 1965; for spectra Kutz et al., "Spectral and Decomposition Tracking", 2017).
-// Wavelengths are chosen, and densities averaged, in proportion to the path's throughput. So its sum never
-// grows, however many collisions there are; and where the albedo is the same at all wavelengths, a path is
-// weighed by the mean density of all of it, as if one wavelength had been chosen for all of its flights.
+// collisions (Woodcock et al. 1965; for spectra Kutz et al., "Spectral and Decomposition Tracking", 2017),
+// with bounds of the extinction near each point of the flight (majorants.h). Transmittance is estimated by
+// residual ratio tracking (Novák et al., "Residual Ratio Tracking for Estimating Attenuation in Participating
+// Media", 2014): the least extinction of each cell counts in closed form, and chance decides on the rest
+// alone. Wavelengths are chosen, and densities averaged, in proportion to the path's throughput. So its sum
+// never grows, however many collisions there are; and where the albedo is the same at all wavelengths, a path
+// is weighed by the mean density of all of it, as if one wavelength had been chosen for all of its flights.
 #pragma once
 
 #include <optional>
@@ -12,6 +15,7 @@
 
 #include "scene/records/medium.h"
 #include "scene/spectra/sampled_spectrum.h"
+#include "tracer/media/majorants.h"
 #include "tracer/sampling/sampler.h"
 
 namespace vitrail {
@@ -21,8 +25,7 @@ struct PreparedMedium {
   const Medium* medium = nullptr;  // outlives it
   bool homogeneous = true;
   Transform to_medium;
-  Bounds3d bounds;         // in the medium's space: 0 outside; of grids
-  double density_max = 1;  // of what varies
+  ExtinctionGrid extinction;  // of one that is not homogeneous; outside of its bounds there is nothing
   double g = 0;
 };
 PreparedMedium prepare(const Medium& medium);

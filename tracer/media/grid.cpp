@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "tracer/simd/lanes.h"
 
 namespace vitrail {
 
@@ -57,12 +60,139 @@ std::array<Corner, 8> corners(const Grid& grid, Point3d p) {
   return all;
 }
 
-// S(λ) from x at 360, 595 and 830 nm: the parabola through them.
-double sigmoid(const float* nodes, double lambda_nm) {
-  const double first = static_cast<double>(nodes[0]), middle = static_cast<double>(nodes[1]),
-               last = static_cast<double>(nodes[2]), t = (lambda_nm - 595) / 235;
-  const double x = middle + t * ((last - first) / 2 + t * ((first + last) / 2 - middle));
-  return 0.5 + x / (2 * std::sqrt(1 + x * x));
+double sigmoid(double x) { return 0.5 + x / (2 * std::sqrt(1 + x * x)); }
+
+// x(t) = constant + t·(linear + t·square) through the nodes at 360, 595 and 830 nm, t from −1 to 1.
+struct Parabola {
+  float constant, linear, square;
+  float at(float t) const { return constant + t * (linear + t * square); }
+};
+Parabola parabola(const float* nodes) {
+  return {nodes[1], (nodes[2] - nodes[0]) / 2, (nodes[0] + nodes[2]) / 2 - nodes[1]};
+}
+float parameter_at(double lambda_nm) { return static_cast<float>((lambda_nm - 595) / 235); }
+
+// The spectra of the eight corners side by side, each with a weight.
+class CornerSpectra {
+ public:
+  CornerSpectra(const std::array<Corner, 8>& corners, bool weigh_by_scale) {
+    for (std::size_t half = 0; half < 2; ++half)
+      for (int j = 0; j < 4; ++j) {
+        const Corner& corner = corners[4 * half + static_cast<std::size_t>(j)];
+        const Parabola p = parabola(corner.values);
+        constant_[half][j] = p.constant, linear_[half][j] = p.linear, square_[half][j] = p.square;
+        weight_[half][j] = static_cast<float>(corner.weight) * (weigh_by_scale ? corner.values[3] : 1);
+      }
+  }
+  // Returns Σ weightⱼ·Sⱼ(λ).
+  double sum(double lambda_nm) const {
+    const float t = parameter_at(lambda_nm);
+    Four s{};
+    for (std::size_t half = 0; half < 2; ++half) {
+      const Four x = constant_[half] + t * (linear_[half] + t * square_[half]);
+      s += weight_[half] * (0.5f + x / (2 * lanes::sqrt(1 + x * x)));
+    }
+    return static_cast<double>((s[0] + s[1]) + (s[2] + s[3]));
+  }
+
+ private:
+  using Four = lanes::Floats<4>;
+  std::array<Four, 2> constant_, linear_, square_, weight_;
+};
+
+// The cells that look-ups between `lower` and `upper` read along an axis, in the grid's coordinates: as
+// `between` has it, and one in a million of a cell more.
+struct CellRange {
+  int first, last;
+  bool whole;  // nothing outside of the grid counts as 0
+  bool holds(int cell) const { return first <= cell && cell <= last; }
+};
+CellRange cells_between(double lower, double upper, int cells, GridEdge edge) {
+  constexpr double slack = 1e-6;
+  const double limit = 4.0 * cells + 4;
+  const auto index = [&](double x) {
+    return static_cast<int>(std::floor(std::clamp(x - 0.5, -limit, limit)));
+  };
+  const int first = index(lower - slack), last = index(upper + slack) + 1;
+  const bool whole = edge != GridEdge::zero || (first >= 0 && last < cells);
+  if (edge == GridEdge::repeated && (first < 0 || last >= cells)) return {0, cells - 1, whole};
+  return {std::clamp(first, 0, cells - 1), std::clamp(last, 0, cells - 1), whole};
+}
+
+// What the cells of one number that were added have between them.
+struct NumberRange {
+  float low = std::numeric_limits<float>::infinity(), high = 0;
+  void add(const float* cell) { low = std::min(low, *cell), high = std::max(high, *cell); }
+  void add(const NumberRange& r) { low = std::min(low, r.low), high = std::max(high, r.high); }
+  ValueRange values() const { return {low, high}; }
+};
+
+// The same of cells of colours: x(t) and the scale.
+struct ColorRange {
+  float x_low = std::numeric_limits<float>::infinity(), x_high = -std::numeric_limits<float>::infinity();
+  NumberRange scale;
+  void add(const float* cell) {
+    const Parabola p = parabola(cell);
+    add_x(p.at(-1)), add_x(p.at(1));
+    if (std::abs(p.linear) < 2 * std::abs(p.square)) add_x(p.at(-p.linear / (2 * p.square)));
+    scale.add(cell + 3);
+  }
+  void add(const ColorRange& r) {
+    x_low = std::min(x_low, r.x_low), x_high = std::max(x_high, r.x_high);
+    scale.add(r.scale);
+  }
+  ValueRange values() const {
+    constexpr double slack = 1e-5;  // floats round x, S and their products by less
+    const double low = sigmoid(static_cast<double>(x_low)), high = sigmoid(static_cast<double>(x_high));
+    return {static_cast<float>(std::max(low - slack, 0.0) * static_cast<double>(scale.low)),
+            static_cast<float>((high + slack) * static_cast<double>(scale.high))};
+  }
+
+ private:
+  void add_x(float x) { x_low = std::min(x_low, x), x_high = std::max(x_high, x); }
+};
+
+using CellRanges = std::vector<CellRange>;
+
+// Axis by axis: the cells of a row, the rows of a slice, the slices.
+template <class Range>
+std::vector<Range> ranges_of(const Grid& grid, const std::array<CellRanges, 3>& boxes) {
+  const auto& [xs, ys, zs] = boxes;
+  const auto nx = static_cast<std::size_t>(grid.nx), ny = static_cast<std::size_t>(grid.ny);
+  std::vector<Range> row(nx), slice, all(xs.size() * ys.size() * zs.size());
+  for (int k = 0; k < grid.nz; ++k) {
+    slice.assign(xs.size() * ys.size(), {});
+    for (int j = 0; j < grid.ny; ++j) {
+      const std::size_t first = (static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j)) * nx;
+      for (std::size_t i = 0; i < nx; ++i)
+        row[i] = {}, row[i].add(&grid.values[(first + i) * static_cast<std::size_t>(grid.channels)]);
+      std::vector<Range> reduced(xs.size());
+      for (std::size_t x = 0; x < xs.size(); ++x)
+        for (int i = xs[x].first; i <= xs[x].last; ++i) reduced[x].add(row[static_cast<std::size_t>(i)]);
+      for (std::size_t y = 0; y < ys.size(); ++y)
+        if (ys[y].holds(j))
+          for (std::size_t x = 0; x < xs.size(); ++x) slice[y * xs.size() + x].add(reduced[x]);
+    }
+    for (std::size_t z = 0; z < zs.size(); ++z)
+      if (zs[z].holds(k))
+        for (std::size_t i = 0; i < slice.size(); ++i) all[z * slice.size() + i].add(slice[i]);
+  }
+  return all;
+}
+
+template <class Range>
+std::vector<ValueRange> value_ranges(const Grid& grid, const std::array<CellRanges, 3>& boxes) {
+  const std::vector<Range> ranges = ranges_of<Range>(grid, boxes);
+  std::vector<ValueRange> values;
+  values.reserve(ranges.size());
+  for (const CellRange& z : boxes[2])
+    for (const CellRange& y : boxes[1])
+      for (const CellRange& x : boxes[0]) {
+        ValueRange range = ranges[values.size()].values();
+        if (!(x.whole && y.whole && z.whole)) range.low = 0;
+        values.push_back(range);
+      }
+  return values;
 }
 
 }  // namespace
@@ -70,22 +200,14 @@ double sigmoid(const float* nodes, double lambda_nm) {
 void look_up_colors(const Grid& grid, Point3d p, std::span<const double> lambda_nm,
                     std::span<double> values) {
   const std::array<Corner, 8> around = corners(grid, p);
-  if (grid.edge == GridEdge::zero) {
-    std::ranges::fill(values, 0.0);
-    for (const Corner& c : around)
-      for (std::size_t i = 0; i < values.size() && c.weight > 0; ++i)
-        values[i] += c.weight * static_cast<double>(c.values[3]) * sigmoid(c.values, lambda_nm[i]);
-    return;
-  }
-  double scale = 0;
-  for (const Corner& c : around) scale += c.weight * static_cast<double>(c.values[3]);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    double mean = 0;
-    if (scale > 0)
-      for (const Corner& c : around)
-        if (c.weight > 0) mean += c.weight * sigmoid(c.values, lambda_nm[i]);
-    values[i] = scale * mean;
-  }
+  // pbrt's edges: Σ wᵢ·scaleᵢ·Sᵢ; Mitsuba's: Σ wᵢ·scaleᵢ times Σ wᵢ·Sᵢ.
+  const bool scaled = grid.edge == GridEdge::zero;
+  const CornerSpectra spectra(around, scaled);
+  double scale = scaled ? 1 : 0;
+  if (!scaled)
+    for (const Corner& c : around) scale += c.weight * static_cast<double>(c.values[3]);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = scale > 0 ? scale * spectra.sum(lambda_nm[i]) : 0;
 }
 
 double look_up(const Grid& grid, Point3d p, int channel) {
@@ -117,6 +239,21 @@ double greatest_value(const Grid& grid) {
   for (std::size_t i = 3; i < grid.values.size(); i += color_channels)
     greatest = std::max(greatest, grid.values[i]);
   return static_cast<double>(greatest);
+}
+
+std::vector<ValueRange> value_ranges(const Grid& grid, const Planes& planes) {
+  const std::array<int, 3> counts{grid.nx, grid.ny, grid.nz};
+  std::array<CellRanges, 3> boxes;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const double size = extent(grid.bounds)[axis];
+    const auto place = [&](double at) {
+      return size > 0 ? (at - grid.bounds.lower[axis]) / size * counts[a] : 0.5;
+    };
+    for (std::size_t i = 0; i + 1 < planes[a].size(); ++i)
+      boxes[a].push_back(cells_between(place(planes[a][i]), place(planes[a][i + 1]), counts[a], grid.edge));
+  }
+  return has_colors(grid) ? value_ranges<ColorRange>(grid, boxes) : value_ranges<NumberRange>(grid, boxes);
 }
 
 }  // namespace vitrail

@@ -2,7 +2,9 @@
 // Looking up a scene/records/medium.h Grid.
 #pragma once
 
+#include <array>
 #include <span>
+#include <vector>
 
 #include "scene/records/medium.h"
 
@@ -20,5 +22,14 @@ void look_up_colors(const Grid& grid, Point3d p, std::span<const double> lambda_
 
 // No value of the grid is greater, at any wavelength.
 double greatest_value(const Grid& grid);
+
+struct ValueRange {
+  float low = 0, high = 0;
+};
+// Planes across the axes x, y and z, at least two of each, in ascending order.
+using Planes = std::array<std::vector<double>, 3>;
+// For each box between successive planes, x fastest, a range that holds every value that a look-up in it
+// gives, at any wavelength. The values of the grid are ≥ 0. Each of its cells is read once.
+std::vector<ValueRange> value_ranges(const Grid& grid, const Planes& planes);
 
 }  // namespace vitrail

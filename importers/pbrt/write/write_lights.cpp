@@ -167,12 +167,13 @@ class LightWriter {
   Transform light_to_world_;
 };
 
-constexpr std::array kinds{"point",   "spot",     "projection",  "goniometric",
-                           "distant", "infinite", "environment", "sky"};
-static_assert(kinds.size() == std::variant_size_v<LightVariant>);
+constexpr std::array light_names{"point",   "spot",     "projection",  "goniometric",
+                                 "distant", "infinite", "environment", "sky"};
+static_assert(light_names.size() == std::variant_size_v<LightVariant>);
 
 void write_light(Writer& w, const Light& light) {
-  Parameters p(w, fmt::format("{} light", kinds.at(light.model.index())), light.origin, RecordKind::light);
+  Parameters p(w, fmt::format("{} light", light_names.at(light.model.index())), light.origin,
+               RecordKind::light);
   if (const auto* sky = std::get_if<SkyLight>(&light.model)) {
     p.approximated("pbrt has no sky: its image in linear sRGB, and the sun as parallel light");
     const auto file = std::filesystem::absolute(w.new_image());

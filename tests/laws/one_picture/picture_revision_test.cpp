@@ -10,11 +10,27 @@
 namespace vitrail::test {
 namespace {
 
-constexpr std::uint32_t known_revision = 12;
-constexpr const char* known_pictures = "19a60df56b5bc479";
+constexpr std::uint32_t known_revision = 13;
+constexpr const char* known_pictures = "f42e4a55a4d9b196";
 
 std::array<Point3f, 4> tile(float x, float z) {
   return {{{x, 0, z}, {x + 1, 0, z}, {x + 1, 1, z + 0.2f}, {x, 1, z + 0.2f}}};
+}
+
+// A box of grids above the floor: a density, and colours of what scatters.
+void add_cloud(Scene& scene) {
+  Medium cloud;
+  Grid density, colors;
+  density.nx = 5, density.ny = 2, density.nz = 2;
+  for (int i = 0; i < 20; ++i) density.values.push_back(static_cast<float>(i % 7) / 2);
+  colors.nx = 2, colors.ny = colors.nz = 1, colors.channels = 3,
+  colors.values = {1, 0.5f, 0.2f, 0.3f, 0.6f, 1};
+  density.bounds = colors.bounds = {{-4, 1.2, -1}, {4, 2, 1}};
+  cloud.coefficients = AbsorptionScattering{ConstantSpectrum{0.1f}, colors};
+  cloud.density = density;
+  add_shape(scene, add_quads(scene, box_faces({-4, 1.2f, -1}, {4, 2, 1})), Material{InterfaceMaterial{}});
+  scene.media.push_back(cloud);
+  scene.shapes.back().interior = Id<Medium>{1}, scene.shapes.back().exterior = Id<Medium>{0};
 }
 
 // One row of tiles, a material each, over a floor in mist, under lights of every kind that has no file.
@@ -52,6 +68,7 @@ Scene everything() {
   mist.g = 0.5f;
   scene.media.push_back(mist);
   scene.camera_medium = Id<Medium>{0};
+  add_cloud(scene);
   PerspectiveCamera camera;
   camera.camera_to_world = look_at({0, 0.5, -6}, {0, 0.5, 0}, {0, 1, 0});
   camera.screen = {-0.9, 0.9, -0.15, 0.15};
