@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "scene/geometry/pi.h"
 #include "scene/spectra/color.h"
 
 namespace vitrail {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 using enum EnvironmentLight::Projection;
 
 // The equal-area map of the sphere to a square of Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere

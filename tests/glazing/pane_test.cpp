@@ -6,17 +6,15 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <random>
 
 #include "glazing/evaluation.h"
 #include "glazing/thin_film.h"
+#include "scene/geometry/pi.h"
 #include "scene/spectra/named_spectra.h"
 
 namespace vitrail {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 StackPane sheet(double n, double k, double mm) { return {{{{{550, n, k}}, mm}}, {{}, {}}}; }
 

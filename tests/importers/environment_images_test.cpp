@@ -9,13 +9,13 @@
 #include "images/image_files.h"
 #include "importers/images/cube_faces.h"
 #include "importers/images/mean_intensity.h"
+#include "scene/geometry/pi.h"
 #include "scene/system/diagnostics.h"
 #include "tests/importers/temporary_folder.h"
 
 namespace vitrail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr EnvironmentProjection projections[] = {EnvironmentProjection::equal_area,
                                                  EnvironmentProjection::latitude_longitude};
 

@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "importers/mitsuba/write/rgb_variants.h"
 #include "importers/mitsuba/write/write_textures.h"
+#include "scene/geometry/pi.h"
 #include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail::mitsuba_writer {
 
 namespace {
-
-using std::numbers::pi;
 
 // The i-th number of the k-th component of a sequence of low discrepancy in four dimensions: multiples of the
 // inverse powers of the root of x⁵ = x + 1.

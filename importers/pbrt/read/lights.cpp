@@ -6,21 +6,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "importers/pbrt/read/image_numbers.h"
 #include "importers/pbrt/read/sphere_images.h"
 #include "importers/reading/given_sky.h"
 #include "importers/reading/suggestion.h"
 #include "scene/geometry/frame.h"
+#include "scene/geometry/pi.h"
 #include "scene/spectra/color.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail::pbrt {
 
 namespace {
-
-using std::numbers::pi;
 
 struct LightMaker {
   const std::string& kind;

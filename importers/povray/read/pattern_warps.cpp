@@ -3,16 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "scene/geometry/pi.h"
 #include "scene/geometry/transform.h"
 #include "scene/models/lattice_noise.h"
 
 namespace vitrail::pov {
 
 namespace {
-
-using std::numbers::pi;
 
 Point3d shaken(Point3d p, Vector3d amount, int octaves, double lambda, double omega) {
   if (amount == Vector3d{}) return p;

@@ -3,18 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "importers/images/environment_images.h"
 #include "importers/writing/export_colors.h"
 #include "importers/writing/mesh_files.h"
+#include "scene/geometry/pi.h"
 #include "scene/spectra/flat_emission.h"
 
 namespace vitrail::povray {
 
 namespace {
-
-using std::numbers::pi;
 
 // The light's frame, in which its shade is of size 1. Shades are as small as they may be, for other lamps'
 // sake: POV-Ray sees no shadow of what is within 1e-3 of a light.

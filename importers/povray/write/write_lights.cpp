@@ -2,20 +2,18 @@
 #include "importers/povray/write/write_lights.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "importers/images/mean_intensity.h"
 #include "importers/images/sky_image.h"
 #include "importers/povray/write/write_environment.h"
 #include "importers/povray/write/write_image_lights.h"
 #include "importers/writing/export_colors.h"
+#include "scene/geometry/pi.h"
 #include "scene/models/fading.h"
 
 namespace vitrail::povray {
 
 namespace {
-
-using std::numbers::pi;
 
 // A diffuse surface of colour ρ that is lit by colour c shows ρ·c·cos θ·a(d): irradiance over π. With the
 // attenuation a(d) = 2/(1 + (d/f)²) ≈ 2f²/d², an intensity I is c = I/(2πf²) where f is much less than d.

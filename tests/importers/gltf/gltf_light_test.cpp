@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light of glTF against closed forms: a picture shows cd/m².
 #include <cmath>
-#include <numbers>
 
+#include "scene/geometry/pi.h"
 #include "tests/importers/gltf/gltf_text.h"
 #include "tests/support/render.h"
 
 namespace vitrail::test {
 namespace {
-
-constexpr double pi = std::numbers::pi, albedo = 0.5;
 
 // What a Lambertian floor of that albedo shows from above, of a scene with these lights and other nodes.
 double shown(const std::string& nodes, const std::string& more) {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras, films and integrators as Mitsuba 3 reads them from written files.
 #include <cmath>
-#include <numbers>
 
+#include "scene/geometry/pi.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
 
 namespace vitrail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 using testing::HasSubstr;
 using testing::IsEmpty;
 

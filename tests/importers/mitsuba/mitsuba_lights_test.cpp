@@ -2,10 +2,10 @@
 // Lights as Mitsuba 3 sees what the writer says of them, and pictures of them against radiance in closed
 // form.
 #include <cmath>
-#include <numbers>
 
 #include "images/image_files.h"
 #include "importers/images/environment_images.h"
+#include "scene/geometry/pi.h"
 #include "scene/spectra/color.h"
 #include "scene/spectra/flat_emission.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
@@ -13,7 +13,6 @@
 namespace vitrail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 using testing::Contains;
 using testing::Field;
 using testing::HasSubstr;

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Materials and textures as Mitsuba 3 reads them from written files.
 #include <cmath>
-#include <numbers>
 
 #include "images/image_files.h"
+#include "scene/geometry/pi.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
 
 namespace vitrail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 using testing::Contains;
 using testing::Field;
 using testing::HasSubstr;

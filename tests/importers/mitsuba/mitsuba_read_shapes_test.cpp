@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "images/image_files.h"
 #include "importers/mitsuba/read/builder.h"
 #include "importers/ply/read/ply.h"
 #include "importers/writing/write_ply.h"
+#include "scene/geometry/pi.h"
 #include "scene/shapes/curve_meshes.h"
 #include "scene/shapes/deferred_mesh.h"
 #include "tests/importers/bytes_of_numbers.h"
@@ -87,7 +87,6 @@ double area(const TriangleMesh& mesh) {
   return sum;
 }
 
-constexpr double pi = std::numbers::pi;
 const Transform mirror = scale({-1, 1, 1});
 
 TEST(MitsubaShapes, QuadricsAreKept) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes, their sides, instances and media as Mitsuba 3 reads them from written files.
-#include <numbers>
 
+#include "scene/geometry/pi.h"
 #include "scene/shapes/tessellate.h"
 #include "tests/importers/curve_records.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
@@ -9,7 +9,6 @@
 namespace vitrail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 using testing::Contains;
 using testing::Field;
 using testing::HasSubstr;

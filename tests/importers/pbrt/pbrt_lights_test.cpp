@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <numbers>
 
 #include "images/image_files.h"
+#include "scene/geometry/pi.h"
 #include "scene/spectra/color.h"
 #include "scene/spectra/named_spectra.h"
 #include "scene/spectra/rgb_to_spectrum.h"
@@ -14,8 +14,6 @@
 
 namespace vitrail {
 namespace {
-
-using std::numbers::pi;
 
 Spectrum infinite(const ImportedScene& imported) {
   return std::get<InfiniteLight>(imported.scene.lights.at(0).model).radiance;

@@ -41,7 +41,7 @@ void expect_uvs(const TriangleMesh& mesh, const Expected& expected) {
   }
 }
 
-std::string ply(const std::vector<Point3f>& vertices, const std::vector<std::string>& faces) {
+std::string ply_of(const std::vector<Point3f>& vertices, const std::vector<std::string>& faces) {
   std::string text = fmt::format(
       "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
@@ -69,7 +69,7 @@ const auto of_parallelogram = [](Point3f p) { return Point2f{(p.x - p.y) / 2, p.
 
 TEST(PbrtQuads, AParallelogramIsTwoTrianglesOfOneSquare) {
   Diagnostics diagnostics;
-  const Scene scene = import_ply(ply(parallelogram, {"4 0 1 2 3"}), "rgb", textured, &diagnostics);
+  const Scene scene = import_ply(ply_of(parallelogram, {"4 0 1 2 3"}), "rgb", textured, &diagnostics);
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_TRUE(diagnostics.empty());
   EXPECT_EQ(scene.meshes[0].positions.size(), 4u);
@@ -80,7 +80,7 @@ TEST(PbrtQuads, AParallelogramIsTwoTrianglesOfOneSquare) {
 
 // pbrt-v3 makes the triangles a b c and d a c of it, which are shapes of their own.
 TEST(PbrtQuads, AreTrianglesInV3) {
-  const Scene scene = import_ply(ply(parallelogram, {"4 0 1 2 3"}), "image", textured);
+  const Scene scene = import_ply(ply_of(parallelogram, {"4 0 1 2 3"}), "image", textured);
   const std::vector<Corner> c = corners(scene.meshes.at(0));
   ASSERT_EQ(c.size(), 6u);
   constexpr std::size_t corner[] = {0, 1, 2, 3, 0, 2};
@@ -106,7 +106,7 @@ const std::vector<Point3f> curved{{0, 0, 0}, {1, 0, 0}, {1, 1, 1}, {0, 1, 0}};
 TEST(PbrtQuads, OthersAreBilinearWhereATextureShowsIt) {
   for (const auto& quad : {trapezoid, curved}) {
     Diagnostics diagnostics;
-    const Scene scene = import_ply(ply(quad, {"4 0 1 2 3"}), "rgb", textured, &diagnostics);
+    const Scene scene = import_ply(ply_of(quad, {"4 0 1 2 3"}), "rgb", textured, &diagnostics);
     EXPECT_GT(scene.meshes.at(0).triangles.size(), 100u);
     EXPECT_TRUE(mentions(diagnostics, "parallelograms"));
     for (const Corner& c : corners(scene.meshes[0])) {
@@ -115,12 +115,12 @@ TEST(PbrtQuads, OthersAreBilinearWhereATextureShowsIt) {
     }
   }
   // Nothing shows how a plane is divided.
-  EXPECT_EQ(import_ply(ply(trapezoid, {"4 0 1 2 3"}), "rgb", "").meshes.at(0).triangles.size(), 2u);
+  EXPECT_EQ(import_ply(ply_of(trapezoid, {"4 0 1 2 3"}), "rgb", "").meshes.at(0).triangles.size(), 2u);
 }
 
 TEST(PbrtQuads, AndTrianglesAreTwoShapes) {
-  const std::string file = ply({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}},
-                               {"4 0 1 2 3", "3 1 4 5", "3 1 5 2"});
+  const std::string file = ply_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}},
+                                  {"4 0 1 2 3", "3 1 4 5", "3 1 5 2"});
   for (const std::uint64_t memory : {~std::uint64_t{0}, std::uint64_t{0}}) {
     const TemporaryFolder folder;
     folder.write("mesh.ply", file);

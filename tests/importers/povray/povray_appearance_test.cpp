@@ -4,16 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "importers/images/environment_images.h"
+#include "scene/geometry/pi.h"
 #include "tests/importers/povray/povray_oracle.h"
 #include "tests/support/png.h"
 
 namespace vitrail {
 namespace {
-
-using std::numbers::pi;
 
 class PovrayAppearance : public PovrayOracle {
  protected:

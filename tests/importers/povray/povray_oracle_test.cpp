@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <numbers>
-
+#include "scene/geometry/pi.h"
 #include "scene/shapes/tessellate.h"
 #include "tests/importers/curve_records.h"
 #include "tests/importers/povray/povray_oracle.h"
@@ -12,8 +11,6 @@
 
 namespace vitrail {
 namespace {
-
-using std::numbers::pi;
 
 // ---- Radiometry ---------------------------------------------------------------------------------
 

@@ -2,8 +2,7 @@
 // POV-Ray shows of its own records, written, what they are here: lamps that fade, patterns.
 #include <gmock/gmock.h>
 
-#include <numbers>
-
+#include "scene/geometry/pi.h"
 #include "scene/models/fading.h"
 #include "scene/models/pattern.h"
 #include "tests/importers/povray/povray_oracle.h"
@@ -11,7 +10,6 @@
 namespace vitrail {
 namespace {
 
-using std::numbers::pi;
 using Kind = PatternTexture::Kind;
 using Wave = PatternTexture::Wave;
 

@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "importers/solids/primitives.h"
+#include "scene/geometry/pi.h"
 #include "tests/importers/solids/solid_checks.h"
 
 namespace vitrail::solids {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 Csg cube(double low, double high, std::uint32_t surface = 0) {
   return solid(box({low, low, low}, {high, high, high}), surface);

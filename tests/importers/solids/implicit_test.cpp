@@ -4,18 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "importers/solids/csg.h"
 #include "importers/solids/fractal.h"
 #include "importers/solids/primitives.h"
+#include "scene/geometry/pi.h"
 #include "scene/system/diagnostics.h"
 #include "tests/importers/solids/solid_checks.h"
 
 namespace vitrail::solids {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 double from_origin(Point3d p) { return length(p - Point3d{}); }
 

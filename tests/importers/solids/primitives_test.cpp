@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "scene/geometry/pi.h"
 #include "scene/system/diagnostics.h"
 #include "tests/importers/solids/solid_checks.h"
 
 namespace vitrail::solids {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 TEST(Primitives, BoxHasItsCornersAndVolume) {
   const Solid made = box({3, 1, -1}, {1, 2, 4});

@@ -4,16 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "importers/solids/bodies.h"
+#include "scene/geometry/pi.h"
 #include "scene/system/diagnostics.h"
 #include "tests/importers/solids/solid_checks.h"
 
 namespace vitrail::solids {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 std::vector<Point2d> square(double half) {
   return {{-half, -half}, {half, -half}, {half, half}, {-half, half}, {-half, -half}};

@@ -8,13 +8,13 @@
 #include <numbers>
 #include <random>
 
+#include "scene/geometry/pi.h"
 #include "tests/laws/scattering/sphere_cells.h"
 
 namespace vitrail::laws {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double significance = 1.005e-5;  // 1 − (1 − 1 %)^(1/1000)
 constexpr double expected_in_bin = 50;
 constexpr double negligible = 1e-6;  // weight of a sample

@@ -5,9 +5,9 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "scene/geometry/pi.h"
 #include "tests/laws/scattering/bsdf_laws.h"
 #include "tracer/bsdf/layered.h"
 #include "tracer/bsdf/local.h"
@@ -17,7 +17,6 @@ namespace {
 
 using laws::subject;
 
-constexpr double pi = std::numbers::pi;
 constexpr int long_walk = 1000;
 
 Vector3d direction(double theta_deg, double phi_deg) {

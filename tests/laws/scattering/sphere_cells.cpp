@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "scene/geometry/pi.h"
 
 namespace vitrail::laws {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr std::size_t samples_in_cell = 4;
 constexpr int deepest_cell = 80, deepest_integral = 7;
 constexpr double absolute_tolerance = 2e-7, relative_tolerance = 1e-3;  // of one cell's integral

@@ -10,7 +10,7 @@ namespace vitrail {
 namespace {
 
 using testing::ElementsAre;
-using Kind = MeshPart::Kind;
+using PartKind = MeshPart::Kind;
 using Quad = std::array<Point3f, 4>;
 
 // Every quad has vertices of its own, as where normals differ.
@@ -42,8 +42,8 @@ std::vector<MeshPart> parts(const std::vector<Quad>& quads) {
   return parts_of(std::vector<PlacedMesh>{{&mesh, {}}});
 }
 
-std::vector<Kind> kinds(const std::vector<Quad>& quads) {
-  std::vector<Kind> found;
+std::vector<PartKind> kinds(const std::vector<Quad>& quads) {
+  std::vector<PartKind> found;
   for (const MeshPart& part : parts(quads)) found.push_back(part.kind);
   return found;
 }
@@ -59,10 +59,10 @@ std::vector<Quad> without_first(std::vector<Quad> quads) {
 }
 
 TEST(MeshParts, OneFaceIsOpenAndABoxIsClosed) {
-  EXPECT_THAT(kinds({pane(0)}), ElementsAre(Kind::open));
-  EXPECT_THAT(kinds(box(0.006f)), ElementsAre(Kind::closed));
-  EXPECT_THAT(kinds(box(0.006f) + std::vector<Quad>{pane(1)}), ElementsAre(Kind::closed, Kind::open));
-  EXPECT_THAT(kinds(without_first(box(1))), ElementsAre(Kind::open));  // an aquarium
+  EXPECT_THAT(kinds({pane(0)}), ElementsAre(PartKind::open));
+  EXPECT_THAT(kinds(box(0.006f)), ElementsAre(PartKind::closed));
+  EXPECT_THAT(kinds(box(0.006f) + std::vector<Quad>{pane(1)}), ElementsAre(PartKind::closed, PartKind::open));
+  EXPECT_THAT(kinds(without_first(box(1))), ElementsAre(PartKind::open));  // an aquarium
 }
 
 TEST(MeshParts, SayWhereAndHowMuch) {
@@ -75,37 +75,37 @@ TEST(MeshParts, SayWhereAndHowMuch) {
 
 TEST(MeshParts, ATubeIsOpenThoughItsHolesFaceEachOther) {
   std::vector<Quad> tube = without_first(without_first(box(1)));
-  EXPECT_THAT(kinds(tube), ElementsAre(Kind::open));
+  EXPECT_THAT(kinds(tube), ElementsAre(PartKind::open));
 }
 
 TEST(MeshParts, CracksDoNotOpen) {
   std::vector<Quad> cracked = box(1);
   cracked[0][0].z += 1e-5f;
-  EXPECT_THAT(kinds(cracked), ElementsAre(Kind::closed));
+  EXPECT_THAT(kinds(cracked), ElementsAre(PartKind::closed));
 }
 
 TEST(MeshParts, AnEdgeOfThreeFacesIsNoRim) {
   EXPECT_THAT(kinds(box(1) + std::vector<Quad>{{{{0, 0, 0}, {2, 0, 0}, {2, -1, 0}, {0, -1, 0}}}}),
-              ElementsAre(Kind::open));  // one part, of which the fin has a rim
+              ElementsAre(PartKind::open));  // one part, of which the fin has a rim
 }
 
 TEST(MeshParts, ADoubledFaceIsASheet) {
   const Quad quad = pane(0), back{quad[2], quad[1], quad[0], quad[3]};  // along the same diagonal
   const std::vector<MeshPart> exact = parts({quad, back});
   ASSERT_EQ(exact.size(), 1u);
-  EXPECT_EQ(exact[0].kind, Kind::open);
+  EXPECT_EQ(exact[0].kind, PartKind::open);
   EXPECT_EQ(exact[0].doubles.size(), 2u);
-  EXPECT_THAT(kinds({quad, turned(quad)}), ElementsAre(Kind::folded));  // along the other
+  EXPECT_THAT(kinds({quad, turned(quad)}), ElementsAre(PartKind::folded));  // along the other
 }
 
 TEST(MeshParts, TwoFacesBackToBackAreAPaneWithoutItsRim) {
-  EXPECT_THAT(kinds({pane(0.006f), turned(pane(0))}), ElementsAre(Kind::rimless, Kind::rimless));
+  EXPECT_THAT(kinds({pane(0.006f), turned(pane(0))}), ElementsAre(PartKind::rimless, PartKind::rimless));
   // One behind the other, facing alike; facing each other; beside each other.
-  EXPECT_THAT(kinds({pane(0.016f), pane(0)}), ElementsAre(Kind::open, Kind::open));
-  EXPECT_THAT(kinds({turned(pane(0.006f)), pane(0)}), ElementsAre(Kind::open, Kind::open));
+  EXPECT_THAT(kinds({pane(0.016f), pane(0)}), ElementsAre(PartKind::open, PartKind::open));
+  EXPECT_THAT(kinds({turned(pane(0.006f)), pane(0)}), ElementsAre(PartKind::open, PartKind::open));
   Quad beside = turned(pane(0));
   for (Point3f& p : beside) p.x += 3;
-  EXPECT_THAT(kinds({pane(0.006f), beside}), ElementsAre(Kind::open, Kind::open));
+  EXPECT_THAT(kinds({pane(0.006f), beside}), ElementsAre(PartKind::open, PartKind::open));
 }
 
 TEST(MeshParts, MeshesJoinWhereTheyStand) {
