@@ -11,7 +11,7 @@ namespace vitrail::test {
 namespace {
 
 constexpr std::uint32_t known_revision = 13;
-constexpr const char* known_pictures = "f42e4a55a4d9b196";
+constexpr const char* known_pictures = "6a4f4153bef0b5a0";
 
 std::array<Point3f, 4> tile(float x, float z) {
   return {{{x, 0, z}, {x + 1, 0, z}, {x + 1, 1, z + 0.2f}, {x, 1, z + 0.2f}}};
