@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t bucket_size = 1024, sampling = 8, least_samples = 64;
 constexpr int most_bucket_levels = 24;
+constexpr unsigned wide = 8;             // children of a node of the tree that it becomes
 constexpr int most_levels_by_area = 60;  // below, each level halves what is left: at most 32 more
 
 // To the end, even where an error elsewhere cancels the work that this is a part of: what comes next reads
@@ -71,7 +72,11 @@ std::size_t partition(std::span<const BoxRecord> from, BoxRecord* to, const SahS
 class BucketBuilder {
  public:
   BucketBuilder(unsigned leaf_size, BinaryNode* nodes, std::uint32_t first_node, std::uint32_t* order)
-      : leaf_size_(leaf_size), nodes_(nodes), next_node_(first_node), order_(order) {}
+      : leaf_size_(leaf_size),
+        block_(leaf_size == 1 ? wide : leaf_size),
+        nodes_(nodes),
+        next_node_(first_node),
+        order_(order) {}
 
   // Of `boxes`, whose leaves begin at `first` of the order; `spare` has room for as many.
   Costs build(std::span<BoxRecord> boxes, BoxRecord* spare, std::uint32_t first, int level) {
@@ -86,8 +91,7 @@ class BucketBuilder {
     if (boxes.size() <= leaf_size_) return make_leaf(node, boxes, first);
     std::size_t below = 0;
     if (level < most_levels_by_area)
-      if (const auto split = choose_split(boxes, centres, leaf_size_))
-        below = partition(boxes, spare, *split);
+      if (const auto split = choose_split(boxes, centres, block_)) below = partition(boxes, spare, *split);
     if (below == 0 || below == boxes.size()) {
       below = boxes.size() / 2;
       std::ranges::copy(boxes, spare);
@@ -113,6 +117,7 @@ class BucketBuilder {
   }
 
   unsigned leaf_size_;
+  unsigned block_;  // that a split is to fill: of a leaf, or of a wide node whose children are leaves of one
   BinaryNode* nodes_;
   std::uint32_t next_node_;
   std::uint32_t* order_;
