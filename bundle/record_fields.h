@@ -294,7 +294,7 @@ void fields(auto& io, Is<AreaLight> auto& l) {
 }
 void fields(auto& io, Is<PointLight> auto& l) { fields(io, l.position), fields(io, l.intensity); }
 void fields(auto& io, Is<SpotLight> auto& l) {
-  fields(io, l.light_to_world), fields(io, l.intensity), fields(io, l.beam_deg), fields(io, l.cutoff_deg);
+  fields(io, *l.light_to_world), fields(io, l.intensity), fields(io, l.beam_deg), fields(io, l.cutoff_deg);
   fields(io, l.falloff), fields(io, l.texture);
 }
 // What only lights of the feature `fadings` have, after the fields of their kind.
@@ -311,12 +311,12 @@ void fading_fields(auto& io, auto& l) {
   if constexpr (requires { l.tightness; }) fields(io, l.tightness);
 }
 void fields(auto& io, Is<GoniometricLight> auto& l) {
-  fields(io, l.light_to_world), fields(io, l.intensity), fields(io, l.filename);
+  fields(io, *l.light_to_world), fields(io, *l.intensity), fields(io, l.filename);
   fields(io, l.latitude_longitude), fields(io, l.power);
 }
 void fields(auto& io, Is<EnvironmentLight> auto& l) {
-  fields(io, l.filename), fields(io, l.light_to_world), fields(io, l.projection), fields(io, l.scale);
-  fields(io, l.illuminance), fields(io, l.portal);
+  fields(io, l.filename), fields(io, *l.light_to_world), fields(io, l.projection), fields(io, *l.scale);
+  fields(io, l.illuminance), fields(io, *l.portal);
 }
 // The kind, in its highest bit whether something follows its fields, in the next one whether it casts no
 // shadows (the feature `shadowless`).

@@ -69,10 +69,10 @@ struct LightScaler {
   void operator()(PointLight& l) const { scale_by(l.intensity, factor); }
   void operator()(SpotLight& l) const { scale_by(l.intensity, factor); }
   void operator()(ProjectionLight& l) const { scale_by(l.scale, factor); }
-  void operator()(GoniometricLight& l) const { scale_by(l.intensity, factor); }
+  void operator()(GoniometricLight& l) const { scale_by(*l.intensity, factor); }
   void operator()(DistantLight& l) const { scale_by(l.irradiance, factor); }
   void operator()(InfiniteLight& l) const { scale_by(l.radiance, factor); }
-  void operator()(EnvironmentLight& l) const { scale_by(l.scale, factor); }
+  void operator()(EnvironmentLight& l) const { scale_by(*l.scale, factor); }
   void operator()(SkyLight& l) const {
     l.sky_scale *= static_cast<float>(factor);
     l.sun_scale *= static_cast<float>(factor);

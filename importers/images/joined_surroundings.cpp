@@ -100,7 +100,7 @@ class Joiner {
     } catch (const Error& error) {
       notes_.dropped(fmt::format("an environment light: {}", error.what()));
     }
-    if (light.portal) notes_.dropped("the portal of an environment light: its light comes from everywhere");
+    if (*light.portal) notes_.dropped("the portal of an environment light: its light comes from everywhere");
   }
 
   void add(const auto&) {}  // not from all around

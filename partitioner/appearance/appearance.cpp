@@ -239,6 +239,7 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
   for (std::uint32_t i = 0; i < used.opacities.size(); ++i)
     if (used.opacities[i]) result.opacities[i] = textures.bake(FloatParameter{Id<Texture>{i}});
   const bool glass = is_refracting(result.materials);
+  result.lights.reserve(scene.lights.size());
   for (const Light& light : scene.lights) {
     Light baked = light;
     baked.model = std::visit(LightBaker{textures, location(scene, light.origin)}, light.model);
@@ -252,7 +253,7 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
           light.origin);
     report_endless_medium(scene, light, report);
     const auto* environment = std::get_if<EnvironmentLight>(&light.model);
-    if (environment && environment->portal)
+    if (environment && *environment->portal)
       report.approximated("environment light: its portal is not looked at, it shines from everywhere",
                           light.origin);
   }

@@ -89,12 +89,12 @@ struct LightMover {
   Vector3d offset;
   void operator()(PointLight& l) const { l.position = l.position - offset; }
   void operator()(EnvironmentLight& l) const {
-    if (!l.portal) return;
-    for (Point3d& corner : *l.portal) corner = corner - offset;
+    if (!*std::as_const(l).portal) return;
+    for (Point3d& corner : **l.portal) corner = corner - offset;
   }
   void operator()(DistantLight&) const {}
   void operator()(InfiniteLight&) const {}
-  void operator()(auto& l) const { l.light_to_world = translate(-offset) * l.light_to_world; }
+  void operator()(auto& l) const { l.light_to_world = translate(-offset) * *l.light_to_world; }
 };
 
 void move_records(const Scene& scene, Appearance& appearance, Manifest& m) {

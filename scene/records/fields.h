@@ -141,23 +141,23 @@ auto visit_fields(Is<AreaLight> auto& l, auto&& f) {
 auto visit_fields(Is<Fading> auto& l, auto&& f) { return f(l.fade_distance, l.fade_power); }
 auto visit_fields(Is<PointLight> auto& l, auto&& f) { return f(l.position, l.intensity, l.fading); }
 auto visit_fields(Is<SpotLight> auto& l, auto&& f) {
-  return f(l.light_to_world, l.intensity, l.beam_deg, l.cutoff_deg, l.falloff, l.texture, l.fading,
+  return f(*l.light_to_world, l.intensity, l.beam_deg, l.cutoff_deg, l.falloff, l.texture, l.fading,
            l.tightness);
 }
 auto visit_fields(Is<ProjectionLight> auto& l, auto&& f) {
-  return f(l.light_to_world, l.image, l.scale, l.fov_deg, l.irradiance, l.power);
+  return f(*l.light_to_world, *l.image, l.scale, l.fov_deg, l.irradiance, l.power);
 }
 auto visit_fields(Is<GoniometricLight> auto& l, auto&& f) {
-  return f(l.light_to_world, l.intensity, l.filename, l.latitude_longitude, l.power, l.encoding, l.number);
+  return f(*l.light_to_world, *l.intensity, l.filename, l.latitude_longitude, l.power, l.encoding, l.number);
 }
 auto visit_fields(Is<DistantLight> auto& l, auto&& f) { return f(l.direction, l.irradiance); }
 auto visit_fields(Is<InfiniteLight> auto& l, auto&& f) { return f(l.radiance); }
 auto visit_fields(Is<EnvironmentLight> auto& l, auto&& f) {
-  return f(l.filename, l.light_to_world, l.projection, l.scale, l.illuminance, l.portal, l.encoding,
+  return f(l.filename, *l.light_to_world, l.projection, *l.scale, l.illuminance, *l.portal, l.encoding,
            l.primaries);
 }
 auto visit_fields(Is<SkyLight> auto& l, auto&& f) {
-  return f(l.light_to_world, l.to_sun, l.turbidity, l.albedo, l.sky_scale, l.sun_scale, l.sun_diameter_deg,
+  return f(*l.light_to_world, l.to_sun, l.turbidity, *l.albedo, l.sky_scale, l.sun_scale, l.sun_diameter_deg,
            l.limb_darkening);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "scene/records/boxed.h"
 #include "scene/records/texture.h"
 
 namespace vitrail {
@@ -46,7 +47,7 @@ struct PointLight {
 struct SpotLight {
   // smoothstep of the cosine (pbrt-v4), its fourth power (pbrt-v3), linear in the angle (Mitsuba)
   enum class Falloff : std::uint8_t { smoothstep, quartic, linear };
-  Transform light_to_world;
+  Boxed<Transform> light_to_world;
   Spectrum intensity;
   float beam_deg = 25, cutoff_deg = 30;
   Falloff falloff = Falloff::smoothstep;
@@ -62,8 +63,8 @@ struct SpotLight {
 // irradiance on a plane across the axis at distance 1 (Mitsuba), which is less by cos³. `fov_deg` is measured
 // on the image's shorter axis (pbrt) or its width (Mitsuba).
 struct ProjectionLight {
-  Transform light_to_world;
-  SpectrumParameter image;
+  Boxed<Transform> light_to_world;
+  Boxed<SpectrumParameter> image;
   Spectrum scale = ConstantSpectrum{1};
   float fov_deg = 90;
   bool irradiance = false;     // Mitsuba's measures
@@ -73,8 +74,8 @@ struct ProjectionLight {
 
 // A point light whose intensity in every direction is `intensity` times an image of it.
 struct GoniometricLight {
-  Transform light_to_world;
-  Spectrum intensity;
+  Boxed<Transform> light_to_world;
+  Boxed<Spectrum> intensity;
   std::string filename;  // absolute; equal-area octahedral (pbrt-v4) or latitude-longitude (v3)
   bool latitude_longitude = false;
   std::optional<float> power;
@@ -103,12 +104,12 @@ struct InfiniteLight {
 struct EnvironmentLight {
   enum class Projection : std::uint8_t { equal_area, latitude_longitude };
   std::string filename;  // absolute
-  Transform light_to_world;
+  Boxed<Transform> light_to_world;
   Projection projection = Projection::equal_area;
-  Spectrum scale = ConstantSpectrum{1};
-  std::optional<float> illuminance;              // of an upward plane, lx; sets the scale of the image
-  std::optional<std::array<Point3d, 4>> portal;  // light enters the scene only through this rectangle
-  Encoding encoding = Encoding::automatic;       // of the image
+  Boxed<Spectrum> scale = Spectrum{ConstantSpectrum{1}};
+  std::optional<float> illuminance;                     // of an upward plane, lx; sets the scale of the image
+  Boxed<std::optional<std::array<Point3d, 4>>> portal;  // light enters the scene only through this rectangle
+  Encoding encoding = Encoding::automatic;              // of the image
   Primaries primaries = Primaries::file;
   bool operator==(const EnvironmentLight&) const = default;
 };
@@ -116,13 +117,13 @@ struct EnvironmentLight {
 // The clear sky and the sun's disc, by the model of scene/daylight/sky_model.h. In the light's frame +z is
 // the zenith; nothing shines from below the horizon, or with the sun there.
 struct SkyLight {
-  Transform light_to_world;
-  Vector3d to_sun{0, 0, 1};                  // unit, in the light's frame
-  float turbidity = 3;                       // 1 … 10, held beyond
-  Spectrum albedo = ConstantSpectrum{0.3f};  // of the ground, 0 … 1
-  float sky_scale = 1, sun_scale = 1;        // 0: without it
-  float sun_diameter_deg = 0.5358f;          // another one spreads the same irradiance
-  bool limb_darkening = true;                // else the disc is uniform
+  Boxed<Transform> light_to_world;
+  Vector3d to_sun{0, 0, 1};                                   // unit, in the light's frame
+  float turbidity = 3;                                        // 1 … 10, held beyond
+  Boxed<Spectrum> albedo = Spectrum{ConstantSpectrum{0.3f}};  // of the ground, 0 … 1
+  float sky_scale = 1, sun_scale = 1;                         // 0: without it
+  float sun_diameter_deg = 0.5358f;                           // another one spreads the same irradiance
+  bool limb_darkening = true;                                 // else the disc is uniform
   bool operator==(const SkyLight&) const = default;
 };
 
@@ -145,10 +146,10 @@ struct LightModel : LightVariant {
 struct Light {
   LightModel model;
   Origin origin;
-  std::string name = {};  // "" where the file gives none
   // Of point and spot lights; false: nothing stands in the way of what they send straight to a surface, which
   // shows no highlight of theirs (FinishMaterial), as of POV-Ray's `shadowless` lamps.
   bool casts_shadows = true;
+  std::string name = {};  // "" where the file gives none
   bool operator==(const Light&) const = default;
 };
 

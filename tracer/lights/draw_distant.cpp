@@ -33,9 +33,9 @@ bool draw_distant(const LightQuery& query, std::uint32_t index, LightSample& sam
 
 SampledSpectrum discs(const LightSampler& s, Vector3d direction, const SampledWavelengths& wavelengths) {
   SampledSpectrum sum;
-  for (const LightSampler::Distant& d : s.distant)
-    if (const Vector3d local = d.frame.to_light(direction); d.sun && d.sun->meets_sun(local))
-      sum = sum + d.sun->sun(local, wavelengths);
+  for (const std::uint32_t i : s.suns)
+    if (const LightSampler::Distant& d = s.distant[i]; d.sun->meets_sun(d.frame.to_light(direction)))
+      sum = sum + d.sun->sun(d.frame.to_light(direction), wavelengths);
   return sum;
 }
 

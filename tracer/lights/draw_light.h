@@ -18,8 +18,8 @@ struct LightQuery {
 
 // Each of these fills in a sample whose values are those that it is made with, in place, as copies cost as
 // much as the rest; false where nothing arrives. pdf: given the light, but of environments.
-// `choice`: in [0,1), of one of the triangle's parts.
-bool draw_slot(const LightQuery& query, const LightSampler::Slot& slot, double choice, LightSample& sample);
+// `slot`: of the tree's order. `choice`: in [0,1), of one of the triangle's parts.
+bool draw_slot(const LightQuery& query, std::uint32_t slot, double choice, LightSample& sample);
 bool draw_triangle(const LightQuery& query, const LightSampler::Slot& slot, double choice,
                    LightSample& sample);
 bool draw_quadric(const LightQuery& query, const LightSampler::Slot& slot, LightSample& sample);

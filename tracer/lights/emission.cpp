@@ -39,8 +39,10 @@ Emission::Emission(const LightSampler& lights, const Bounds3f& bounds, Point3d e
   std::vector<double> flux;
   for (const LightBounds& b : surface_lights(lights.scene, lights.quadrics).bounds) flux.push_back(b.power);
   for (const PointEmitter& e : lights.emitters) {
-    flux.push_back(e.bounds.power);
-    directions_.emplace_back(e, lights.scene);
+    flux.push_back(lights.bounds_of_emitter(e).power);
+    if (directions_of_.empty() || e.shape != lights.emitters[directions_of_.size() - 1].shape)
+      directions_.emplace_back(*e.shape, lights.scene);
+    directions_of_.push_back(static_cast<std::uint32_t>(directions_.size() - 1));
   }
   for (const LightSampler::Distant& d : lights.distant) flux.push_back(disc * luminance(d.irradiance));
   for (const Environment& e : lights.environments) flux.push_back(disc * 4 * pi * e.mean_luminance);
@@ -57,7 +59,7 @@ Emission::Emission(const LightSampler& lights, const Bounds3f& bounds, Point3d e
   cumulative_.push_back(0);
   for (const double f : flux) cumulative_.push_back(cumulative_.back() + f / flux_);
   for (double& sum : cumulative_) sum /= cumulative_.back();
-  guide_ = GuideTable(cumulative_, std::min<std::size_t>(flux.size(), 1 << 16));
+  guide_ = GuideTable(cumulative_, flux.size());
 }
 
 EmittedPhoton Emission::sample(const std::array<float, 4>& place, const std::array<float, 4>& way,
@@ -163,7 +165,7 @@ EmittedPhoton Emission::of_emitter(std::uint32_t emitter, const std::array<float
   EmittedPhoton photon;
   photon.p = e.position;
   if (e.fading) photon.fading = &e;
-  const EmitterDirections::Way chosen = directions_[emitter].sample(way[0], way[1], way[2]);
+  const EmitterDirections::Way chosen = directions_[directions_of_[emitter]].sample(way[0], way[1], way[2]);
   photon.direction = chosen.direction;
   if (!(chosen.pdf > 0)) return photon;
   photon.power = intensity(e, photon.direction, lights_.scene.textures, wavelengths) *

@@ -69,7 +69,8 @@ class Emission {
     double radius = 0;
   };
   const LightSampler& lights_;
-  std::vector<EmitterDirections> directions_;  // of the emitters
+  std::vector<EmitterDirections> directions_;  // of the emitters' shapes
+  std::vector<std::uint32_t> directions_of_;   // of each emitter, which
   std::vector<Sphere> spheres_;                // that discs cover, the scene's first
   double flux_ = 0;
   // Of all lights by LightSampler's numbers: sums of their shares, from 0 to 1.

@@ -11,19 +11,19 @@
 
 namespace vitrail {
 
-EmitterDirections::EmitterDirections(const PointEmitter& emitter, const LightScene& scene) {
+EmitterDirections::EmitterDirections(const EmitterShape& shape, const LightScene& scene) {
   // Sheared or stretched, what is uniform for the light is not so in the world.
-  if (!emitter.is_rigid) return;
-  if (is_invertible(emitter.world_to_light)) light_to_world_ = inverse(emitter.world_to_light);
-  if (const auto* spot = std::get_if<PointEmitter::Spot>(&emitter.shape))
-    how_ = Cone{normalize(emitter.bounds.axis), spot->cos_cutoff};
-  else if (const auto* projection = std::get_if<PointEmitter::Projection>(&emitter.shape))
+  if (!shape.is_rigid) return;
+  if (is_invertible(shape.world_to_light)) light_to_world_ = inverse(shape.world_to_light);
+  if (const auto* spot = std::get_if<SpotShape>(&shape.kind))
+    how_ = Cone{normalize(shape.axis), std::max(spot->cos_cutoff, -1.0)};
+  else if (const auto* projection = std::get_if<ProjectionShape>(&shape.kind))
     tabulate(*projection, scene);
-  else if (const auto* goniometric = std::get_if<PointEmitter::Goniometric>(&emitter.shape))
+  else if (const auto* goniometric = std::get_if<GoniometricShape>(&shape.kind))
     tabulate(*goniometric);
 }
 
-void EmitterDirections::tabulate(const PointEmitter::Projection& projection, const LightScene& scene) {
+void EmitterDirections::tabulate(const ProjectionShape& projection, const LightScene& scene) {
   constexpr double alike = 0.1;  // of all directions that may shine
   const std::vector<FramePart> parts =
       parts_of_frame(projection.image, projection.half, projection.irradiance, Cells::side, scene.textures,
@@ -40,7 +40,7 @@ void EmitterDirections::tabulate(const PointEmitter::Projection& projection, con
   how_ = std::move(cells);
 }
 
-void EmitterDirections::tabulate(const PointEmitter::Goniometric& goniometric) {
+void EmitterDirections::tabulate(const GoniometricShape& goniometric) {
   how_ = tabulate_image(*goniometric.image, goniometric.projection(), false).table;
 }
 

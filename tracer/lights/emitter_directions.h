@@ -14,7 +14,7 @@ namespace vitrail {
 // wherever that may shine.
 class EmitterDirections {
  public:
-  EmitterDirections(const PointEmitter& emitter, const LightScene& scene);
+  EmitterDirections(const EmitterShape& shape, const LightScene& scene);
 
   struct Way {
     Vector3d direction;  // unit, of the world
@@ -36,8 +36,8 @@ class EmitterDirections {
     std::vector<double> cumulative;
     GuideTable guide;
   };
-  void tabulate(const PointEmitter::Projection& projection, const LightScene& scene);
-  void tabulate(const PointEmitter::Goniometric& goniometric);
+  void tabulate(const ProjectionShape& projection, const LightScene& scene);
+  void tabulate(const GoniometricShape& goniometric);
   Way in_cells(const Cells& cells, float u, float v, float choice) const;
 
   std::variant<Cone, Cells, DirectionTable> how_{Cone{{0, 0, 1}, -1}};

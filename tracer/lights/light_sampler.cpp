@@ -7,7 +7,9 @@
 
 namespace vitrail {
 
-bool draw_slot(const LightQuery& query, const LightSampler::Slot& slot, double choice, LightSample& sample) {
+bool draw_slot(const LightQuery& query, std::uint32_t number, double choice, LightSample& sample) {
+  if (query.lights.slots.empty()) return draw_emitter(query, query.lights.light_of(number).index, sample);
+  const LightSampler::Slot& slot = query.lights.slots[number];
   switch (slot.light.kind) {
     case LightKind::triangle:
       return draw_triangle(query, slot, choice, sample);
@@ -27,7 +29,7 @@ bool LightChooser::draw_from_tree(const LightQuery& query, double choice, LightS
   const LightSampler& s = sampler_;
   const auto chosen = tree_.choose(choice);
   if (!chosen) return false;
-  const bool drawn = draw_slot(query, s.slots[chosen->slot], chosen->rest, sample);
+  const bool drawn = draw_slot(query, chosen->slot, chosen->rest, sample);
   sample.pdf *= chosen->probability * s.share[LightNumbers::choice_of_tree];
   return drawn;
 }
@@ -36,15 +38,14 @@ bool LightChooser::draw(const LightQuery& query, LightSample& sample) {
   const LightSampler& s = sampler_;
   if (s.three_numbers) return draw_from_tree(query, static_cast<double>(query.u[2]), sample);
   if (s.share.empty()) return false;
-  double rest = static_cast<double>(query.u[3]);
-  std::size_t choice = 0;
-  while (choice + 1 < s.share.size() && rest >= s.share[choice]) rest -= s.share[choice++];
+  const auto u = static_cast<double>(query.u[3]);
+  const std::size_t choice = s.choice_of(u);
   const double share = s.share[choice];
   if (!(share > 0)) return false;
 
   if (choice == LightNumbers::choice_of_tree) {
     // What is left of u[3] refines u[2]: 24 bits cannot reach every one of many lights.
-    const double fine = std::clamp(rest / share, 0.0, 0x1.fffffp-1);
+    const double fine = std::clamp(u / share, 0.0, 0x1.fffffp-1);
     const double in_tree = std::min(static_cast<double>(query.u[2]) + fine * 0x1p-24, 0x1.fffffffffffffp-1);
     return draw_from_tree(query, in_tree, sample);
   }

@@ -2,6 +2,7 @@
 // Choosing a light and a point on it to connect to, and what lights emit where a ray finds them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -21,6 +22,7 @@
 #include "tracer/lights/quadric_light.h"
 #include "tracer/lights/triangle_parts.h"
 #include "tracer/sampling/flat_spectrum.h"
+#include "tracer/sampling/guide_table.h"
 #include "tracer/sampling/wavelengths.h"
 #include "tracer/textures/textures.h"
 
@@ -76,7 +78,8 @@ struct LightSampler {
     FloatParameter opacity = 1.0f;
   };
   static_assert(sizeof(Slot) == 64);
-  std::vector<Slot> slots;  // in the tree's order
+  std::vector<Slot> slots;  // in the tree's order; empty where there are no surfaces in it
+  LightRef light_of(std::size_t slot) const { return numbers.light(tree.order()[slot]); }
   // What follows from the corners of a triangle, of each; empty where they are so many that reading it would
   // take longer than making it anew.
   struct Face {
@@ -101,6 +104,7 @@ struct LightSampler {
   std::vector<QuadricLight> quadrics;
   std::vector<Glow> glows;  // of the area lights
   std::vector<PointEmitter> emitters;
+  LightBounds bounds_of_emitter(const PointEmitter& emitter) const;  // power: luminous flux
   // Light of one direction. The sun of a sky is one where something refracts: no sample of a BSDF would find
   // its disc through glass, and of a disc a connection could not tell where behind the glass it ends. So each
   // path and each photon sees one point of the disc.
@@ -115,11 +119,15 @@ struct LightSampler {
     // For one of those directions.
     SampledSpectrum irradiance_from(Vector3d to_light, const SampledWavelengths& wavelengths) const;
   };
-  std::vector<Distant> distant;
+  std::vector<Distant> distant;     // ascending by their lights
+  std::vector<std::uint32_t> suns;  // those of them that are suns
   std::vector<Environment> environments;
   std::vector<std::uint32_t> infinite;  // index into scene.lights
   std::vector<FlatSpectrum> constant;   // their radiances
   std::vector<double> share;            // of each of LightNumbers' choices; sums to 1, empty: no light
+  std::vector<double> share_sums;       // of the shares before each, and of all: 1
+  GuideTable share_guide;               // of the sums
+  std::size_t choice_of(double u) const { return share_guide.bin(share_sums, u); }  // u in [0,1)
 
   // The global ids [first, first + count) are triangles and quadrics that emit, numbered from `number` on.
   struct Run {
@@ -140,12 +148,12 @@ struct LightSampler {
   std::size_t first_environment() const { return LightNumbers::choice_of_tree + 1 + distant.size(); }
   // Whether sample_light may ever give something.
   bool can_sample() const { return !share.empty(); }
-  bool has_discs = false;  // some distant light is a sun
   // A scattered ray finds no light that connections go to as well.
   bool has_only_glows = false;
   bool fades = false;  // some emitter does, as POV-Ray's
   // Whether background's radiance may be other than 0, or that of discs.
-  bool has_background() const { return !infinite.empty() || !environments.empty() || has_discs; }
+  bool has_background() const { return !infinite.empty() || !environments.empty() || has_discs(); }
+  bool has_discs() const { return !suns.empty(); }
 };
 
 // Opens an image by its name in the records.
@@ -248,18 +256,24 @@ void each_background_light(const LightSampler& sampler, Vector3d direction,
     see(i, evaluate(std::get<InfiniteLight>(sampler.scene.lights[i].model).radiance, wavelengths));
   for (const Environment& e : sampler.environments)
     see(e.light, value_towards(e, direction, wavelengths).radiance);
-  for (const LightSampler::Distant& d : sampler.distant)
-    if (const Vector3d local = d.frame.to_light(direction); d.sun && d.sun->meets_sun(local))
-      see(d.light, d.sun->sun(local, wavelengths));
+  for (const std::uint32_t i : sampler.suns)
+    if (const LightSampler::Distant& d = sampler.distant[i]; d.sun->meets_sun(d.frame.to_light(direction)))
+      see(d.light, d.sun->sun(d.frame.to_light(direction), wavelengths));
 }
 
 // Whether `accept` any of the directions to distant lights whose numbers (LightSampler::Distant::light) are
-// `bits` where `mask` is set. `far` as of sample_light.
+// `bits` where `mask`, which is 2ⁿ − 1, is set. `far` as of sample_light.
 template <class Accept>
 bool any_distant_light(const LightSampler& sampler, std::uint32_t bits, std::uint32_t mask,
                        const std::array<float, 2>& far, Accept&& accept) {
-  for (const LightSampler::Distant& d : sampler.distant)
-    if ((d.light & mask) == bits && accept(d.to_light(far[0], far[1]))) return true;
+  auto at = sampler.distant.begin();
+  for (std::uint64_t light = bits; at != sampler.distant.end(); light += std::uint64_t{mask} + 1) {
+    at = std::lower_bound(
+        at, sampler.distant.end(), light,
+        [](const LightSampler::Distant& d, std::uint64_t number) { return d.light < number; });
+    if (at != sampler.distant.end() && at->light == light && accept(at->to_light(far[0], far[1])))
+      return true;
+  }
   return false;
 }
 

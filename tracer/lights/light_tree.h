@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -68,8 +69,10 @@ void weigh(const LightNode& node, Point3f p, LightWeights& result);
 class LightTree {
  public:
   LightTree() = default;
-  // Lights without power are never chosen.
+  // Lights without power are never chosen. bounds(i): of light i, asked for several times.
   LightTree(std::span<const LightBounds> lights, LightChoice choice);
+  using BoundsOf = std::function<LightBounds(std::uint32_t)>;
+  LightTree(std::size_t lights, const BoundsOf& bounds, LightChoice choice);
 
   struct Chosen {
     std::uint32_t slot = 0;

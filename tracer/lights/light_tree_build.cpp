@@ -104,23 +104,24 @@ constexpr int deepest_by_cost = 10;
 
 class LightTreeBuilder {
  public:
-  LightTreeBuilder(LightTree& tree, std::span<const LightBounds> lights) : tree_(tree), lights_(lights) {}
+  LightTreeBuilder(LightTree& tree, std::size_t lights, const LightTree::BoundsOf& bounds)
+      : tree_(tree), count_(lights), bounds_(bounds) {}
 
   void build() {
-    order_.reserve(lights_.size());
-    cap_.reserve(lights_.size());
-    tree_.nodes_.reserve(lights_.size() / 4 + 1);  // room that is not used takes no memory
-    for (std::uint32_t i = 0; i < lights_.size(); ++i) {
-      if (lights_[i].power > 0 && std::isfinite(lights_[i].power)) order_.push_back(i);
-      cap_.push_back((1 + (lights_[i].theta_o_rad > 0 ? portable_cos(lights_[i].theta_o_rad) : 1)) / 2);
-    }
-    tree_.slot_.assign(lights_.size(), LightTree::absent);
-    if (order_.empty()) return;
+    order_.reserve(count_);
+    cap_.reserve(count_);
+    tree_.nodes_.reserve(count_ / 4 + 1);  // room that is not used takes no memory
     Bounds3d all;
-    for (const std::uint32_t i : order_) {
-      extend(all, lights_[i].box);
-      tree_.power_ += lights_[i].power;
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      const LightBounds light = bounds_(i);
+      cap_.push_back((1 + (light.theta_o_rad > 0 ? portable_cos(light.theta_o_rad) : 1)) / 2);
+      if (!(light.power > 0 && std::isfinite(light.power))) continue;
+      order_.push_back(i);
+      extend(all, light.box);
+      tree_.power_ += light.power;
     }
+    tree_.slot_.assign(count_, LightTree::absent);
+    if (order_.empty()) return;
     tree_.center_ = center(all);
     const Vector3d e = extent(all);
     const double half = std::max({e.x, e.y, e.z}) / 2;
@@ -144,11 +145,11 @@ class LightTreeBuilder {
     return above;
   }
 
-  double coordinate(std::uint32_t light, int axis) const { return center(lights_[light].box)[axis]; }
+  double coordinate(std::uint32_t light, int axis) const { return center(bounds_(light).box)[axis]; }
 
   Bounds3d centers_of(Range r) const {
     Bounds3d b;
-    for (std::size_t i = r.begin; i < r.end; ++i) extend(b, center(lights_[order_[i]].box));
+    for (std::size_t i = r.begin; i < r.end; ++i) extend(b, center(bounds_(order_[i]).box));
     return b;
   }
 
@@ -170,16 +171,21 @@ class LightTreeBuilder {
     const double longest = std::max({e.x, e.y, e.z});
     double best = std::numeric_limits<double>::infinity();
     int best_axis = -1, best_plane = 0;
-    const auto slab = [&](std::uint32_t light, int axis) {
-      const double x = (coordinate(light, axis) - centers.lower[axis]) / e[axis] * buckets;
+    const auto slab = [&](const LightBounds& light, int axis) {
+      const double x = (center(light.box)[axis] - centers.lower[axis]) / e[axis] * buckets;
       return std::clamp(static_cast<int>(x), 0, buckets - 1);
     };
+    std::array<std::array<Slab, buckets>, 3> slabs_of;
+    for (std::size_t i = r.begin; i < r.end; ++i) {
+      const LightBounds light = bounds_(order_[i]);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (const int a = static_cast<int>(axis); e[a] > 1e-9 * longest)
+          slabs_of[axis][static_cast<std::size_t>(slab(light, a))].add(light, cap_[order_[i]]);
+    }
     for (int axis = 0; axis < 3; ++axis) {
       if (!(e[axis] > 1e-9 * longest)) continue;
-      std::array<Slab, buckets> slabs, above;
-      for (std::size_t i = r.begin; i < r.end; ++i)
-        slabs[static_cast<std::size_t>(slab(order_[i], axis))].add(lights_[order_[i]], cap_[order_[i]]);
-      above = slabs;
+      const std::array<Slab, buckets>& slabs = slabs_of[static_cast<std::size_t>(axis)];
+      std::array<Slab, buckets> above = slabs;
       for (std::size_t i = buckets - 1; i-- > 0;) above[i].add(above[i + 1]);
       Slab below;
       for (int plane = 1; plane < buckets; ++plane) {
@@ -191,8 +197,9 @@ class LightTreeBuilder {
       }
     }
     if (best_axis < 0) return r.begin;
-    const auto middle = std::stable_partition(
-        at(r.begin), at(r.end), [&](std::uint32_t light) { return slab(light, best_axis) < best_plane; });
+    const auto middle = std::stable_partition(at(r.begin), at(r.end), [&](std::uint32_t light) {
+      return slab(bounds_(light), best_axis) < best_plane;
+    });
     return static_cast<std::size_t>(middle - order_.begin());
   }
 
@@ -227,7 +234,7 @@ class LightTreeBuilder {
     LightCluster sum;
     for (std::size_t lane = 0; lane < count; ++lane) {
       const Range r = parts[lane];
-      const LightCluster part = r.size() == 1 ? cluster_of(lights_[order_[r.begin]])
+      const LightCluster part = r.size() == 1 ? cluster_of(bounds_(order_[r.begin]))
                                               : build_node(node.children + node.below[lane], r, depth + 1);
       set_lane(node, lane, part);
       sum = united(sum, part);
@@ -242,7 +249,7 @@ class LightTreeBuilder {
     for (std::uint32_t slot = 0; slot < order_.size(); ++slot) {
       tree_.slot_[order_[slot]] = slot;
       tree_.sums_.push_back(sum / tree_.power_);
-      sum += lights_[order_[slot]].power;
+      sum += bounds_(order_[slot]).power;
     }
     tree_.sums_.push_back(sum / tree_.power_);
     tree_.order_ = std::move(order_);
@@ -274,13 +281,18 @@ class LightTreeBuilder {
   }
 
   LightTree& tree_;
-  std::span<const LightBounds> lights_;
+  std::size_t count_;
+  const LightTree::BoundsOf& bounds_;
   std::vector<std::uint32_t> order_;
   std::vector<double> cap_;  // of each light: the mean resultant length of its own cone, (1 + cos θ_o)/2
 };
 
-LightTree::LightTree(std::span<const LightBounds> lights, LightChoice choice) : choice_(choice) {
-  LightTreeBuilder(*this, lights).build();
+LightTree::LightTree(std::size_t lights, const BoundsOf& bounds, LightChoice choice) : choice_(choice) {
+  LightTreeBuilder(*this, lights, bounds).build();
 }
+
+LightTree::LightTree(std::span<const LightBounds> lights, LightChoice choice)
+    : LightTree(
+          lights.size(), [&](std::uint32_t i) { return lights[i]; }, choice) {}
 
 }  // namespace vitrail

@@ -48,6 +48,12 @@ void by_projection(LightBounds& surface) {
   surface.power *= cosine > 0 ? (1 + cosine) / 2 : 0.5 / (1 - cosine);
 }
 
+bool is_point_like(const Light& light) {
+  return std::holds_alternative<PointLight>(light.model) || std::holds_alternative<SpotLight>(light.model) ||
+         std::holds_alternative<ProjectionLight>(light.model) ||
+         std::holds_alternative<GoniometricLight>(light.model);
+}
+
 // Sorts the lights by how they are chosen.
 struct Sorter {
   LightSampler& s;
@@ -89,7 +95,7 @@ struct Sorter {
   void add(LightSampler::Distant d) {
     const double power = luminance(d.irradiance) * cross_section;
     if (!(power > 0) || !(length(d.direction) > 0.5)) return;
-    s.has_discs = s.has_discs || d.sun;
+    if (d.sun) s.suns.push_back(static_cast<std::uint32_t>(s.distant.size()));
     s.distant.push_back(std::move(d));
     distant_power.push_back(power);
   }
@@ -100,24 +106,14 @@ struct Sorter {
     s.environments.push_back(std::move(e));
   }
   void add(PointEmitter e) {
-    bound_fading(e, farthest_from(e.position));
     s.fades = s.fades || e.fading;
     e.light = light;
     e.casts_shadows = s.scene.lights[light].casts_shadows;
     s.emitters.push_back(std::move(e));
   }
-  // Of the corners of the scene's bounds; 1 where it has none.
-  double farthest_from(Point3d p) const {
-    if (s.scene.bounds.empty()) return 1;
-    Vector3d most;
-    const Point3d lower = cast<double>(s.scene.bounds.lower), upper = cast<double>(s.scene.bounds.upper);
-    for (int axis = 0; axis < 3; ++axis)
-      most[axis] = std::max(std::abs(lower[axis] - p[axis]), std::abs(upper[axis] - p[axis]));
-    return std::max(length(most), 1e-15);
-  }
 };
 
-void find_variety(std::span<const LightBounds> lights, LightSampler& s) {
+void find_variety(const LightTree::BoundsOf& bounds, LightSampler& s) {
   const std::span<const std::uint32_t> chosen = s.tree.order();
   s.one_is_enough =
       !s.distant.empty() || !s.environments.empty() || (chosen.size() == 1 && s.emitters.size() == 1);
@@ -127,16 +123,14 @@ void find_variety(std::span<const LightBounds> lights, LightSampler& s) {
   s.tree_chooses = plain && (chosen.size() > 2 || !s.emitters.empty());
   if (s.one_is_enough || s.tree_chooses || !plain) return;
   Bounds3d box;
-  for (const std::uint32_t number : chosen) extend(box, lights[number].box);
+  for (const std::uint32_t number : chosen) extend(box, bounds(number).box);
   s.lamp_center = box.lower + (box.upper - box.lower) * 0.5;
   s.lamp_radius2 = dot(box.upper - s.lamp_center, box.upper - s.lamp_center);
 }
 
 // Two triangles side by side in one plane, as rectangles are: what one or the other sends to a point differs
 // by less than it is worth to weigh them there.
-bool is_one_flat_lamp(std::span<const LightBounds> lights) {
-  if (lights.size() != 2) return false;
-  const LightBounds &a = lights[0], &b = lights[1];
+bool is_one_flat_lamp(const LightBounds& a, const LightBounds& b) {
   constexpr double all_around = 1.5;  // not along the normal alone
   constexpr double unlike = 16;       // an image may leave one of them dark
   if (std::max(a.power, b.power) > unlike * std::min(a.power, b.power)) return false;
@@ -154,31 +148,28 @@ void prepare_quadrics(LightSampler& s) {
     s.quadrics.emplace_back(q, s.scene.area_lights[q.area_light].two_sided, patches);
 }
 
-// Of all lights of the tree, by their numbers; with what is known of surfaces beside.
-std::vector<LightBounds> bounds_of_tree(LightSampler& s) {
+// Of the surfaces that shine; with what is known of them beside.
+std::vector<LightBounds> bounds_of_surfaces(LightSampler& s) {
   SurfaceLights shining = surface_lights(s.scene, s.quadrics);
   s.glows = std::move(shining.glows);
   s.parts = std::move(shining.parts);
   s.parts_of = std::move(shining.parts_of);
-  std::vector<LightBounds> local = std::move(shining.bounds);
-  for (const PointEmitter& e : s.emitters) local.push_back(e.bounds);
-  return local;
+  return std::move(shining.bounds);
 }
 
-double flux_of(std::span<const LightBounds> lights) {
-  double flux = 0;
-  for (const LightBounds& b : lights)
-    if (std::isfinite(b.power)) flux += b.power;
-  return flux;
+// Of a light of the tree by its number. Those of emitters are made when they are asked for, as a hundred
+// bytes of each would be a third of all that many lights take.
+LightBounds bounds_in_tree(const LightSampler& s, std::span<const LightBounds> surfaces,
+                           std::uint32_t number) {
+  return number < surfaces.size() ? surfaces[number]
+                                  : s.bounds_of_emitter(s.emitters[number - surfaces.size()]);
 }
 
 // Flux becomes the power that counts for the tree.
-void weigh_for_tree(const LightNumbers& numbers, std::span<LightBounds> lights) {
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    const LightKind kind = numbers.light(i).kind;
-    if (kind == LightKind::quadric) by_projection(lights[i]);
-    if (kind == LightKind::emitter) by_intensity(lights[i]);
-  }
+LightBounds weighed_for_tree(LightBounds bounds, LightKind kind) {
+  if (kind == LightKind::quadric) by_projection(bounds);
+  if (kind == LightKind::emitter) by_intensity(bounds);
+  return bounds;
 }
 
 LightSampler::Slot slot_of(const LightSampler& s, LightRef light) {
@@ -197,6 +188,13 @@ LightSampler::Slot slot_of(const LightSampler& s, LightRef light) {
   return slot;
 }
 
+// Where all lights of the tree are points, there is nothing in a slot.
+void fill_slots(LightSampler& s) {
+  if (s.scene.triangles.empty() && s.quadrics.empty()) return;
+  s.slots.reserve(s.tree.order().size());
+  for (const std::uint32_t number : s.tree.order()) s.slots.push_back(slot_of(s, s.numbers.light(number)));
+}
+
 // Half of them equal, half by power, of the choices that have any; empty where none has. `flux`: of the tree.
 std::vector<double> shares_of(double flux, const Sorter& sorter) {
   std::vector<double> power{flux};
@@ -212,13 +210,36 @@ std::vector<double> shares_of(double flux, const Sorter& sorter) {
   return share;
 }
 
+void set_shares(LightSampler& s, std::vector<double> shares) {
+  s.share = std::move(shares);
+  if (s.share.empty()) return;
+  s.share_sums.push_back(0);
+  for (const double share : s.share) s.share_sums.push_back(s.share_sums.back() + share);
+  s.share_guide = GuideTable(s.share_sums, s.share.size());
+}
+
+// Of the corners of the bounds; 1 where there are none.
+double farthest_from(Point3d p, const Bounds3f& bounds) {
+  if (bounds.empty()) return 1;
+  Vector3d most;
+  const Point3d lower = cast<double>(bounds.lower), upper = cast<double>(bounds.upper);
+  for (int axis = 0; axis < 3; ++axis)
+    most[axis] = std::max(std::abs(lower[axis] - p[axis]), std::abs(upper[axis] - p[axis]));
+  return std::max(length(most), 1e-15);
+}
+
 }  // namespace
+
+LightBounds LightSampler::bounds_of_emitter(const PointEmitter& emitter) const {
+  return bounds_of(emitter, emitter.fading ? farthest_from(emitter.position, scene.bounds) : 0);
+}
 
 LightSampler make_light_sampler(const LightScene& scene, const ImageSource& images, LightChoice choice) {
   constexpr std::size_t few = 1 << 12;
   LightSampler s;
   s.scene = scene;
   const double diagonal = scene.bounds.empty() ? 1 : length(cast<double>(extent(scene.bounds)));
+  s.emitters.reserve(static_cast<std::size_t>(std::ranges::count_if(scene.lights, is_point_like)));
   Sorter sorter{s, images, pi * std::max(diagonal * diagonal / 4, 1e-30)};
   for (; sorter.light < scene.lights.size(); ++sorter.light)
     std::visit(sorter, scene.lights[sorter.light].model);
@@ -226,19 +247,25 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   prepare_quadrics(s);
   s.numbers = LightNumbers({scene.triangles.size(), s.quadrics.size(), s.emitters.size(), s.distant.size(),
                             s.environments.size(), s.infinite.size()});
-  std::vector<LightBounds> local = bounds_of_tree(s);
-  const double flux = flux_of(local);
-  if (choice == LightChoice::tree) weigh_for_tree(s.numbers, local);
-  if (scene.triangles.size() == 2 && is_one_flat_lamp(local)) choice = LightChoice::power;
-  s.tree = LightTree(local, choice);
-  s.share = shares_of(flux, sorter);
+  std::vector<LightBounds> surfaces = bounds_of_surfaces(s);
+  const std::size_t in_tree = surfaces.size() + s.emitters.size();
+  double flux = 0;
+  for (std::uint32_t i = 0; i < in_tree; ++i)
+    if (const double power = bounds_in_tree(s, surfaces, i).power; std::isfinite(power)) flux += power;
+  const LightTree::BoundsOf bounds = [&, weighs = choice == LightChoice::tree](std::uint32_t i) {
+    const LightBounds of_flux = bounds_in_tree(s, surfaces, i);
+    return weighs ? weighed_for_tree(of_flux, s.numbers.light(i).kind) : of_flux;
+  };
+  if (in_tree == 2 && scene.triangles.size() == 2 && is_one_flat_lamp(surfaces[0], surfaces[1]))
+    choice = LightChoice::power;
+  s.tree = LightTree(in_tree, bounds, choice);
+  set_shares(s, shares_of(flux, sorter));
   if (!s.share.empty()) {
-    s.three_numbers = s.share[LightNumbers::choice_of_tree] == 1 && local.size() <= few;
-    find_variety(local, s);
+    s.three_numbers = s.share[LightNumbers::choice_of_tree] == 1 && in_tree <= few;
+    find_variety(bounds, s);
   }
-  local = std::vector<LightBounds>();  // the slots take its room
-  s.slots.reserve(s.tree.order().size());
-  for (const std::uint32_t number : s.tree.order()) s.slots.push_back(slot_of(s, s.numbers.light(number)));
+  surfaces = std::vector<LightBounds>();  // the slots take its room
+  fill_slots(s);
   if (scene.triangles.size() <= LightSampler::most_faces)
     for (const EmissiveTriangle& t : scene.triangles) s.faces.emplace_back(t.p);
   s.runs = runs_of(scene);

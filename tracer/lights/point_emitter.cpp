@@ -29,18 +29,16 @@ struct DirectionalPart {
   const Textures* textures;
   const SampledWavelengths& wavelengths;
 
-  SampledSpectrum operator()(const PointEmitter::Everywhere&) const { return filled(1); }
-
-  SampledSpectrum operator()(const PointEmitter::Spot& spot) const {
+  SampledSpectrum operator()(const SpotShape& spot) const {
     const auto falling =
-        static_cast<float>(lanes::spot_part(d.z, [&](int) -> const PointEmitter::Spot& { return spot; }));
+        static_cast<float>(lanes::spot_part(d.z, [&](int) -> const SpotShape& { return spot; }));
     if (!spot.texture || !(d.z > 0)) return filled(falling);
     const double scale = 0.5 / (d.z * spot.frame);
     const TexturePoint at{{0.5 + d.x * scale, 0.5 + d.y * scale}, {}, {}};
     return value_of(*spot.texture, at, textures, wavelengths) * falling;
   }
 
-  SampledSpectrum operator()(const PointEmitter::Projection& p) const {
+  SampledSpectrum operator()(const ProjectionShape& p) const {
     if (!(d.z > 1e-9)) return filled(0);
     const double s = 0.5 + 0.5 * d.x / (d.z * p.half.x), t = 0.5 + 0.5 * d.y / (d.z * p.half.y);
     if (!(s >= 0 && s <= 1 && t >= 0 && t <= 1)) return filled(0);
@@ -52,7 +50,7 @@ struct DirectionalPart {
   }
 
   // The map's +z is the light's +y (pbrt).
-  SampledSpectrum operator()(const PointEmitter::Goniometric& g) const {
+  SampledSpectrum operator()(const GoniometricShape& g) const {
     return look_up(*g.image, g.projection(), sphere_point(g.projection(), {d.x, d.z, d.y}), wavelengths);
   }
 };
@@ -65,22 +63,44 @@ bool is_rigid(const Transform& t) {
          std::abs(dot(x, y)) < 1e-6 * s && std::abs(dot(y, z)) < 1e-6 * s && std::abs(dot(z, x)) < 1e-6 * s;
 }
 
-PointEmitter placed(const Transform& light_to_world) {
-  PointEmitter e;
-  e.position = transform_point(light_to_world, {0, 0, 0});
-  if (is_invertible(light_to_world)) e.world_to_light = inverse(light_to_world);
-  e.bounds.axis = normalize(transform_vector(light_to_world, {0, 0, 1}));
-  if (!(length(e.bounds.axis) > 0.5)) e.bounds.axis = {0, 0, 1};
-  extend(e.bounds.box, e.position);
-  e.is_rigid = is_rigid(light_to_world);
-  return e;
+EmitterShape placed(const Transform& light_to_world) {
+  EmitterShape s;
+  if (is_invertible(light_to_world)) s.world_to_light = inverse(light_to_world);
+  s.axis = normalize(transform_vector(light_to_world, {0, 0, 1}));
+  if (!(length(s.axis) > 0.5)) s.axis = {0, 0, 1};
+  s.is_rigid = is_rigid(light_to_world);
+  return s;
 }
 
+void bound_all_around(EmitterShape& s) { s.theta_o_rad = pi, s.theta_e_rad = pi / 2; }
+
 // Light within `half_rad` of the axis: all of the cone counts alike, and nothing outside of it.
-void bound_cone(PointEmitter& e, double half_rad) {
-  e.bounds.theta_o_rad = e.is_rigid ? std::min(pi, half_rad + 0.01) : pi;
-  e.bounds.theta_e_rad = e.bounds.theta_o_rad < pi ? 0.01 : pi / 2;
+void bound_cone(EmitterShape& s, double half_rad) {
+  s.theta_o_rad = s.is_rigid ? std::min(pi, half_rad + 0.01) : pi;
+  s.theta_e_rad = s.theta_o_rad < pi ? 0.01 : pi / 2;
 }
+
+const std::shared_ptr<const EmitterShape>& to_all_sides() {
+  static const std::shared_ptr<const EmitterShape> shape = [] {
+    EmitterShape s;
+    SpotShape all;
+    all.cos_beam = -2, all.cos_cutoff = -3;
+    s.kind = all;
+    bound_all_around(s);
+    return std::make_shared<const EmitterShape>(s);
+  }();
+  return shape;
+}
+
+PointEmitter emitter(Point3d position, const Spectrum& intensity, EmitterShape shape, double flux) {
+  return {.position = position,
+          .intensity = &intensity,
+          .shape = std::make_shared<const EmitterShape>(std::move(shape)),
+          .flux = flux};
+}
+Point3d origin_of(const Transform& light_to_world) { return transform_point(light_to_world, {0, 0, 0}); }
+
+const Fading* fading_of(const std::optional<Fading>& fading) { return fading ? &*fading : nullptr; }
 
 }  // namespace
 
@@ -89,61 +109,39 @@ double weakened(const PointEmitter& e, double distance) {
 }
 
 // At d ≥ d0, 2/(1 + (d/d0)^p) ≤ 2(d0/d)² where p ≥ 2; nowhere more than 2.
-void bound_fading(PointEmitter& e, double farthest) {
-  if (!e.fading) return;
+LightBounds bounds_of(const PointEmitter& e, double farthest) {
+  LightBounds b;
+  extend(b.box, e.position);
+  b.axis = e.shape->axis;
+  b.theta_o_rad = e.shape->theta_o_rad, b.theta_e_rad = e.shape->theta_e_rad;
+  b.power = e.flux;
+  if (!e.fading) return b;
   const bool by_squares = weakens(*e.fading) && e.fading->fade_power >= 2;
-  e.bounds.near = by_squares ? std::min(static_cast<double>(e.fading->fade_distance), farthest) : farthest;
-  e.bounds.power *= (weakens(*e.fading) ? 2 : 1) * (e.bounds.near * e.bounds.near);
+  b.near = by_squares ? std::min(static_cast<double>(e.fading->fade_distance), farthest) : farthest;
+  b.power *= (weakens(*e.fading) ? 2 : 1) * (b.near * b.near);
+  return b;
 }
 
 SampledSpectrum intensity(const PointEmitter& e, Vector3d direction, const Textures* textures,
                           const SampledWavelengths& wavelengths) {
-  const Vector3d local = normalize(transform_vector(e.world_to_light, direction));
-  const SampledSpectrum part = std::visit(DirectionalPart{local, textures, wavelengths}, e.shape);
+  const Vector3d local = normalize(transform_vector(e.shape->world_to_light, direction));
+  const SampledSpectrum part = std::visit(DirectionalPart{local, textures, wavelengths}, e.shape->kind);
   if (is_black(part)) return filled(0);
-  return part * (evaluate(e.intensity, wavelengths) * e.factor);
-}
-
-std::optional<PlainEmitter> plain_emitter(const PointEmitter& e) {
-  const auto* spot = std::get_if<PointEmitter::Spot>(&e.shape);
-  if (!std::holds_alternative<PointEmitter::Everywhere>(e.shape) && (!spot || spot->texture)) return {};
-  PlainEmitter plain;
-  plain.position = e.position;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto& row = e.world_to_light.m[i];
-    plain.to_local[i] = {row[0], row[1], row[2]};
-  }
-  if (spot)
-    plain.spot = *spot;
-  else
-    plain.spot.cos_beam = -2, plain.spot.cos_cutoff = -3;
-  plain.fades = e.fading.has_value();
-  if (e.fading && weakens(*e.fading)) {
-    plain.fade_distance = static_cast<double>(e.fading->fade_distance);
-    plain.fade_power = static_cast<double>(e.fading->fade_power);
-  }
-  plain.intensity = flat_spectrum(e.intensity, e.factor);
-  return plain;
+  return part * (evaluate(*e.intensity, wavelengths) * e.shape->factor);
 }
 
 PointEmitter make_emitter(const PointLight& light) {
-  PointEmitter e;
-  e.position = light.position;
-  extend(e.bounds.box, e.position);
-  e.intensity = light.intensity;
-  e.fading = light.fading;
-  e.bounds.theta_o_rad = pi;
-  e.bounds.theta_e_rad = pi / 2;
-  e.bounds.power = 4 * pi * luminance(light.intensity);
-  return e;
+  return {.position = light.position,
+          .intensity = &light.intensity,
+          .fading = fading_of(light.fading),
+          .shape = to_all_sides(),
+          .flux = 4 * pi * luminance(light.intensity)};
 }
 
 PointEmitter make_emitter(const SpotLight& light, const Textures* textures,
                           std::span<const Texture> records) {
-  PointEmitter e = placed(light.light_to_world);
-  e.intensity = light.intensity;
-  e.fading = light.fading;
-  PointEmitter::Spot spot;
+  EmitterShape shape = placed(light.light_to_world);
+  SpotShape spot;
   spot.falloff = light.falloff;
   spot.tightness = static_cast<double>(light.tightness);
   spot.cutoff_rad = std::clamp(static_cast<double>(light.cutoff_deg) * radians, 0.0, pi);
@@ -154,23 +152,24 @@ PointEmitter make_emitter(const SpotLight& light, const Textures* textures,
   spot.frame = std::max(1e-9, portable_tan(std::min(spot.cutoff_rad, 0.4999 * pi)));
   // The falloff over cosines has the mean 1/2, and 1/5 where it is quartic; linear in the angle: nearly 1/2.
   const double mean = spot.falloff == SpotLight::Falloff::quartic ? 0.2 : 0.5;
-  e.bounds.power =
-      2 * pi * (1 - spot.cos_beam + mean * (spot.cos_beam - spot.cos_cutoff)) * luminance(e.intensity);
+  double flux =
+      2 * pi * (1 - spot.cos_beam + mean * (spot.cos_beam - spot.cos_cutoff)) * luminance(light.intensity);
   // As if the beam was all of the cone: ∫ 2π x^t dx.
   if (spot.tightness > 0 && spot.cos_cutoff >= 0)
-    e.bounds.power *= (1 - portable_pow(spot.cos_cutoff, spot.tightness + 1)) /
-                      ((spot.tightness + 1) * std::max(1 - spot.cos_cutoff, 1e-12));
-  if (spot.texture) e.bounds.power *= mean_over_frame(*spot.texture, textures, records);
-  bound_cone(e, spot.cutoff_rad);
-  e.shape = spot;
+    flux *= (1 - portable_pow(spot.cos_cutoff, spot.tightness + 1)) /
+            ((spot.tightness + 1) * std::max(1 - spot.cos_cutoff, 1e-12));
+  if (spot.texture) flux *= mean_over_frame(*spot.texture, textures, records);
+  bound_cone(shape, spot.cutoff_rad);
+  shape.kind = spot;
+  PointEmitter e = emitter(origin_of(light.light_to_world), light.intensity, std::move(shape), flux);
+  e.fading = fading_of(light.fading);
   return e;
 }
 
 PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Textures* textures,
                           std::span<const Texture> records) {
-  PointEmitter e = placed(light.light_to_world);
-  e.intensity = light.scale;
-  PointEmitter::Projection p;
+  EmitterShape shape = placed(light.light_to_world);
+  ProjectionShape p;
   p.image = light.image;
   p.irradiance = light.irradiance;
   if (!(aspect > 0)) aspect = 1;
@@ -179,25 +178,23 @@ PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Tex
   p.half = light.irradiance || aspect < 1 ? Point2d{half, half / aspect} : Point2d{half * aspect, half};
 
   const double flux = projected_flux(light, p.half, textures, records);
-  if (light.power && flux > 0) e.factor = static_cast<float>(static_cast<double>(*light.power) / flux);
-  e.bounds.power = flux * static_cast<double>(e.factor) * luminance(light.scale);
+  if (light.power && flux > 0) shape.factor = static_cast<float>(static_cast<double>(*light.power) / flux);
+  const double whole = flux * static_cast<double>(shape.factor) * luminance(light.scale);
   const double corner = std::sqrt(p.half.x * p.half.x + p.half.y * p.half.y);
-  bound_cone(e, portable_atan2(corner, 1));
-  e.shape = p;
-  return e;
+  bound_cone(shape, portable_atan2(corner, 1));
+  shape.kind = p;
+  return emitter(origin_of(light.light_to_world), light.scale, std::move(shape), whole);
 }
 
 PointEmitter make_emitter(const GoniometricLight& light, std::shared_ptr<const LightImage> image) {
-  PointEmitter e = placed(light.light_to_world);
-  e.intensity = light.intensity;
-  const PointEmitter::Goniometric goniometric{std::move(image), light.latitude_longitude};
+  EmitterShape shape = placed(light.light_to_world);
+  const GoniometricShape goniometric{std::move(image), light.latitude_longitude};
   const double flux = flux_of(*goniometric.image, goniometric.projection(), false);
-  if (light.power && flux > 0) e.factor = static_cast<float>(static_cast<double>(*light.power) / flux);
-  e.bounds.power = flux * static_cast<double>(e.factor) * luminance(light.intensity);
-  e.bounds.theta_o_rad = pi;
-  e.bounds.theta_e_rad = pi / 2;
-  e.shape = goniometric;
-  return e;
+  if (light.power && flux > 0) shape.factor = static_cast<float>(static_cast<double>(*light.power) / flux);
+  const double whole = flux * static_cast<double>(shape.factor) * luminance(light.intensity);
+  bound_all_around(shape);
+  shape.kind = goniometric;
+  return emitter(origin_of(light.light_to_world), light.intensity, std::move(shape), whole);
 }
 
 }  // namespace vitrail

@@ -16,56 +16,59 @@
 
 namespace vitrail {
 
-// Everything that a light's intensity needs, prepared.
+// To all sides: one whose beam is everything.
+struct SpotShape {
+  SpotLight::Falloff falloff = SpotLight::Falloff::smoothstep;
+  double cos_beam = 1, cos_cutoff = 0, cutoff_rad = 0, beam_rad = 0;
+  double frame = 1;  // half width of the texture's square at z = 1; 0: no texture
+  std::optional<Id<Texture>> texture;
+  double tightness = 0;  // a power of the cosine
+};
+
+// A rectangle at z = 1 of half widths `half`.
+struct ProjectionShape {
+  SpectrumParameter image;
+  Point2d half{1, 1};
+  bool irradiance = false;
+};
+
+struct GoniometricShape {
+  std::shared_ptr<const LightImage> image;
+  bool latitude_longitude = false;
+  SphereProjection projection() const {
+    return latitude_longitude ? SphereProjection::latitude_longitude : SphereProjection::equal_area;
+  }
+};
+
+// How light leaves a point, whatever its place and colour: of all point lights the same one.
+struct EmitterShape {
+  std::variant<SpotShape, ProjectionShape, GoniometricShape> kind;
+  Transform world_to_light;                 // its 3×3 block
+  bool is_rigid = true;                     // that turns, mirrors and scales alike
+  float factor = 1;                         // of the intensity
+  Vector3d axis{0, 0, 1};                   // of LightBounds, in the world
+  double theta_o_rad = 0, theta_e_rad = 0;  // of LightBounds
+
+  // One that lanes know: a spot without a texture. Null: it is another.
+  const SpotShape* plain() const {
+    const auto* spot = std::get_if<SpotShape>(&kind);
+    return spot && !spot->texture ? spot : nullptr;
+  }
+};
+
+// A light, prepared. It refers to the light's record; many lights have little of their own.
 struct PointEmitter {
-  struct Everywhere {};
-  struct Spot {
-    SpotLight::Falloff falloff = SpotLight::Falloff::smoothstep;
-    double cos_beam = 1, cos_cutoff = 0, cutoff_rad = 0, beam_rad = 0;
-    double frame = 1;  // half width of the texture's square at z = 1; 0: no texture
-    std::optional<Id<Texture>> texture;
-    double tightness = 0;  // a power of the cosine
-  };
-  // A rectangle at z = 1 of half widths `half`.
-  struct Projection {
-    SpectrumParameter image;
-    Point2d half{1, 1};
-    bool irradiance = false;
-  };
-  struct Goniometric {
-    std::shared_ptr<const LightImage> image;
-    bool latitude_longitude = false;
-    SphereProjection projection() const {
-      return latitude_longitude ? SphereProjection::latitude_longitude : SphereProjection::equal_area;
-    }
-  };
-
   Point3d position;
-  Transform world_to_light;  // its 3×3 block
-  bool is_rigid = true;      // that turns, mirrors and scales alike
-  bool casts_shadows = true;
-  Spectrum intensity;  // multiplies all that follows
-  std::optional<Fading> fading{};
-  float factor = 1;  // beside it
-  std::variant<Everywhere, Spot, Projection, Goniometric> shape;
-  LightBounds bounds;       // power: luminous flux
+  const Spectrum* intensity = nullptr;  // multiplies what its shape says
+  const Fading* fading = nullptr;       // null: as 1/d²
+  std::shared_ptr<const EmitterShape> shape;
+  double flux = 0;          // luminous, of one that weakens as 1/d²
   std::uint32_t light = 0;  // index into LightScene::lights
+  bool casts_shadows = true;
 };
-
-// What lanes read of one that shines to all sides, or as a spot without a texture.
-struct PlainEmitter {
-  Point3d position;
-  Vector3d to_local[3];     // rows of its world_to_light
-  PointEmitter::Spot spot;  // to all sides: one whose beam is everything
-  bool fades = false;
-  double fade_distance = 1, fade_power = 0;  // 0: it does not weaken at all
-  FlatSpectrum intensity;
-};
-// Empty: it is another. `emitter` outlives it.
-std::optional<PlainEmitter> plain_emitter(const PointEmitter& emitter);
 
 // `image`: of a goniometric light. `aspect`: width over height of a projection's image. `records`: of the
-// textures.
+// textures. The light outlives its emitter.
 PointEmitter make_emitter(const PointLight& light);
 PointEmitter make_emitter(const SpotLight& light, const Textures* textures = nullptr,
                           std::span<const Texture> records = {});
@@ -81,8 +84,8 @@ SampledSpectrum intensity(const PointEmitter& emitter, Vector3d direction, const
 // The irradiance across the direction at a distance, over the intensity: 1/d², or as the light fades.
 double weakened(const PointEmitter& emitter, double distance);
 
-// Fits the bounds of a light that fades to a scene whose farthest point is that far from it: its power
-// becomes that of one that weakens as 1/d² beyond `near`, and sends nowhere less than the light.
-void bound_fading(PointEmitter& emitter, double farthest);
+// What the tree is to know; power: luminous flux. A light that fades, of a scene whose farthest point is that
+// far from it, has the power of one that weakens as 1/d² beyond `near`, and sends nowhere less than it does.
+LightBounds bounds_of(const PointEmitter& emitter, double farthest);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light from one point to many, for any number of lanes: that of emitters which are a PlainEmitter.
+// Light from one point to many, for any number of lanes: that of emitters whose shapes are plain.
 #pragma once
 
 #include "tracer/lights/point_emitter.h"
@@ -10,28 +10,26 @@ namespace vitrail::lanes {
 namespace {
 
 // The part of its intensity that a spot without a texture sends where the cosine to its axis is z. spot(j):
-// the PointEmitter::Spot of lane j.
+// the SpotShape of lane j.
 template <class D, class SpotOf>
 VITRAIL_LANES D spot_part(D z, const SpotOf& spot) {
   using Falloff = SpotLight::Falloff;
-  const auto number = [&](double PointEmitter::Spot::*of) __attribute__((always_inline)) {
+  const auto number = [&](double SpotShape::*of) __attribute__((always_inline)) {
     return gather<D>([&](int j) __attribute__((always_inline)) { return spot(j).*of; });
   };
   const auto falls = [&](Falloff falloff) __attribute__((always_inline)) {
     return gather_mask<D>([&](int j) __attribute__((always_inline)) { return spot(j).falloff == falloff; });
   };
-  const D cos_beam = number(&PointEmitter::Spot::cos_beam),
-          cos_cutoff = number(&PointEmitter::Spot::cos_cutoff);
+  const D cos_beam = number(&SpotShape::cos_beam), cos_cutoff = number(&SpotShape::cos_cutoff);
   const D x = (z - cos_cutoff) / (cos_beam - cos_cutoff);
   D part = select<D>(falls(Falloff::quartic), x * x * x * x, x * x * (3.0 - 2.0 * x));
   if (const Mask<D> linear = falls(Falloff::linear) & (z < cos_beam); any(linear)) {
-    const D cutoff = number(&PointEmitter::Spot::cutoff_rad),
-            width = cutoff - number(&PointEmitter::Spot::beam_rad);
+    const D cutoff = number(&SpotShape::cutoff_rad), width = cutoff - number(&SpotShape::beam_rad);
     const D within = lanes::clamp<D>((cutoff - portable_acos(z)) / width, 0.0, 1.0);
     part = select<D>(linear, select<D>(width > 0, within, fill<D>(1)), part);
   }
   part = select<D>(z >= cos_beam, fill<D>(1), part);
-  const D tightness = number(&PointEmitter::Spot::tightness);
+  const D tightness = number(&SpotShape::tightness);
   if (const Mask<D> tight = tightness > 0; any(tight))
     part = select<D>(tight, part * portable_pow<D>(z, tightness), part);
   return select<D>(z > cos_cutoff, part, fill<D>(0));
@@ -46,7 +44,7 @@ struct EmitterSample {
   FloatsLike<D> part, weakening;
 };
 
-// draw_emitter. emitter(j): the PlainEmitter of lane j.
+// draw_emitter. emitter(j): the PointEmitter of lane j, whose shape is plain.
 template <class D, class EmitterOf>
 VITRAIL_LANES EmitterSample<D> draw_emitter(Vector<D> p, const EmitterOf& emitter) {
   EmitterSample<D> s;
@@ -59,23 +57,31 @@ VITRAIL_LANES EmitterSample<D> draw_emitter(Vector<D> p, const EmitterOf& emitte
   s.distance = lanes::sqrt(distance2);
   s.to_light = towards * (1.0 / s.distance);
   const auto row = [&](int i) __attribute__((always_inline)) {
-    const Vector<D> to = gather_vector<D>([&](int j) __attribute__((always_inline))->const Vector3d& {
-      return emitter(j).to_local[i];
-    });
-    return dot(to, -s.to_light);
+    const auto column = [&](int k) __attribute__((always_inline)) {
+      return gather<D>([&](int j) __attribute__((always_inline)) {
+        return emitter(j).shape.get()->world_to_light.m[i][k];
+      });
+    };
+    return dot(Vector<D>{column(0), column(1), column(2)}, -s.to_light);
   };
   const Vector<D> local = normalize(Vector<D>{row(0), row(1), row(2)});
   s.part = to_floats(spot_part(
-      local.z, [&](int j) __attribute__((always_inline))->const PointEmitter::Spot& {
-        return emitter(j).spot;
+      local.z, [&](int j) __attribute__((always_inline))->const SpotShape& {
+        return *emitter(j).shape.get()->plain();
       }));
   D weakening = 1.0 / distance2;
   const Mask<D> fades =
-      gather_mask<D>([&](int j) __attribute__((always_inline)) { return emitter(j).fades; });
+      gather_mask<D>([&](int j) __attribute__((always_inline)) { return emitter(j).fading != nullptr; });
   if (any(fades)) {  // as weakened (scene/models/fading.h)
-    const D power = gather<D>([&](int j) __attribute__((always_inline)) { return emitter(j).fade_power; });
-    const D ratio = s.distance /
-                    gather<D>([&](int j) __attribute__((always_inline)) { return emitter(j).fade_distance; });
+    const auto of = [&](float Fading::*number, double otherwise) __attribute__((always_inline)) {
+      return gather<D>([&](int j) __attribute__((always_inline)) {
+        const Fading* const fading = emitter(j).fading;
+        return fading && fading->fade_distance > 0 && fading->fade_power > 0 ? double{fading->*number}
+                                                                             : otherwise;
+      });
+    };
+    const D power = of(&Fading::fade_power, 0);
+    const D ratio = s.distance / of(&Fading::fade_distance, 1);
     const Mask<D> squares = power == 2;
     const D raised =
         all(squares) ? ratio * ratio : select<D>(squares, ratio * ratio, portable_pow<D>(ratio, power));

@@ -125,7 +125,7 @@ double projected_flux(const ProjectionLight& light, Point2d half, const Textures
                       std::span<const Texture> records) {
   const FrameWeight weight{half, light.irradiance};
   const double area = 4 * half.x * half.y;
-  const auto* id = std::get_if<Id<Texture>>(&light.image);
+  const auto* id = std::get_if<Id<Texture>>(&*light.image);
   const auto* image = id && textures ? std::get_if<ImageTexture>(&records[id->value].model) : nullptr;
   const auto* mapping = image ? std::get_if<UvMapping>(&image->mapping) : nullptr;
   if (mapping && mapping->b == 0 && mapping->d == 0)

@@ -73,12 +73,12 @@ void add_points(const LightSampler& s, Tally& tally) {
       far = std::max({far, std::abs(below), std::abs(above)});
     }
     if (e.fading) {
-      const double at_once = luminance(e.intensity) * static_cast<double>(e.factor);
+      const double at_once = luminance(*e.intensity) * static_cast<double>(e.shape->factor);
       tally.add(at_once * weakened(e, far) * dimmer_surface,
                 at_once * weakened(e, std::sqrt(near2)) * brighter_point);
       continue;
     }
-    const double intensity = e.bounds.power / (4 * pi);
+    const double intensity = e.flux / (4 * pi);
     tally.add(intensity / (far * far) * dimmer_surface,
               intensity / std::max(near2, far * far * nearest2) * brighter_point);
   }

@@ -152,11 +152,12 @@ LaneSurface lane_surface(const Manifest& manifest, const std::vector<LaneMateria
   return s;
 }
 
-LaneLamp lane_lamp(const LightSampler& lights, const LightSampler::Slot& slot) {
-  if (slot.light.kind == LightKind::emitter)
-    return plain_emitter(lights.emitters[slot.light.index]) ? LaneLamp::emitter : LaneLamp::other;
+LaneLamp lane_lamp(const LightSampler& lights, std::size_t number) {
+  if (const LightRef light = lights.light_of(number); light.kind == LightKind::emitter)
+    return lights.emitters[light.index].shape->plain() ? LaneLamp::emitter : LaneLamp::other;
+  const LightSampler::Slot& slot = lights.slots[number];
   const bool is_quadric = slot.light.kind == LightKind::quadric;
-  if (!is_quadric && (slot.light.kind != LightKind::triangle || lights.faces.empty())) return LaneLamp::other;
+  if (!is_quadric && slot.light.kind != LightKind::triangle) return LaneLamp::other;
   const AreaLight& light = lights.scene.area_lights[slot.area_light];
   if (light.directional || !std::holds_alternative<Spectrum>(light.radiance)) return LaneLamp::other;
   if (slot.opacity != FloatParameter{1.0f}) return LaneLamp::other;
@@ -226,11 +227,12 @@ LaneScene::LaneScene(const Manifest& manifest, const Textures& images, const Int
     const auto* spectrum = std::get_if<Spectrum>(&light.radiance);
     radiances.push_back(spectrum ? flat_spectrum(*spectrum, light.scale) : FlatSpectrum{});
   }
-  for (const PointEmitter& emitter : lights.emitters)
-    emitters.push_back(plain_emitter(emitter).value_or(PlainEmitter{}));
+  no_emitter = {.shape = std::make_shared<const EmitterShape>()};
   for (const LightSampler::Distant& light : lights.distant)
     distant.push_back({!light.sun, flat_spectrum(light.irradiance)});
-  for (const LightSampler::Slot& slot : lights.slots) lamps.push_back(lane_lamp(lights, slot));
+  lamps.reserve(lights.tree.order().size());
+  for (std::size_t slot = 0; slot < lights.tree.order().size(); ++slot)
+    lamps.push_back(lane_lamp(lights, slot));
 }
 
 }  // namespace vitrail

@@ -81,8 +81,8 @@ struct LaneSurface {
   bool blocks = false;  // no connection passes it
 };
 
-// A lamp that is there as a whole and shines to all sides, alike all over; a PlainEmitter; or one for lane by
-// lane.
+// A lamp that is there as a whole and shines to all sides, alike all over; an emitter of a plain shape; or
+// one for lane by lane.
 enum class LaneLamp : std::uint8_t { other, triangle, sphere, emitter };
 
 struct LaneScene {
@@ -94,10 +94,9 @@ struct LaneScene {
   bool has_textures = false;            // some material has a LaneTexture
   std::vector<LaneMaterial> materials;  // of all Manifest::materials
   std::vector<LaneSurface> surfaces;    // of all Manifest::surfaces
-  std::vector<LaneLamp> lamps;          // of each of LightSampler::slots
+  std::vector<LaneLamp> lamps;          // of each slot of the lights' tree
   // Of all Manifest::area_lights that have no texture: the radiance.
   std::vector<FlatSpectrum> radiances;
-  std::vector<PlainEmitter> emitters;  // of all LightSampler::emitters, where they are LaneLamp::emitter
   // Of all LightSampler::distant: whether lanes know it, as it is no sun; the irradiance.
   struct Distant {
     bool is_plain = false;
@@ -105,7 +104,7 @@ struct LaneScene {
   };
   std::vector<Distant> distant;
   // Stand for what a path does not have.
-  PlainEmitter no_emitter;
+  PointEmitter no_emitter;
   LightSampler::Slot no_slot;
   LightSampler::Face no_face;
   PlacedQuadric no_sphere{{}, {}};

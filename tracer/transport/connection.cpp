@@ -206,7 +206,7 @@ void pack(const Tracing&, const Connection& c, bool resolved, RayRecord& record)
 }
 
 std::array<float, 2> numbers_for_far_lights(const Tracing& tracing, const SampleKey& key) {
-  if (!tracing.scene.lights.has_discs) return {};
+  if (!tracing.scene.lights.has_discs()) return {};
   const std::array<float, 4> u = sample_4d(key, sample_set::lens);
   return {u[2], u[3]};
 }

@@ -27,7 +27,7 @@ void add_environment(Tracing& tracing, const CameraPath& path) {
   const LightSampler& lights = tracing.scene.lights;
   const Vector3d direction = normalize(cast<double>(path.ray.direction));
   auto [radiance, light_pdf] = background(lights, direction, path.wavelengths);
-  const bool with_discs = lights.has_discs && !path.connected;
+  const bool with_discs = lights.has_discs() && !path.connected;
   if (with_discs) radiance = radiance + discs(lights, direction, path.wavelengths);
   if (is_black(radiance)) return;
   const double weight = path.pdf > 0 ? weight_of_finding(path, light_pdf) : 1;

@@ -239,7 +239,7 @@ void add_emitter(Builder& builder, const Object& emitter) {
   if (is_daylight(emitter.type)) return add_daylight(builder, emitter);
   for (const EmitterKind& kind : emitter_kinds) {
     if (emitter.type != kind.name) continue;
-    Light light{kind.make(builder, emitter), emitter.origin, name_of(emitter)};
+    Light light{.model = kind.make(builder, emitter), .origin = emitter.origin, .name = name_of(emitter)};
     // Of weight 0, Mitsuba shows only the light that rays meet by themselves.
     if (is_asked_for || traits_of(light.model).surrounds) builder.scene.lights.push_back(std::move(light));
     if (!emitter.children("medium").empty()) {  // a light without a surface is in the medium around it

@@ -144,7 +144,7 @@ void add_daylight(Builder& builder, const Object& emitter) {
   emitter.ignore({"stretch", "resolution", "extend"});
   for (const Vector3d& to_sun : suns) {
     light.to_sun = to_sun;
-    builder.scene.lights.push_back({light, emitter.origin, name_of(emitter)});
+    builder.scene.lights.push_back({.model = light, .origin = emitter.origin, .name = name_of(emitter)});
   }
   report_unused(emitter, report,
                 {"turbidity", "albedo", "sun_direction", "sky_scale", "sun_scale", "sun_aperture",

@@ -146,7 +146,7 @@ WrittenEnvironment environment(Context& context, const EnvironmentLight& light) 
 }
 
 void write(Context& context, Element root, const EnvironmentLight& light) {
-  if (light.portal) context.dropped("the portal of an environment light: its light comes from everywhere");
+  if (*light.portal) context.dropped("the portal of an environment light: its light comes from everywhere");
   try {
     const WrittenEnvironment written = environment(context, light);
     Element element = add(root, "emitter", "envmap");

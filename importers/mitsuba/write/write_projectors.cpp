@@ -52,7 +52,7 @@ Element add_projector(Element root, const Transform& light_to_world, float fov_d
 // pbrt's: u = 0 at −x, and the image's upper row at +y. Mitsuba's image times π is the irradiance on a plane
 // at distance 1: the intensity times cos³θ.
 void write_intensity(Context& context, Element root, const ProjectionLight& light) {
-  const auto* texture = std::get_if<Id<Texture>>(&light.image);
+  const auto* texture = std::get_if<Id<Texture>>(&*light.image);
   const auto image = texture ? tinted_image(context.scene, *texture) : std::nullopt;
   const auto* mapping = image ? std::get_if<UvMapping>(&image->image.mapping) : nullptr;
   if (!mapping) return context.dropped("a projection light without an image");
@@ -100,7 +100,7 @@ void write_projector(Context& context, Element root, const ProjectionLight& ligh
 namespace {
 
 void write_as_point(Element root, const GoniometricLight& light) {
-  const auto& m = light.light_to_world.m;
+  const auto& m = light.light_to_world->m;
   Element element = add(root, "emitter", "point");
   add_coordinates(element, "point", "position", Point3d{m[0][3], m[1][3], m[2][3]});
   add_spectrum(element, "intensity", light.intensity, Meaning::emission);

@@ -48,7 +48,7 @@ class LightWriter {
   }
   const char* operator()(const ProjectionLight& l) {
     light_to_world_ = l.light_to_world;
-    const auto* texture = std::get_if<Id<Texture>>(&l.image);
+    const auto* texture = std::get_if<Id<Texture>>(&*l.image);
     if (!texture && l.irradiance) return uniform_irradiance(l);
     const ImageScale scale = scale_of(l.scale);
     ImageChange change{scale.tint};
@@ -96,7 +96,7 @@ class LightWriter {
     p_.file("filename", environment_for_pbrt(p_, l, scale.tint))
         .number("scale", static_cast<float>(scale.number));
     if (l.illuminance) p_.number("illuminance", *l.illuminance / sky_per_illuminance);
-    if (l.portal) portal(*l.portal);
+    if (*l.portal) portal(**l.portal);
     return "infinite";
   }
   const char* operator()(const SkyLight&) { return nullptr; }  // its parts are written
@@ -123,7 +123,7 @@ class LightWriter {
     const Point2d half = half_size(l, 1);
     Image image = black_image(pixels, pixels, 3);
     std::ranges::fill(image.values, 1.0f);
-    multiply(image, emission_rgb(product(std::get<Spectrum>(l.image), l.scale)));
+    multiply(image, emission_rgb(product(std::get<Spectrum>(*l.image), l.scale)));
     multiply_by_cosine(image, -3, half);
     const std::filesystem::path file = std::filesystem::absolute(p_.writer().new_image());
     write_exr_image(file, image);

@@ -65,7 +65,7 @@ std::string environment_text(Context& context, const EnvironmentLight& light, co
     if (const double natural = upward_illuminance(values, light.projection); natural > 0)
       factor = factor * (static_cast<double>(*light.illuminance) / natural);
   }
-  if (light.portal) context.dropped("portal of an environment: light enters everywhere", origin);
+  if (*light.portal) context.dropped("portal of an environment: light enters everywhere", origin);
   const Transform turn = rotation_of(light.light_to_world);
   if (light.projection == EnvironmentLight::Projection::latitude_longitude)
     return fmt::format(

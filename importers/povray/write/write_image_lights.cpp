@@ -63,13 +63,13 @@ Image white_image() {
 Thrown thrown(Context& context, const ProjectionLight& light) {
   // Mitsuba's image is a plane's radiance: it is less than the intensity by cos³.
   const int power = light.irradiance ? -3 : 0;
-  if (const auto* spectrum = std::get_if<Spectrum>(&light.image)) {
+  if (const auto* spectrum = std::get_if<Spectrum>(&*light.image)) {
     Thrown result{white_image(), half_size(light, 1)};
     multiply(result.image, signed_emission_rgb(*spectrum));
     if (power) multiply_by_cosine(result.image, power, result.half);
     return result;
   }
-  const auto image = tinted_image(context.scene, std::get<Id<Texture>>(light.image));
+  const auto image = tinted_image(context.scene, std::get<Id<Texture>>(*light.image));
   const auto* mapping = image ? std::get_if<UvMapping>(&image->image.mapping) : nullptr;
   if (!mapping) throw Error("it throws no image");
   const ImageLayout layout = read_image_layout(image->image.filename);

@@ -65,7 +65,7 @@ TEST_F(WriteMitsuba, LightsThatMitsubaDoesNotHave) {
   EnvironmentLight light;
   light.filename = "/none.exr";
   light.portal = {};
-  light.portal.emplace();
+  light.portal->emplace();
   GoniometricLight lamp;
   lamp.intensity = ConstantSpectrum{1};
   scene.lights = {{light, {}}, {lamp, {}}, {ProjectionLight{{}, Spectrum{ConstantSpectrum{1}}}, {}}};

@@ -31,7 +31,7 @@ struct Context {
   const Environment* environments;           // those images, a sky with a sun, a sun alone
   const SampledWavelengths* some_wavelengths;
   const LightTree* trees[fixture_trees];  // of few lights, of many, by power, of none, of one lamp
-  const PlainEmitter* emitters;           // fixture_emitters
+  const PointEmitter* emitters;           // fixture_emitters
 };
 
 }  // namespace vitrail::lane_tests

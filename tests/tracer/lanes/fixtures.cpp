@@ -143,12 +143,14 @@ Fixtures::Fixtures() {
   trees[1] = LightTree(light_bounds(3000), LightChoice::tree);
   trees[2] = LightTree(light_bounds(300), LightChoice::power);
   trees[4] = LightTree(light_bounds(2), LightChoice::power);
+  point_lights.reserve(2), spot_lights.reserve(fixture_emitters), fadings.reserve(fixture_emitters);
   for (std::uint32_t i = 0; i < fixture_emitters; ++i) {
-    const Fading fading{0.5f, i % 3 == 0 ? 0.0f : i % 3 == 1 ? 2.0f : 1.7f};
+    fadings.push_back({0.5f, i % 3 == 0 ? 0.0f : i % 3 == 1 ? 2.0f : 1.7f});
     if (i < 2) {
-      lights.emitters.push_back(make_emitter(PointLight{{1, 2, 3}, ConstantSpectrum{0.3f}}));
+      point_lights.push_back({{1, 2, 3}, ConstantSpectrum{0.3f}});
+      lights.emitters.push_back(make_emitter(point_lights.back()));
     } else {
-      SpotLight spot;
+      SpotLight& spot = spot_lights.emplace_back();
       spot.intensity = ConstantSpectrum{0.3f};
       spot.falloff = static_cast<SpotLight::Falloff>(i % 3);
       spot.cutoff_deg = 70, spot.beam_deg = i == 3 ? 70.0f : 20.0f;
@@ -156,10 +158,9 @@ Fixtures::Fixtures() {
       spot.light_to_world = translate({0.1 * i, 1, 2}) * rotate(0.7 * i, {1, 2, 3});
       lights.emitters.push_back(make_emitter(spot));
     }
-    if (i % 2 == 1) lights.emitters.back().fading = fading;
+    if (i % 2 == 1) lights.emitters.back().fading = &fadings.back();
   }
-  for (const PointEmitter& emitter : lights.emitters) plain_emitters.push_back(*plain_emitter(emitter));
-  context.emitters = plain_emitters.data();
+  context.emitters = lights.emitters.data();
   for (std::uint32_t i = 0; i < fixture_trees; ++i) context.trees[i] = &trees[i];
   for (const auto format : {TexelFormat::number, TexelFormat::reflectance, TexelFormat::unbounded,
                             TexelFormat::illuminant, TexelFormat::matrix_r_illuminant}) {

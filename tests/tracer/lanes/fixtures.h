@@ -24,7 +24,9 @@ struct Fixtures {
   std::vector<EmissiveQuadric> spheres;
   std::vector<PlacedQuadric> placed_spheres;
   LightTree trees[fixture_trees];
-  std::vector<PlainEmitter> plain_emitters;
+  std::vector<PointLight> point_lights;  // that the emitters refer to, with those that follow
+  std::vector<SpotLight> spot_lights;
+  std::vector<Fading> fadings;
   test::TemporaryDirectory directory;
   std::vector<Environment> environments;
   SampledWavelengths some_wavelengths;

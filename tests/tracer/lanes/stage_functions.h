@@ -57,7 +57,7 @@ LANE_FUNCTION(interaction_with_both, 8, 19) { put_interaction<3>(context, in, ou
 // The emitter of that number, and a point.
 LANE_FUNCTION(draw_emitter, 4, 7) {
   using D = lanes::Doubles<W>;
-  const auto s = lanes::draw_emitter<D>(in.vector(1), [&](int j) -> const PlainEmitter& {
+  const auto s = lanes::draw_emitter<D>(in.vector(1), [&](int j) -> const PointEmitter& {
     return context.emitters[static_cast<int>(lanes::lane(in.d(0), j))];
   });
   out.mask(s.arrives), out.vector(s.to_light), out.number(s.distance), out.number(s.part * 0.3f);

@@ -214,7 +214,7 @@ TEST(Environment, AgreesWithMitsuba) {
   EnvironmentLight light;
   light.projection = latitude_longitude;
   light.scale = ConstantSpectrum{2};
-  light.light_to_world.m = {{{0, 1, 0, 0}, {0, 0, 1, 0}, {-1, 0, 0, 0}, {0, 0, 0, 1}}};
+  light.light_to_world->m = {{{0, 1, 0, 0}, {0, 0, 1, 0}, {-1, 0, 0, 0}, {0, 0, 0, 1}}};
   const Environment e = make_environment(light, std::make_shared<GreyImage>(4, 3, upwards));
   struct Case {
     Vector3d direction;

@@ -114,12 +114,12 @@ TEST(LoneTexels, OfProjections) {
     const LightSampler about = make_light_sampler(bundle.scene(guessed), bundle.directory.path());
     const double flux = projected(about);
     if (flux > 0) {
-      EXPECT_NEAR(about.emitters[0].bounds.power, flux, 0.5 * flux) << what;
+      EXPECT_NEAR(about.emitters[0].flux, flux, 0.5 * flux) << what;
       const Emission emission(about, about.scene.bounds, {});
       expect_mean(
           flux, 20000, [&] { return emitted_flux(emission, random); }, what);
     } else {
-      EXPECT_LT(about.emitters[0].bounds.power, 0.05) << what;  // within the reach of a box
+      EXPECT_LT(about.emitters[0].flux, 0.05) << what;  // within the reach of a box
     }
     if (size.width != size.height) continue;
     light.image = Id<Texture>{0};

@@ -53,9 +53,12 @@ VITRAIL_LANES void sample_triangles(const LaneWork& work, Vector<D> p, const Fou
   const AreaLight* const area_lights = work.tracing.scene.manifest.area_lights.data();
   const LightSampler::Slot* of[W];
   const LightSampler::Face* face[W];
+  LightSampler::Face made[W];
+  const auto& faces = work.tracing.scene.lights.faces;
   for (int j = 0; j < W; ++j) {
     of[j] = on[j] ? slot[j] : &work.scene.no_slot;
-    face[j] = on[j] ? work.tracing.scene.lights.faces.data() + slot[j]->light.index : &work.scene.no_face;
+    face[j] = on[j] ? faces.data() + slot[j]->light.index : &work.scene.no_face;
+    if (on[j] && faces.empty()) face[j] = &(made[j] = lane_by_lane::face_of(*slot[j]));
   }
   const LampSample<D> lamp = draw_triangle<D>(
       p, u[0], u[1], [&](int j) __attribute__((always_inline))->const LightSampler::Slot& { return *of[j]; },
@@ -98,14 +101,11 @@ VITRAIL_LANES void sample_spheres(const LaneWork& work, Vector<D> p, const Four<
 struct SingleLight {
   std::uint32_t environment = no_light, distant = no_light;
 };
-VITRAIL_LANES SingleLight single_light(const LaneWork& work, double rest) {
+VITRAIL_LANES SingleLight single_light(const LaneWork& work, double u) {
   const LightSampler& lights = work.tracing.scene.lights;
-  const double* const share = lights.share.data();
-  const std::size_t first = lights.first_environment();
-  std::size_t choice = 0;
-  while (choice + 1 < lights.share.size() && rest >= share[choice]) rest -= share[choice++];
+  const std::size_t first = lights.first_environment(), choice = lane_by_lane::choice_of(lights, u);
   SingleLight light;
-  if (!(share[choice] > 0) || choice == 0) return light;
+  if (!(lights.share.data()[choice] > 0) || choice == 0) return light;
   if (choice >= first)
     light.environment = static_cast<std::uint32_t>(choice - first);
   else if (work.scene.distant.data()[choice - 1].is_plain)
@@ -114,15 +114,17 @@ VITRAIL_LANES SingleLight single_light(const LaneWork& work, double rest) {
 }
 
 // Lights from one point, of `on`; other lanes keep what they have. The pdf is that of their choice.
-[[gnu::noinline]] void sample_emitters(const LaneWork& work, const Group& g, Vector<D> p,
-                                       const LightSampler::Slot* const (&slot)[W], const bool (&on)[W],
+[[gnu::noinline]] void sample_emitters(const LaneWork& work, const Group& g, Vector<D> p, const bool (&on)[W],
                                        D choice, Candidate& c) {
-  const auto emitter = [&](int j) __attribute__((always_inline))->const PlainEmitter& {
-    return on[j] ? work.scene.emitters.data()[slot[j]->light.index] : work.scene.no_emitter;
+  const auto emitter = [&](int j) __attribute__((always_inline))->const PointEmitter& {
+    return on[j] ? work.tracing.scene.lights.emitters.data()[c.ref[j].index] : work.scene.no_emitter;
   };
   const EmitterSample<D> s = draw_emitter<D>(p, emitter);
+  FlatSpectrum intensity[W];
+  for (int j = 0; j < W; ++j)
+    if (on[j]) intensity[j] = flat_spectrum(*emitter(j).intensity);
   const Four<F> spectrum = values_of(
-      g, [&](int j) __attribute__((always_inline))->const FlatSpectrum& { return emitter(j).intensity; });
+      g, [&](int j) __attribute__((always_inline))->const FlatSpectrum& { return intensity[j]; });
   const Mask<D> those = gather_mask<D>(VITRAIL_EACH(on[j]));
   c.arrives = c.arrives | (those & s.arrives);
   c.is_delta = c.is_delta | those;
@@ -203,7 +205,8 @@ VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vecto
   for (int j = 0; j < W; ++j) {
     const bool from_tree = is_set(of_tree, j) && chosen.any[j];
     const LaneLamp lamp = from_tree ? work.scene.lamps.data()[chosen.slot[j]] : LaneLamp::other;
-    slot[j] = lamp != LaneLamp::other ? lights.slots.data() + chosen.slot[j] : &work.scene.no_slot;
+    const bool is_surface = lamp == LaneLamp::triangle || lamp == LaneLamp::sphere;
+    slot[j] = is_surface ? lights.slots.data() + chosen.slot[j] : &work.scene.no_slot;
     some_triangle |= triangle[j] = lamp == LaneLamp::triangle;
     some_sphere |= sphere[j] = lamp == LaneLamp::sphere;
     some_emitter |= emitter[j] = lamp == LaneLamp::emitter;
@@ -217,7 +220,8 @@ VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vecto
   }
 
   Candidate c{};
-  for (int j = 0; j < W; ++j) c.ref[j] = slot[j]->light;
+  for (int j = 0; j < W; ++j)
+    c.ref[j] = emitter[j] ? lane_by_lane::light_of(lights, chosen.slot[j]) : slot[j]->light;
   if (some_triangle) sample_triangles(work, p, u, slot, triangle, c);
   if (some_sphere) sample_spheres(work, p, u, slot, sphere, c);
   const D choice = gather<D>(VITRAIL_EACH(chosen.probability[j])) * share;
@@ -227,7 +231,7 @@ VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vecto
     some_new |= is_new[j] = is_set(c.arrives, j) && g.path[j]->lamp.area_light != slot[j]->area_light;
   if (some_new) find_radiances(work, g, slot, is_new);
   for (int i = 0; i < 4; ++i) c.radiance[i] = gather<F>(VITRAIL_EACH(g.path[j]->lamp.radiance.v[i]));
-  if (some_emitter) sample_emitters(work, g, p, slot, emitter, choice, c);
+  if (some_emitter) sample_emitters(work, g, p, emitter, choice, c);
   if (some_distant) sample_distant(work, g, distant, c);
   if (some_environment) {
     EnvironmentSample s;

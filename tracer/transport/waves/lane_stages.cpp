@@ -42,11 +42,15 @@ bool draw(const LaneWork& work, const CameraPath& path, Point3d p, const float (
   const LightSampler& lights = work.tracing.scene.lights;
   const std::array<float, 4> numbers{u[0], u[1], u[2], u[3]};
   const std::array<float, 2> far{};
-  const bool drawn = draw_slot({lights, p, numbers, far, path.wavelengths, path.lamp},
-                               lights.slots[chosen.slot], chosen.rest, light);
+  const bool drawn =
+      draw_slot({lights, p, numbers, far, path.wavelengths, path.lamp}, chosen.slot, chosen.rest, light);
   light.pdf *= chosen.probability * lights.share[LightNumbers::choice_of_tree];
   return drawn;
 }
+
+std::size_t choice_of(const LightSampler& lights, double u) { return lights.choice_of(u); }
+LightRef light_of(const LightSampler& lights, std::uint32_t slot) { return lights.light_of(slot); }
+LightSampler::Face face_of(const LightSampler::Slot& triangle) { return LightSampler::Face(triangle.p); }
 
 std::uint8_t group_of(const LaneWork& work, LightRef light) {
   return work.tracing.scene.groups.of(work.tracing.scene.lights, light);

@@ -104,6 +104,10 @@ struct ChosenLight {
 };
 bool draw(const LaneWork& work, const CameraPath& path, Point3d p, const float (&u)[4],
           const ChosenLight& chosen, LightSample& light);
+// LightSampler::choice_of, light_of; the face of a triangle.
+std::size_t choice_of(const LightSampler& lights, double u);
+LightRef light_of(const LightSampler& lights, std::uint32_t slot);
+LightSampler::Face face_of(const LightSampler::Slot& triangle);
 // As GroupedLights says.
 std::uint8_t group_of(const LaneWork& work, LightRef light);
 FilterSample filter_sample(const Tracing& tracing, float u, float v);
