@@ -183,7 +183,7 @@ TEST_F(MitsubaImages, ProjectionsOfPbrtKeepTheirIntensity) {
   EXPECT_NEAR(std::tan(read.fov_deg / 360 * std::numbers::pi), 2, 1e-5) << "of the width";
   EXPECT_NEAR(evaluate(read.scale, 500), 3 / std::numbers::pi, 1e-6);
   const auto& texture =
-      std::get<ImageTexture>(again.textures.at(std::get<Id<Texture>>(read.image).value).model);
+      std::get<ImageTexture>(again.textures.at(std::get<Id<Texture>>(*read.image).value).model);
   EXPECT_EQ(texture.mapping, (TextureMapping{UvMapping{1, 0, 0, 0, -1, 1}}));
   const std::vector<float> found = values(texture, ImageUse::light);
   ASSERT_EQ(found.size(), 512u * 256 * 3) << "the cosine changes within a texel";

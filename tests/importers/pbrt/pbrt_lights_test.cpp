@@ -179,7 +179,7 @@ TEST(PbrtLights, ImagesOfEnvironmentsAreKept) {
   EXPECT_EQ(light.projection, EnvironmentLight::Projection::equal_area);
   EXPECT_EQ(light.scale, Spectrum{ConstantSpectrum{2}});
   EXPECT_EQ(light.illuminance, 14.0f) << "pbrt-v4 shows twice what is asked for";
-  EXPECT_EQ(light.light_to_world, rotate(pi / 2, {0, 0, 1}));
+  EXPECT_EQ(*light.light_to_world, rotate(pi / 2, {0, 0, 1}));
   EXPECT_EQ(std::filesystem::path(light.filename).filename(), "sky.exr");
   const auto v3 = import_v3("LightSource \"infinite\" \"string mapname\" \"sky.exr\" \"rgb L\" [2 2 2]");
   const auto& old = std::get<EnvironmentLight>(v3.scene.lights.at(0).model);
@@ -218,7 +218,7 @@ TEST(PbrtLights, SpotsKeepTheirCone) {
       "\"float conedeltaangle\" 10");
   expect_no_diagnostics(imported);
   const auto& spot = std::get<SpotLight>(imported.scene.lights.at(0).model);
-  EXPECT_EQ(spot.light_to_world, translate({1, 2, 3})) << "along +z the frame is the identity, bit for bit";
+  EXPECT_EQ(*spot.light_to_world, translate({1, 2, 3})) << "along +z the frame is the identity, bit for bit";
   EXPECT_EQ(spot.cutoff_deg, 40);
   EXPECT_EQ(spot.beam_deg, 30);
   EXPECT_EQ(spot.intensity, Spectrum{emission_from_rgb({2, 2, 2})});

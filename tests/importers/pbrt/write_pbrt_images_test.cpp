@@ -156,7 +156,7 @@ TEST_F(PbrtImages, ProjectorsOfMitsubaKeepTheirIntensity) {
   EXPECT_NEAR(std::tan(read.fov_deg / 360 * std::numbers::pi), 0.5, 1e-6) << "of the shorter side";
   EXPECT_NEAR(evaluate(read.scale, 500), 3 * std::numbers::pi, 1e-5);
   const std::vector<float> found =
-      values(again.textures.at(std::get<Id<Texture>>(read.image).value), ImageUse::light);
+      values(again.textures.at(std::get<Id<Texture>>(*read.image).value), ImageUse::light);
   ASSERT_EQ(found.size(), 512u * 256 * 3) << "the cosine changes within a texel";
   for (std::size_t i = 0; i < two.values.size(); ++i) {
     const std::size_t row = i / 12 * 128 + 64, column = i / 3 % 4 * 128 + 64;
@@ -181,7 +181,7 @@ TEST_F(PbrtImages, UniformIrradianceIsAnImageOfIntensity) {
   const auto& read = std::get<ProjectionLight>(again.lights.at(0).model);
   EXPECT_NEAR(read.fov_deg, 60, 1e-4);
   const std::vector<float> found =
-      values(again.textures.at(std::get<Id<Texture>>(read.image).value), ImageUse::light);
+      values(again.textures.at(std::get<Id<Texture>>(*read.image).value), ImageUse::light);
   const double corner = std::tan(std::numbers::pi / 6) * (1 - 1.0 / 64);
   const double scale = evaluate(read.scale, 500) / std::numbers::pi;
   for (std::size_t c = 0; c < 3; ++c)
@@ -249,7 +249,7 @@ TEST_F(PbrtImages, SpotLightsWithTexturesBecomeProjections) {
   EXPECT_FLOAT_EQ(read.fov_deg, 80);
   EXPECT_NEAR(evaluate(read.scale, 500), 1, 1e-6);
   const std::vector<float> found =
-      values(again.textures.at(std::get<Id<Texture>>(read.image).value), ImageUse::light);
+      values(again.textures.at(std::get<Id<Texture>>(*read.image).value), ImageUse::light);
   ASSERT_EQ(found.size(), 512u * 512 * 3);
   const auto at = [&](std::size_t x, std::size_t y) { return found[(y * 512 + x) * 3]; };
   constexpr double degree = std::numbers::pi / 180;

@@ -341,6 +341,51 @@ TEST(LightSampler, KnowsDistantLightsByTheirNumbers) {
   EXPECT_TRUE(any_distant_light(s, 2, 0xfff, {}, is(along)));
 }
 
+// The mask leaves several lights with the same bits.
+TEST(LightSampler, KnowsManyDistantLightsByTheLastBitsOfTheirNumbers) {
+  World world;
+  for (int i = 0; i < 40; ++i)
+    world.add(DistantLight{normalize(Vector3d{double(i) - 20, 5, -30}), ConstantSpectrum{1}});
+  const LightSampler s = make(world);
+  for (std::uint32_t bits = 0; bits < 8; ++bits) {
+    std::vector<Vector3d> asked;
+    any_distant_light(s, bits, 7, {}, [&](Vector3d to_light) { return asked.push_back(to_light), false; });
+    ASSERT_EQ(asked.size(), 5u);
+    for (std::size_t i = 0; i < asked.size(); ++i) EXPECT_EQ(asked[i], -s.distant[bits + 8 * i].direction);
+  }
+}
+
+// Of many single lights each comes as often as its share says, the last one and those without light, too.
+TEST(LightSampler, ChoosesAmongManyDistantLightsByTheirShares) {
+  World world;
+  constexpr int count = 300;
+  for (int i = 0; i < count; ++i)
+    world.add(
+        DistantLight{normalize(Vector3d{double(i), 5, -300}), ConstantSpectrum{i % 5 == 0 ? 0 : float(i)}});
+  const LightSampler s = make(world);
+  ASSERT_EQ(s.share.size(), 1 + s.distant.size());
+  EXPECT_EQ(s.distant.size(), std::size_t{count} * 4 / 5);
+  std::vector<int> chosen(s.share.size());
+  constexpr int tries = 1 << 20;
+  for (int i = 0; i < tries; ++i) ++chosen[s.choice_of((i + 0.5) / tries)];
+  for (std::size_t i = 0; i < chosen.size(); ++i) EXPECT_NEAR(chosen[i], s.share[i] * tries, 2) << i;
+}
+
+// Many of them have little of their own: the size of a record is that of a point light, whatever kinds there
+// are.
+TEST(LightSampler, PointLightsShareWhatTheyHaveAlike) {
+  static_assert(sizeof(Light) <= 168 && sizeof(PointEmitter) <= 72);
+  World world;
+  for (int i = 0; i < 100; ++i) world.add(PointLight{{double(i), 0, 2}, ConstantSpectrum{3}});
+  const LightSampler s = make(world);
+  ASSERT_EQ(s.emitters.size(), 100u);
+  for (const PointEmitter& e : s.emitters) EXPECT_EQ(e.shape, s.emitters[0].shape);
+  EXPECT_TRUE(s.slots.empty());
+  std::vector<bool> found(100);
+  for (std::size_t slot = 0; slot < 100; ++slot) found[s.light_of(slot).index] = true;
+  EXPECT_EQ(std::ranges::count(found, true), 100);
+}
+
 // Nothing that a scene can hold makes a number that is not one.
 TEST(LightSampler, DegenerateLightsGiveNothing) {
   World world;
