@@ -41,6 +41,8 @@ struct PictureSource {
 
 // All return what went wrong, or nothing.
 struct ImageCodec {
+  // Makes the library do what it does with the first file.
+  void (*begin)();
   // Without `image`, the layout alone.
   std::string (*read)(const PictureSource& source, ImageLayout& layout, Image* image);
   // What `visit` throws passes through.

@@ -15,6 +15,7 @@
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
+#include "scene/system/memory_guard.h"
 #include "scene/system/module.h"
 
 namespace vitrail {
@@ -23,12 +24,15 @@ namespace {
 
 std::atomic<bool> loaded = false;
 
+constexpr std::uint64_t opening_bytes = 1 << 20;       // of a file's header, and of its reader
 constexpr std::uint64_t most_pixels_of_gif = 1 << 26;  // of which its reader holds several copies
 
 const ImageCodec& load_codec() {
+  const GrantedMemory loading(image_library_bytes);
   const void* codec = module_symbol(image_codec_module, image_codec_symbol,
                                     "reads images, and writes others than .exr and .png");
   loaded = true;
+  static_cast<const ImageCodec*>(codec)->begin();
   return *static_cast<const ImageCodec*>(codec);
 }
 
@@ -94,14 +98,19 @@ ImageLayout checked_layout(const std::filesystem::path& file, const PictureSourc
     throw Error(fmt::format("cannot read the image: a GIF has at most {} pixels here", most_pixels_of_gif),
                 {file.string()});
   ImageLayout layout;
-  check(file, image_codec().read(source, layout, nullptr));
+  const ImageCodec& codec = image_codec();
+  const GrantedMemory opening(opening_bytes);
+  check(file, codec.read(source, layout, nullptr));
   require_size(file, layout);
   return layout;
 }
 
 ImageLayout read(const std::filesystem::path& file, const PictureSource& source, Image* image) {
   ImageLayout layout = checked_layout(file, source);
-  if (image) check(file, image_codec().read(source, layout, image));
+  if (image) {
+    const GrantedMemory reading(layout.whole_bytes);
+    check(file, image_codec().read(source, layout, image));
+  }
   if (layout.chromaticities && !are_primaries(*layout.chromaticities)) layout.chromaticities.reset();
   return layout;
 }
@@ -131,7 +140,9 @@ void read_stored_rows(const std::filesystem::path& file, const std::function<voi
   const Source source(file);
   ImageLayout layout = read(file, source.get(), nullptr);
   const StoredImage as_the_whole{{}, layout.integer, layout.chromaticities};
+  const GrantedMemory reading(layout.rows_bytes);
   check(file, image_codec().read_rows(source.get(), layout, [&](Image rows) {
+    const GuardedMemory ours;
     StoredImage stored = as_the_whole;
     stored.image = std::move(rows);
     visit(std::move(stored));
@@ -144,8 +155,12 @@ Image read_linear_image(const std::filesystem::path& file) {
 
 void write_exr_image(const std::filesystem::path& file, const Image& image) {
   std::vector<std::byte> bytes;
-  if (const std::string problem = image_codec().encode_exr(image, bytes); !problem.empty())
-    throw MachineError(fmt::format("cannot write {}: {}", file.string(), problem));
+  const ImageCodec& codec = image_codec();
+  {
+    const GrantedMemory encoding(opening_bytes + 3 * image.values.size() * sizeof(float));
+    if (const std::string problem = codec.encode_exr(image, bytes); !problem.empty())
+      throw MachineError(fmt::format("cannot write {}: {}", file.string(), problem));
+  }
   AtomicFile target(file);
   target.write(bytes);
   target.commit_part();

@@ -99,6 +99,33 @@ std::optional<Chromaticities> chromaticities_of(const OIIO::ImageSpec& spec) {
   return Chromaticities{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
 }
 
+// Rows of tiles, or as many scan lines as take about so much.
+constexpr std::size_t band_bytes = std::size_t{4} << 20;
+
+// OpenImageIO has room for so much where it converts scan lines.
+constexpr std::uint64_t most_converted_bytes = 64 << 20;
+
+// Readers of these, and of PNG that is interlaced, decode the whole picture before they give a row of it.
+bool is_decoded_whole(const OIIO::ImageInput& in) {
+  constexpr std::array by_rows{"dpx", "fits", "hdr", "jpeg", "openexr", "png", "pnm", "rla"};
+  return std::ranges::find(by_rows, std::string_view(in.format_name())) == by_rows.end() ||
+         in.spec().get_int_attribute("png:interlaced") != 0;
+}
+
+// What reading takes: `decoded` by the library, the floats of channels, and the picture.
+void note_memory(const OIIO::ImageInput& in, ImageLayout& layout) {
+  const OIIO::ImageSpec& spec = in.spec();
+  const std::uint64_t stored = spec.image_bytes(true), pixels = spec.image_pixels();
+  const auto channels = static_cast<std::uint64_t>(spec.nchannels + layout.channels);
+  const std::uint64_t floats = pixels * channels * sizeof(float);
+  const std::uint64_t decoded = is_decoded_whole(in) ? 2 * stored : 0;
+  const auto lines = static_cast<std::uint64_t>(std::max(spec.tile_height, 1));
+  const std::uint64_t row = spec.height > 0 ? (floats + stored) / static_cast<std::uint64_t>(spec.height) : 0;
+  layout.whole_bytes = decoded + std::min(stored, most_converted_bytes) + floats;
+  layout.rows_bytes =
+      decoded + std::min(floats + stored, std::max<std::uint64_t>(4 * band_bytes, lines * row));
+}
+
 // A picture that is open, with the bytes that it is read from where it has no file.
 class OpenPicture {
  public:
@@ -131,6 +158,7 @@ std::string read_picture(const PictureSource& source, ImageLayout& layout, Image
   const std::vector<int> channels = channels_of(spec);
   layout = {spec.width, spec.height, static_cast<int>(channels.size()), are_integers(channels, spec),
             chromaticities_of(spec)};
+  note_memory(*in, layout);
   if (!image) return {};
   const auto stride = static_cast<std::size_t>(spec.nchannels);
   std::vector<float> values(spec.image_pixels() * stride);
@@ -140,9 +168,6 @@ std::string read_picture(const PictureSource& source, ImageLayout& layout, Image
   if (is_multiplied(*in)) divide_by_alpha(*image);
   return {};
 }
-
-// Rows of tiles, or as many scan lines as take about so much.
-constexpr std::size_t band_bytes = std::size_t{4} << 20;
 
 std::string read_picture_rows(const PictureSource& source, ImageLayout& layout,
                               const std::function<void(Image)>& visit) {
@@ -214,6 +239,9 @@ std::string read_rows(const PictureSource& source, ImageLayout& layout,
   }
 }
 
+// It makes its list of formats, and its threads.
+void begin() { OIIO::ImageInput::create("none.png"); }
+
 std::string encode_exr(const Image& image, std::vector<std::byte>& bytes) {
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
   if (image.channels == 1) spec.channelnames = {"Y"};
@@ -232,6 +260,7 @@ std::string encode_exr(const Image& image, std::vector<std::byte>& bytes) {
 }  // namespace
 
 extern "C" const ImageCodec vitrail_image_codec;
-const ImageCodec vitrail_image_codec{read, read_rows, encode_exr, encode_picture, decode_picture, map_tones};
+const ImageCodec vitrail_image_codec{begin,          read,           read_rows, encode_exr,
+                                     encode_picture, decode_picture, map_tones};
 
 }  // namespace vitrail

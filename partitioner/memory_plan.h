@@ -23,11 +23,16 @@ struct MemoryNeeds {
   double expansion = 1;              // of them: triangles and pieces in all domains over triangles
   std::uint64_t instance_bytes = 0;  // of references to objects, in memory and in the domains
   std::uint64_t quadrics = 0;        // that references are made to as they are needed
-  std::uint64_t scene_bytes = 0;     // of the budget, already in use
+  std::uint64_t scene_bytes = 0;     // of the budget, already in use, but for meshes
+  std::uint64_t mesh_bytes = 0;      // of all meshes, of which as many are in memory as meshes_within says
+  std::uint64_t held_meshes = 0;     // of those that are there in any case
   std::uint64_t largest_mesh = 0;    // bytes of one that is in its file
+  double object_bytes = 0;           // while the largest object that has instances is written
+  std::uint64_t baking_bytes = 0;    // while images are baked
   std::uint32_t domains = 0;         // 0: by domain_bytes
   std::uint64_t domain_bytes = 0;  // of a file; 0: 64 MiB, or less where that is more than 1/32 of the budget
   bool image_library = false;      // loaded
+  double share = 1;                // of what is left, for the parts of the scene
   int threads = 1;
 };
 
@@ -39,10 +44,16 @@ double bytes_left(const MemoryNeeds& needs);
 // Of `triangles` in memory while a file of `built` of them is made.
 double bytes_to_build(const Manifest& manifest, double triangles, double built);
 
+// Meshes that stay in memory within a budget; the others stay in their files.
+std::uint64_t meshes_within(std::uint64_t budget_bytes);
+
+// The least budget from needs.budget_bytes on that is enough for all of it, to a MiB.
+std::uint64_t least_budget(const Manifest& manifest, MemoryNeeds needs);
+
 // Throws UsageError for too many.
 std::uint32_t number_of_domains(const Manifest& manifest, const MemoryNeeds& needs);
 
-// Throws MachineError where not even one domain or one mesh fits, UsageError for too many domains.
+// Throws MemoryNeeded where not even one domain or one mesh fits, UsageError for too many domains.
 MemoryPlan plan_memory(const Manifest& manifest, const MemoryNeeds& needs);
 
 std::uint64_t machine_bytes();

@@ -17,6 +17,7 @@
 #include "partitioner/caching/world_key.h"
 #include "partitioner/cutting/kd_plan.h"
 #include "partitioner/divide_cell.h"
+#include "partitioner/least_memory.h"
 #include "partitioner/memory_ledger.h"
 #include "partitioner/memory_plan.h"
 #include "partitioner/object_budget.h"
@@ -33,15 +34,6 @@ namespace vitrail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// Of an object in one file: a domain is to have room for several.
-std::uint64_t most_object_bytes(std::uint64_t domain_bytes) {
-  constexpr std::uint64_t by_default = 64 << 20, least = 64 << 10;
-  return domain_bytes > 0 ? std::max(domain_bytes / 4, least) : by_default;
-}
-
-// In a domain file with its place in the tree, and here while domains are written.
-constexpr std::uint64_t bytes_of_reference = 192;
 
 std::uint64_t directory_bytes(const std::filesystem::path& directory) {
   std::uint64_t bytes = 0;
@@ -159,25 +151,25 @@ class Partitioner {
   // Objects, and how the rest is to be divided.
   void begin() {
     const PartitionOptions& options = options_;
-    MemoryNeeds needs{
-        .budget_bytes = options.memory_bytes,
-        .triangles = world_.own_triangles,
-        .scene_bytes = ledger_of(scene_).all() + emissive_triangles_of(world_) * sizeof(EmissiveTriangle),
-        .domains = options.domains,
-        .domain_bytes = options.domain_bytes,
-        .image_library = image_library_is_loaded(),
-        .threads = tbb::this_task_arena::max_concurrency()};
-    for (const TriangleMesh& mesh : scene_.meshes)
-      if (mesh.deferred) needs.largest_mesh = std::max(needs.largest_mesh, mesh.deferred->bytes);
+    const std::uint64_t file_bytes = most_object_bytes(options.domain_bytes);
+    MemoryNeeds needs = needs_of(scene_, options);
+    needs.triangles = world_.own_triangles;
+    needs.scene_bytes += emissive_triangles_of(world_) * sizeof(EmissiveTriangle);
+    needs.instance_bytes = world_.uses.size() * bytes_of_reference;
+    for (const WorldObject& o : world_.objects)
+      needs.object_bytes =
+          std::max(needs.object_bytes, bytes_in_work(world_.manifest, o.assembly, file_bytes));
+    for (const QuadricRun& run : world_.runs)
+      needs.quadrics += run.places->size() * (is_curve(*run.quadric) ? 3 : 1);
+    items_ = world_.own_triangles + world_.uses.size();
+    plan_ = plan_with_pieces(needs);  // before anything is written, where it is too little
     const std::uint64_t in_objects = triangles_of_objects(world_);
     const auto all = static_cast<double>(std::max<std::uint64_t>(in_objects + world_.own_triangles, 1));
     phases_.begin("writing objects", static_cast<double>(in_objects) / all, in_objects);
-    instances_ = write_objects(world_, world_.manifest, bundle_,
-                               {most_object_bytes(options.domain_bytes), bytes_left(needs)},
+    instances_ = write_objects(world_, world_.manifest, bundle_, {file_bytes, bytes_left(needs)},
                                [&](std::uint64_t n) { phases_.advance(n); });
     rest_ = static_cast<double>(world_.own_triangles) / all;
     needs.instance_bytes = instances_.refs.size() * bytes_of_reference;
-    needs.quadrics = instances_.room_in_runs();
     items_ = world_.own_triangles + instances_.refs.size() + instances_.in_runs();
     plan_ = plan_with_pieces(needs);
     if (options.domains == 0 && options.domain_bytes > 0 && !instances_.refs.empty()) {
@@ -304,6 +296,7 @@ class Partitioner {
     InstanceSpill runs(bundle_ / "spill", cells, bounds,
                        std::min(plan_.spill_bytes / buckets_, most_spill_buffer_bytes));
     instances_.for_each_of_runs([&](const InstanceRef& ref) { runs.add(ref); });
+    runs.flush();
     spill_bytes_ = spill.bytes() + runs.bytes();
     ::malloc_trim(0);
     manifest_ = std::move(world_.manifest);
@@ -311,9 +304,11 @@ class Partitioner {
     phases_.begin("cutting and writing domains", 0.59 * rest_, triangles);
     for (std::size_t i = 0; i < buckets_; ++i) {
       const LoadedCell cell = spill.take(i);
-      std::vector<InstanceRef> refs = instances.whole_in(top.leaves[i].cell);
-      std::ranges::copy(runs.take(i), std::back_inserter(refs));
-      std::ranges::stable_sort(refs, {}, &InstanceRef::first_triangle);
+      std::vector<InstanceRef> refs = runs.take(i);  // most of them
+      const std::vector<InstanceRef> others = instances.whole_in(top.leaves[i].cell);
+      refs.insert(refs.begin(), others.begin(), others.end());
+      if (!std::ranges::is_sorted(refs, {}, &InstanceRef::first_triangle))
+        std::ranges::stable_sort(refs, {}, &InstanceRef::first_triangle);
       const InstanceDealer here(std::move(refs), bounds);
       divide_cell(cell.triangles, cell.cut, top.leaves[i], writer(census, here));
       std::vector<std::uint32_t> open;
@@ -373,7 +368,7 @@ class Partitioner {
 }  // namespace
 
 std::uint64_t default_memory_bytes() { return machine_bytes() / 4 * 3; }
-std::uint64_t mesh_bytes_within(std::uint64_t memory_bytes) { return memory_bytes / 8; }
+std::uint64_t mesh_bytes_within(std::uint64_t memory_bytes) { return meshes_within(memory_bytes); }
 
 PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
                          const PartitionOptions& options,

@@ -19,6 +19,7 @@ struct PartitionOptions {
   std::uint32_t domains = 0;          // number of leaves; 0: chosen by domain_bytes
   std::uint64_t domain_bytes = 0;     // target size of a domain file; 0 with domains = 0: 64 MiB
   std::uint64_t memory_bytes = 0;     // most resident memory; 0: three quarters of the machine's
+  double memory_share = 1;            // of what the plan would take for the parts of a scene
   std::uint32_t domains_at_once = 0;  // as if no more fitted into memory, for tests; 0: as many as fit
   std::uint64_t pack_bytes = 0;       // most of a pack of domains (bundle/packs.h); 0: a file a domain
   int threads = 0;                    // 0: all

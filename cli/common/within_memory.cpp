@@ -2,9 +2,10 @@
 #include "cli/common/within_memory.h"
 
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "scene/system/diagnostics.h"
 #include "scene/system/memory_guard.h"
@@ -15,40 +16,43 @@ namespace {
 
 constexpr double mib = 1 << 20;
 
-// What comes after this moment is not known, and takes more: of two digits. Twice as much while the scene is
-// read, whose triangles are then sorted.
-std::uint64_t ample_mib(double needed_mib, const Stage& stage) {
-  const bool reads = std::string_view(stage.what) == "reading the scene";
-  const double more = needed_mib * (reads ? 2 : 1.5),
-               digit = std::pow(10, std::max(0.0, std::floor(std::log10(more)) - 1));
-  return static_cast<std::uint64_t>(std::ceil(more / digit) * digit);
+// All of what a scene takes, where so much of it is read.
+double extrapolated(double resident, const Stage& stage) {
+  const bool partly = stage.fraction > 0.01 && stage.fraction < 0.99;
+  return partly ? stage.start_bytes + (resident - stage.start_bytes) / stage.fraction : resident;
 }
 
-std::string message(const MemoryRefusal& refusal, double budget, const Stage& stage) {
-  const auto resident = static_cast<double>(refusal.resident_bytes);
-  // What was asked for, and the guard's reserve.
-  double needed = std::max(resident + static_cast<double>(refusal.asked_bytes), budget) * (1 + 1.0 / 64);
-  const bool partly = stage.fraction > 0.01 && stage.fraction < 0.99;
-  if (partly) needed = std::max(needed, resident / stage.fraction);
-  return fmt::format(
-      "{:.0f} MiB of memory are too little: {} {:.0f} MiB is needed ({:.0f} MiB are in use and {:.1f} MiB "
-      "more are needed, {}{}{}); try --memory {}M: later stages take more",
-      budget / mib, partly ? "about" : "at least", std::ceil(needed / mib) + 1, resident / mib,
-      static_cast<double>(refusal.asked_bytes) / mib, stage.what,
-      partly ? fmt::format(" at {:.0f} % of it", 100 * stage.fraction) : "",
-      stage.held.empty() ? "" : "; the scene has " + stage.held, ample_mib(needed / mib, stage));
+// What was asked for, in two digits; more while the scene is read, for what comes after it is not known.
+double enough_bytes(const MemoryRefusal& refusal, double budget, const Stage& stage) {
+  const double resident = extrapolated(static_cast<double>(refusal.resident_bytes), stage);
+  double needed = std::max(resident + static_cast<double>(refusal.asked_bytes), budget);
+  needed += static_cast<double>(memory_reserve(static_cast<std::uint64_t>(needed)));
+  if (stage.needed_bytes > 0) return std::max(needed, static_cast<double>(stage.needed_bytes));
+  needed *= 1.5;
+  const double digit = mib * std::pow(10, std::max(0.0, std::floor(std::log10(needed / mib)) - 1));
+  return std::ceil(needed / digit) * digit;
 }
 
 }  // namespace
 
 int within_memory(std::uint64_t budget_bytes, const Stage& stage, const std::function<int()>& body) {
-  guard_memory(budget_bytes);
+  guard_memory(budget_bytes, [] { return tbb::this_task_arena::current_thread_index() >= 0; });
+  // What ends after this, static objects of libraries too, is refused nothing.
+  const struct End {
+    ~End() { guard_no_more(); }
+  } end;
   try {
     return body();
+  } catch (const MemoryNeeded&) {
+    throw;
   } catch (...) {
+    guard_no_more();
     const MemoryRefusal refusal = memory_refusal();
     if (!refusal.refused) throw;
-    throw MachineError(message(refusal, static_cast<double>(budget_bytes), stage));
+    throw MemoryNeeded(
+        budget_bytes,
+        static_cast<std::uint64_t>(enough_bytes(refusal, static_cast<double>(budget_bytes), stage)),
+        stage.held.empty() ? stage.what : fmt::format("{} ({})", stage.what, stage.held));
   }
 }
 

@@ -10,8 +10,10 @@ namespace vitrail {
 // What a program is at.
 struct Stage {
   const char* what = "starting";
-  double fraction = 0;  // of what is read of the input; 0: not known
-  std::string held{};   // what the scene takes, by kind; "": not known
+  double fraction = 0;             // of what is read of the input; 0: not known
+  double start_bytes = 0;          // resident before it was read
+  std::string held{};              // what the scene takes, by kind; "": not known
+  std::uint64_t needed_bytes = 0;  // least budget for all that follows; 0: not known
 };
 
 // Runs `body` with no more memory resident than that (scene/system/memory_guard.h). Where this is too little

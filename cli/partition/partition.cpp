@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <malloc.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <iterator>
+#include <string_view>
 
 #include "bundle/checked_json.h"
 #include "bundle/manifest_json.h"
@@ -25,10 +27,13 @@
 #include "importers/reading/back_to_back_faces.h"
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/caching/file_cache.h"
+#include "partitioner/least_memory.h"
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/system/input_files.h"
+#include "scene/system/memory_guard.h"
 #include "scene/system/output_place.h"
 #include "scene/system/progress_line.h"
+#include "scene/system/resource_usage.h"
 #include "scene/system/say.h"
 
 namespace vitrail {
@@ -121,15 +126,17 @@ void interpret(PartitionArguments& a) {
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
 }
 
-int run(PartitionArguments& a, Stage& stage) {
-  const std::uint64_t kept_bytes =
-      a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes);
-  const ProgressManner manner = a.progress == "bar"    ? ProgressManner::line
-                                : a.progress == "none" ? ProgressManner::silent
-                                                       : progress_manner(a.quiet);
-  Watch reading(manner, stage);
+ProgressManner manner_of(const PartitionArguments& a) {
+  return a.progress == "bar"    ? ProgressManner::line
+         : a.progress == "none" ? ProgressManner::silent
+                                : progress_manner(a.quiet);
+}
+
+ImportedScene read(const PartitionArguments& a, std::uint64_t kept_bytes, Stage& stage) {
+  Watch reading(manner_of(a), stage);
+  stage = {.what = "reading the scene", .start_bytes = static_cast<double>(resident_bytes())};
   tbb::task_arena arena(a.options.threads > 0 ? a.options.threads : tbb::task_arena::automatic);
-  ImportedScene imported = arena.execute([&] {
+  return arena.execute([&] {
     return import_scene(
         a.input, MeshMemory(kept_bytes),
         [&](double fraction) {
@@ -138,15 +145,42 @@ int run(PartitionArguments& a, Stage& stage) {
         },
         import_options(a.imports));
   });
-  if (a.view_only) {
-    const Scene& scene = imported.scene;
-    write_checked_json(a.output, view_to_json({scene.camera, scene.camera_motion, scene.shutter,
-                                               scene.film.width, scene.film.height}));
-    return exit_done;
+}
+
+// With all meshes in their files where the memory is too little for some.
+ImportedScene read_within_memory(const PartitionArguments& a, std::uint64_t kept_bytes, Stage& stage) {
+  try {
+    return read(a, kept_bytes, stage);
+  } catch (...) {
+    if (!memory_refusal().refused) throw;
   }
+  ::malloc_trim(0);
+  forget_refusal();
+  return read(a, 0, stage);
+}
+
+// The plan reckons with averages: where they are too low, with smaller parts.
+PartitionStats divide(const Scene& scene, PartitionArguments& a, Stage& stage) {
+  constexpr double least_share = 0.25;
+  for (;; a.options.memory_share /= 2) {
+    Watch watch(manner_of(a), stage);
+    try {
+      return partition(scene, a.output, a.options, std::ref(watch));
+    } catch (const MemoryNeeded&) {
+      throw;
+    } catch (...) {
+      const bool is_dividing = std::string_view(stage.what).starts_with("cutting");
+      if (!memory_refusal().refused || !is_dividing || a.options.memory_share <= least_share) throw;
+    }
+    ::malloc_trim(0);
+    forget_refusal();
+  }
+}
+
+int write_bundle(PartitionArguments& a, std::uint64_t kept_bytes, ImportedScene& imported, Stage& stage) {
   join_faces_back_to_back(imported);
   imported.scene.settings.rgb = rgb_method(a.rgb);
-  stage = {"preparing the scene", 0, to_string(ledger_of(imported.scene))};
+  stage = {.what = "preparing the scene", .held = to_string(ledger_of(imported.scene))};
   Diagnostics diagnostics = std::move(imported.diagnostics);
   std::ranges::copy(
       appearance_of(imported.scene, {}, {.cache = a.options.cache, .trust_integers = true}).diagnostics,
@@ -163,12 +197,29 @@ int run(PartitionArguments& a, Stage& stage) {
   if (!a.quiet) say("{}", summarise(edits));
   a.options.glazings = switching_glazings(imported.scene);
   catch_signals();
-  Watch watch(manner, stage);
-  const PartitionStats stats = partition(imported.scene, a.output, a.options, std::ref(watch));
+  const PartitionStats stats = divide(imported.scene, a, stage);
   if (a.summary) write_bundle_origin(a.output, origin_of(a));
   if (!a.stats.empty()) write_stats(a.stats, stats);
   if (!a.quiet && a.summary) print_summary(stats, a.output);
   return exit_done;
+}
+
+int run(PartitionArguments& a, Stage& stage) {
+  const std::uint64_t kept_bytes =
+      a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes);
+  ImportedScene imported = read_within_memory(a, kept_bytes, stage);
+  if (a.view_only) {
+    const Scene& scene = imported.scene;
+    write_checked_json(a.output, view_to_json({scene.camera, scene.camera_motion, scene.shutter,
+                                               scene.film.width, scene.film.height}));
+    return exit_done;
+  }
+  try {
+    return write_bundle(a, kept_bytes, imported, stage);
+  } catch (...) {
+    if (memory_refusal().refused) stage.needed_bytes = least_memory(imported.scene, a.options);
+    throw;
+  }
 }
 
 }  // namespace

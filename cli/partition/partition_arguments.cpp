@@ -25,7 +25,10 @@ void declare(CLI::App& app, PartitionArguments& a) {
                "halve the triangles at every cut, to measure the gain of cuts by cost");
   app.add_flag("--flatten", a.options.flatten,
                "copy the triangles of instances instead of keeping instances");
-  app.add_option("--domain-bytes", a.domain_bytes, "size of a sub-domain, e.g. 256M; default: 64M")
+  app.add_option("--domain-bytes", a.domain_bytes,
+                 "size of a sub-domain with the objects that it places, e.g. 256M; default: 64M, or a 32nd "
+                 "of --memory "
+                 "where that is less")
       ->excludes(domains);
   app.add_option("--pack", a.pack,
                  "put the sub-domains into few files of at most this size, e.g. 1G; default: a file each");

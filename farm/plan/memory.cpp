@@ -24,6 +24,17 @@ std::uint64_t fixed_bytes(std::uint64_t base, int threads) {
          slack_a_loader * loaders_of_a_rank;
 }
 
+// More domains help where all but the largest has room; the objects that a domain places count.
+std::string about_smaller_domains(std::uint64_t budget, std::uint64_t fixed, std::uint64_t peak) {
+  constexpr std::uint64_t least_domain_bytes = 64 << 10;
+  if (budget < peak || budget < fixed + least_queue_bytes + least_domain_bytes) return {};
+  return fmt::format(
+      ", or partition the scene with --domain-bytes {}K: so much is left for a domain and the objects that "
+      "it "
+      "places",
+      (budget - fixed - least_queue_bytes) >> 10);
+}
+
 }  // namespace
 
 std::uint64_t least_memory(std::uint64_t base, std::uint64_t peak, int threads,
@@ -65,13 +76,12 @@ MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t p
   const std::uint64_t least = least_memory(base, peak, threads, largest_domain);
   if (budget < least)
     throw MachineError(fmt::format(
-        "--memory {:.0f}M is too little. Give at least {:.0f}M, or cut the scene into more domains. The "
-        "program "
-        "and the film take {:.0f}M, the largest domain and its objects {:.0f}M; reading the scene and making "
+        "--memory {:.0f}M is too little. Give at least {:.0f}M{}. The program and the film take {:.0f}M, the "
+        "largest domain and its objects {:.0f}M; reading the scene and making "
         "the picture take {:.0f}M{}",
-        static_cast<double>(budget) / mib, static_cast<double>(least + mib - 1) / mib,
-        static_cast<double>(fixed) / mib, static_cast<double>(largest_domain) / mib,
-        static_cast<double>(peak) / mib,
+        static_cast<double>(budget) / mib, static_cast<double>((least + mib - 1) / mib),
+        about_smaller_domains(budget, fixed, peak), static_cast<double>(fixed) / mib,
+        static_cast<double>(largest_domain) / mib, static_cast<double>(peak) / mib,
         peak < least ? "" : "; -o NAME.film needs less, and vitrail develop makes the picture elsewhere"));
   const std::uint64_t free = budget - fixed;
   const std::uint64_t queues =

@@ -36,6 +36,8 @@ class LampsOfSpace {
     if (triangles() > most_triangles) {
       say_incomplete();
     } else {
+      flat_.reserve(triangles());
+      lamps_.reserve(triangles());
       gather(true);
       gather(false);
       find();

@@ -9,10 +9,13 @@
 #include <memory>
 
 #include "scene/system/diagnostics.h"
+#include "scene/system/memory_guard.h"
 
 namespace vitrail::solids {
 
 namespace {
+
+constexpr std::uint64_t library_bytes = 4 << 20;
 
 // The functions that are called, found by name: programs that read no text do not load the library.
 struct FreeType {
@@ -29,6 +32,7 @@ struct FreeType {
 
 const FreeType& free_type() {
   static const FreeType functions = [] {
+    const GrantedMemory loading(library_bytes);
     void* library = ::dlopen("libfreetype.so.6", RTLD_NOW | RTLD_LOCAL);
     if (!library) throw Error("text needs FreeType: install libfreetype6");
     FreeType f{};
@@ -141,6 +145,7 @@ class Font {
     if (face_->glyph->format != FT_GLYPH_FORMAT_OUTLINE) return made;
     FT_Outline_Funcs functions{move_to, line_to, conic_to, cubic_to, 0, 0};
     Pen pen{&made, em(), {}};
+    const GrantedMemory small;  // an exception cannot pass FreeType
     free_type().decompose(&face_->glyph->outline, &functions, &pen);
     std::erase_if(made.contours, [](const auto& contour) { return contour.size() < 8; });
     return made;

@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "scene/system/diagnostics.h"
+#include "scene/system/memory_guard.h"
 
 namespace vitrail {
 
@@ -106,6 +107,7 @@ Spill::Spill(std::filesystem::path directory, std::size_t buckets, const Placeme
 }
 
 Spill::~Spill() {
+  const GrantedMemory in_any_case;
   std::error_code ignored;
   std::filesystem::remove_all(directory_, ignored);
 }

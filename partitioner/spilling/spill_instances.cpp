@@ -64,6 +64,13 @@ void InstanceSpill::write(Part& part) {
   part.waiting.clear();
 }
 
+void InstanceSpill::flush() {
+  for (Part& part : parts_) {
+    if (!part.waiting.empty()) write(part);
+    part.waiting = {};
+  }
+}
+
 std::vector<InstanceRef> InstanceSpill::take(std::size_t index) {
   Part& part = parts_[index];
   std::vector<InstanceRef> instances(part.in_file);

@@ -20,6 +20,8 @@ class InstanceSpill {
 
   // To every part whose cell it reaches into. Throws MachineError.
   void add(const InstanceRef& instance);
+  // Takes no memory any more, when all have come. Throws MachineError.
+  void flush();
   // In the order in which they came. Its file is gone then. Throws MachineError.
   std::vector<InstanceRef> take(std::size_t part);
 

@@ -15,6 +15,7 @@
 
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
+#include "scene/system/memory_guard.h"
 
 namespace vitrail {
 
@@ -85,6 +86,7 @@ BundleDirectory::BundleDirectory(fs::path target, bool durable)
 }
 
 BundleDirectory::~BundleDirectory() {
+  const GrantedMemory in_any_case;
   std::error_code ignored;
   if (!committed_) fs::remove_all(temporary_, ignored);
   if (lock_ >= 0) ::close(lock_);

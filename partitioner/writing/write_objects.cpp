@@ -108,9 +108,9 @@ NumberedTriangles placed_alone(const World& world, const Assembly& object) {
 }
 
 // Parts are small, for their boxes overlap: where they meet a domain needs six or more.
-std::uint32_t number_of_files(const World& world, const Assembly& object, std::uint64_t most_bytes) {
+std::uint32_t number_of_files(const Manifest& m, const Assembly& object, std::uint64_t most_bytes) {
   const auto triangles = static_cast<double>(triangles_in(object));
-  const double wholes = bytes_of_a_triangle(world.manifest) * triangles / static_cast<double>(most_bytes);
+  const double wholes = bytes_of_a_triangle(m) * triangles / static_cast<double>(most_bytes);
   return wholes <= 1 ? 1 : static_cast<std::uint32_t>(std::min(std::ceil(4 * wholes), triangles));
 }
 
@@ -153,15 +153,6 @@ void note_quadric(const WorldObject& o, ObjectInfo& info) {
   info.hash = hasher.digest();
 }
 
-// While an object is written, with the mesh that is being placed.
-double bytes_in_work(const World& world, const Assembly& object, std::uint32_t files) {
-  const auto triangles = static_cast<double>(triangles_in(object));
-  std::uint64_t mesh = 0;
-  for (const Placement& p : object.placements)
-    if (p.mesh->deferred) mesh = std::max(mesh, p.mesh->deferred->bytes);
-  return static_cast<double>(mesh) + bytes_to_build(world.manifest, triangles, std::ceil(triangles / files));
-}
-
 // Those whose instances are of objects before them: as many of them at once as there are threads, or one
 // after the other.
 struct Batch {
@@ -169,6 +160,15 @@ struct Batch {
 };
 
 }  // namespace
+
+double bytes_in_work(const Manifest& m, const Assembly& object, std::uint64_t file_bytes) {
+  const auto triangles = static_cast<double>(triangles_in(object));
+  std::uint64_t mesh = 0;
+  for (const Placement& p : object.placements)
+    if (p.mesh->deferred) mesh = std::max(mesh, p.mesh->deferred->bytes);
+  return static_cast<double>(mesh) +
+         bytes_to_build(m, triangles, std::ceil(triangles / number_of_files(m, object, file_bytes)));
+}
 
 std::uint64_t triangles_of_objects(const World& world) {
   std::uint64_t triangles = 0;
@@ -179,12 +179,6 @@ std::uint64_t triangles_of_objects(const World& world) {
 std::uint64_t SceneInstances::in_runs() const {
   std::uint64_t count = 0;
   for (const Run& r : runs) count += r.run.places->size();
-  return count;
-}
-
-std::uint64_t SceneInstances::room_in_runs() const {
-  std::uint64_t count = 0;
-  for (const Run& r : runs) count += r.run.places->size() * (is_curve(r.quadric) ? 3 : 1);
   return count;
 }
 
@@ -201,7 +195,6 @@ SceneInstances write_objects(const World& world, Manifest& m, const std::filesys
   Files files{{}, {0}, {}};
   std::vector<Batch> by_depth;
   const int threads = tbb::this_task_arena::max_concurrency();
-  double most_bytes = 0;
   for (std::uint32_t i = 0; i < world.objects.size(); ++i) {
     const Assembly& object = world.objects[i].assembly;
     files.quadric.push_back(object.quadric ? &object : nullptr);
@@ -210,18 +203,13 @@ SceneInstances write_objects(const World& world, Manifest& m, const std::filesys
       continue;
     }
     std::filesystem::create_directories(bundle / "objects");
-    const std::uint32_t count = number_of_files(world, object, limits.file_bytes);
+    const std::uint32_t count = number_of_files(world.manifest, object, limits.file_bytes);
     files.first.push_back(files.first.back() + count);
-    const double bytes = bytes_in_work(world, object, count);
-    most_bytes = std::max(most_bytes, bytes);
+    const double bytes = bytes_in_work(world.manifest, object, limits.file_bytes);
     by_depth.resize(std::max(by_depth.size(), static_cast<std::size_t>(object.depth) + 1));
     Batch& batch = by_depth[static_cast<std::size_t>(object.depth)];
     (threads * bytes <= limits.memory_bytes ? batch.at_once : batch.alone).push_back(i);
   }
-  if (most_bytes > limits.memory_bytes)
-    throw MachineError(fmt::format(
-        "memory is too little for the largest object that has instances: {:.0f} MiB more is needed",
-        (most_bytes - limits.memory_bytes) / (1 << 20) + 1));
   files.bounds.resize(files.first.back());
   m.objects.resize(files.first.back());
   for (std::size_t i = 0; i < world.objects.size(); ++i)

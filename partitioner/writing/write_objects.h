@@ -27,16 +27,16 @@ struct SceneInstances {
   std::vector<Run> runs;
 
   std::uint64_t in_runs() const;
-  // In quadrics: a curve takes as much as three.
-  std::uint64_t room_in_runs() const;
   void for_each_of_runs(const std::function<void(const InstanceRef&)>& visit) const;
 };
 
 // Writes the world's objects, those beyond the limit in parts of a quarter of it, and their lines in the
-// manifest. `written` is told of triangles, from any thread. Throws MachineError where an object takes more
-// than the memory.
+// manifest. `written` is told of triangles, from any thread. Objects that together take more than the memory
+// are written one after the other.
 SceneInstances write_objects(const World& world, Manifest& manifest, const std::filesystem::path& bundle,
                              const ObjectLimits& limits, const std::function<void(std::uint64_t)>& written);
+// While an object is written, with the mesh that is being placed, in files of at most `file_bytes`.
+double bytes_in_work(const Manifest& manifest, const Assembly& object, std::uint64_t file_bytes);
 // Of all objects.
 std::uint64_t triangles_of_objects(const World& world);
 

@@ -5,6 +5,9 @@
 
 #include <cstdint>
 #include <new>
+#include <string>
+
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 
@@ -13,8 +16,43 @@ struct MemoryRefused : std::bad_alloc {
   const char* what() const noexcept override { return "the memory that is allowed is too little"; }
 };
 
-// From now on no more than that is to be resident. Called once, while there is one thread.
-void guard_memory(std::uint64_t budget_bytes);
+// A plan finds that the budget is too little, and which one is enough.
+struct MemoryNeeded : MachineError {
+  // `what_for` completes "256 MiB of memory are too little for".
+  MemoryNeeded(std::uint64_t budget_bytes, std::uint64_t needed_bytes, const std::string& what_for);
+};
+
+// From now on no more than that is to be resident, until `guard_no_more`. Called once, while there is one
+// thread. Memory is refused to this thread, and to those of which `is_own` says that they run our code now:
+// threads that libraries start for themselves are granted all, for nobody would catch the exception there.
+void guard_memory(std::uint64_t budget_bytes, bool (*is_own)() = nullptr);
+void guard_no_more();
+
+// Within its life this thread is refused nothing. It encloses code that no exception may pass: libraries,
+// their initialisers, destructors. Asks for what that code takes beforehand, so that it throws MemoryRefused
+// where this is not there.
+class GrantedMemory {
+ public:
+  explicit GrantedMemory(std::uint64_t bytes = 0);
+  ~GrantedMemory();
+  GrantedMemory(const GrantedMemory&) = delete;
+  GrantedMemory& operator=(const GrantedMemory&) = delete;
+
+ private:
+  std::uint64_t bytes_;
+};
+
+// The reverse, of our code that such code calls back.
+class GuardedMemory {
+ public:
+  GuardedMemory();
+  ~GuardedMemory();
+  GuardedMemory(const GuardedMemory&) = delete;
+  GuardedMemory& operator=(const GuardedMemory&) = delete;
+
+ private:
+  int granted_;
+};
 
 // Asks for memory that is taken by another way than `new`. Throws MemoryRefused. The other says whether it
 // would.
@@ -29,5 +67,10 @@ struct MemoryRefusal {
   std::uint64_t resident_bytes = 0, asked_bytes = 0;
 };
 MemoryRefusal memory_refusal();
+// The same work is tried in another way: as if nothing had been refused. Called while no other thread works.
+void forget_refusal();
+
+// Of a budget, what is kept free: for what threads take between two looks, and for an orderly end.
+std::uint64_t memory_reserve(std::uint64_t budget_bytes);
 
 }  // namespace vitrail

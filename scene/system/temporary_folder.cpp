@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "scene/system/diagnostics.h"
+#include "scene/system/memory_guard.h"
 
 namespace vitrail {
 
@@ -17,6 +18,7 @@ TemporaryFolder::TemporaryFolder() {
 }
 
 TemporaryFolder::~TemporaryFolder() {
+  const GrantedMemory in_any_case;
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
 }

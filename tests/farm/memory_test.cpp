@@ -25,6 +25,35 @@ TEST(Memory, BudgetIsSharedOutOrRefused) {
   EXPECT_EQ(plan_memory(0, 50 * mib, 60 * mib, 2, 20 * mib, 500 * mib).domains_bytes, 500 * mib);
 }
 
+std::string refusal_of(std::uint64_t budget, std::uint64_t peak, std::uint64_t largest) {
+  try {
+    plan_memory(budget, 20 * mib, peak, 2, largest, 500 * mib);
+  } catch (const MachineError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+// The advice helps: that budget, or domains of that size.
+TEST(Memory, ARefusalNamesWhatIsEnough) {
+  const std::string said = refusal_of(100 * mib, 30 * mib, 299 * mib);
+  std::uint64_t least = 0, room_kib = 0;
+  const std::size_t at = said.find("at least "), domains = said.find("--domain-bytes ");
+  ASSERT_TRUE(at != std::string::npos && domains != std::string::npos) << said;
+  least = std::stoull(said.substr(at + 9)), room_kib = std::stoull(said.substr(domains + 15));
+  EXPECT_EQ(refusal_of(least * mib, 30 * mib, 299 * mib), "");
+  EXPECT_NE(refusal_of((least - 1) * mib, 30 * mib, 299 * mib), "");
+  EXPECT_EQ(refusal_of(100 * mib, 30 * mib, room_kib << 10), "");
+  EXPECT_NE(refusal_of(100 * mib, 30 * mib, (room_kib + 1) << 10), "");
+}
+
+TEST(Memory, ARefusalDoesNotAdviseWhatDoesNotHelp) {
+  EXPECT_EQ(refusal_of(100 * mib, 120 * mib, 10 * mib).find("--domain-bytes"), std::string::npos)
+      << "reading the scene takes too much";
+  EXPECT_EQ(refusal_of(20 * mib, 20 * mib, 10 * mib).find("--domain-bytes"), std::string::npos)
+      << "the program takes too much";
+}
+
 TEST(Memory, FilmIsInFilesWhereItHasNoRoomBesideTheDomains) {
   constexpr std::uint64_t base = 20 * mib, largest = 5 * mib, all = 60 * mib;
   const auto placed = [&](std::uint64_t film, std::uint64_t budget) {

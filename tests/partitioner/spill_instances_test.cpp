@@ -35,6 +35,7 @@ TEST(InstanceSpill, HasMorePartsThanFilesMayBeOpen) {
       ref.object = i, ref.first_triangle = round;
       spill.add(ref);
     }
+  spill.flush();
   EXPECT_EQ(spill.bytes(), std::uint64_t{parts} * rounds * sizeof(InstanceRef));
   for (std::uint32_t i = 0; i < parts; ++i) {
     const std::vector<InstanceRef> taken = spill.take(i);

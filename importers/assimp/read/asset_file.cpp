@@ -7,11 +7,15 @@
 
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
+#include "scene/system/memory_guard.h"
 #include "scene/system/module.h"
 
 namespace vitrail::assimp {
 
 namespace {
+
+// What assimp takes when it is loaded, and for each byte of a file: measured.
+constexpr std::uint64_t library_bytes = 16 << 20, bytes_a_byte = 16;
 
 // assimp does not check all that its readers hand on.
 void require_references(const Asset& asset, const std::filesystem::path& file) {
@@ -32,9 +36,10 @@ void require_references(const Asset& asset, const std::filesystem::path& file) {
 }  // namespace
 
 Asset read_asset(const std::filesystem::path& file) {
+  open_regular(file);  // says best what is wrong with the name
+  const GrantedMemory reading(library_bytes + bytes_a_byte * std::filesystem::file_size(file));
   static const auto read =
       reinterpret_cast<ReadAsset>(module_symbol(asset_module, asset_symbol, "reads .fbx, .dae and .3ds"));
-  open_regular(file);  // says best what is wrong with the name
   Asset asset;
   if (const std::string problem = read(file.string(), asset); !problem.empty())
     throw Error(fmt::format("cannot read it: {}", problem), {file.string()});

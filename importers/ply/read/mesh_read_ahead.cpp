@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
+#include "scene/system/memory_guard.h"
+
 namespace vitrail {
 
 MeshReadAhead::~MeshReadAhead() {
+  const GrantedMemory in_any_case;
   for (const auto& entry : entries_) entry->claimed = true;
   while (!entries_.empty()) drop_first();
 }

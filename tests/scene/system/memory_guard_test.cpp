@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <future>
 #include <list>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "scene/system/resource_usage.h"
@@ -20,9 +22,9 @@ constexpr std::uint64_t mib = 1 << 20;
 
 // What `body` ends with, in a process of its own: the guard cannot be put off.
 template <class Body>
-[[noreturn]] void end_with(std::uint64_t allowed, Body body) {
+[[noreturn]] void end_with(std::uint64_t allowed, Body body, bool (*is_own)() = nullptr) {
   const std::uint64_t budget = resident_bytes() + allowed;
-  guard_memory(budget);
+  guard_memory(budget, is_own);
   int status = 0;
   try {
     body();
@@ -68,6 +70,115 @@ TEST(MemoryGuardDeathTest, FreedBlocksMayBeTakenAgain) {
                            for (int i = 0; i < 400; ++i) blocks.push_back(std::make_unique<char[]>(100'000));
                          }
                          std::vector<char> filled(48 * mib, 'a');
+                       }),
+              ::testing::ExitedWithCode(0), "");
+}
+
+// A library that no exception may pass: `noexcept` would end the process.
+void fill_as_a_library(std::uint64_t bytes) noexcept { std::vector<char> filled(bytes, 'a'); }
+
+TEST(MemoryGuardDeathTest, GrantsALibraryWhatWasAskedFor) {
+  EXPECT_EXIT(end_with(32 * mib,
+                       [] {
+                         const GrantedMemory library(20 * mib);
+                         fill_as_a_library(20 * mib);
+                       }),
+              ::testing::ExitedWithCode(0), "");
+}
+
+TEST(MemoryGuardDeathTest, RefusesALibraryBeforeItBegins) {
+  EXPECT_EXIT(end_with(32 * mib,
+                       [] {
+                         const GrantedMemory library(64 * mib);
+                         fill_as_a_library(64 * mib);
+                       }),
+              ::testing::ExitedWithCode(1), "");
+}
+
+// It took more than was asked for: our next block is refused, the library's was not.
+TEST(MemoryGuardDeathTest, RefusesOursAfterALibraryThatTookMore) {
+  EXPECT_EXIT(
+      {
+        guard_memory(resident_bytes() + 32 * mib);
+        std::vector<char> kept;
+        {
+          const GrantedMemory library(mib);
+          [&]() noexcept { kept.assign(64 * mib, 'a'); }();
+        }
+        try {
+          ::operator delete(::operator new(1));  // called by its name, or it is left out
+        } catch (const MemoryRefused&) {
+          std::_Exit(1);
+        }
+        std::_Exit(0);
+      },
+      ::testing::ExitedWithCode(1), "");
+}
+
+TEST(MemoryGuardDeathTest, RefusesWhatALibraryCallsBack) {
+  EXPECT_EXIT(end_with(32 * mib,
+                       [] {
+                         const GrantedMemory library;
+                         const GuardedMemory ours;
+                         std::vector<char> filled(64 * mib, 'a');
+                       }),
+              ::testing::ExitedWithCode(1), "");
+}
+
+struct TakesInItsDestructor {
+  ~TakesInItsDestructor() { std::vector<char> filled(64 * mib, 'a'); }
+};
+
+// Within an exception's way a destructor that throws would end the process.
+TEST(MemoryGuardDeathTest, GrantsDestructorsOfWhatIsRefused) {
+  EXPECT_EXIT(
+      {
+        guard_memory(resident_bytes() + 32 * mib);
+        try {
+          const TakesInItsDestructor takes;
+          throw 1;
+        } catch (int) {
+          std::_Exit(memory_refusal().refused ? 2 : 1);
+        }
+      },
+      ::testing::ExitedWithCode(1), "");
+}
+
+// Nobody would catch what is thrown there.
+TEST(MemoryGuardDeathTest, GrantsThreadsThatAreNotOurs) {
+  EXPECT_EXIT(
+      {
+        guard_memory(resident_bytes() + 32 * mib, [] { return false; });
+        std::thread([] { fill_as_a_library(64 * mib); }).join();
+        std::_Exit(memory_refusal().refused ? 2 : 1);
+      },
+      ::testing::ExitedWithCode(1), "");
+}
+
+TEST(MemoryGuardDeathTest, RefusesThreadsThatAreOurs) {
+  EXPECT_EXIT(
+      end_with(
+          32 * mib,
+          [] { std::async(std::launch::async, [] { std::vector<char> filled(64 * mib, 'a'); }).get(); },
+          [] { return true; }),
+      ::testing::ExitedWithCode(1), "");
+}
+
+// What can do without is told so, and nothing counts as refused.
+TEST(MemoryGuardDeathTest, RefusesWithoutThrowing) {
+  EXPECT_EXIT(end_with(32 * mib,
+                       [] {
+                         if (::operator new(64 * mib, std::nothrow)) std::_Exit(4);
+                         ::operator delete(::operator new(mib, std::nothrow));
+                       }),
+              ::testing::ExitedWithCode(0), "");
+}
+
+TEST(MemoryGuardDeathTest, EndsWithTheWork) {
+  EXPECT_EXIT(end_with(32 * mib,
+                       [] {
+                         guard_no_more();
+                         ask_memory(64 * mib);
                        }),
               ::testing::ExitedWithCode(0), "");
 }

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The budget that a scene needs, before it is placed.
+#pragma once
+
+#include "partitioner/memory_plan.h"
+#include "partitioner/partition.h"
+#include "partitioner/placing/world.h"
+
+namespace vitrail {
+
+// A reference to an object takes so much: in a domain file with its place in the tree, and in memory while
+// domains are written.
+inline constexpr std::uint64_t bytes_of_reference = 192;
+
+// The records of the scene, its meshes, and the options.
+MemoryNeeds needs_of(const Scene& scene, const PartitionOptions& options);
+
+// Most bytes of an object in one file: a domain is to have room for several.
+std::uint64_t most_object_bytes(std::uint64_t domain_bytes);
+
+// The least budget, not less than options.memory_bytes, in which the scene is partitioned, with its images
+// read. Counted from the records; materials are not looked at, so that (u,v) count where there are textures.
+std::uint64_t least_memory(const Scene& scene, const PartitionOptions& options);
+
+}  // namespace vitrail

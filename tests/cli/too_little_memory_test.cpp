@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// `--memory` of any size, for every kind of picture, whose reader is a library that no exception may pass: a
+// verb does its work or refuses it with status 4, and names one budget, which is enough.
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <regex>
+
+#include "images/image_files.h"
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::array kinds{"bmp", "dpx", "exr", "fits", "hdr", "iff", "jp2", "jpg",
+                           "png", "ppm", "psd", "sgi",  "tga", "tif", "webp"};
+constexpr std::array budgets{8, 12, 16, 24, 32, 48, 64, 100, 128, 144, 160, 192, 256, 512};  // MiB
+
+constexpr const char* head =
+    "LookAt 0 0 5 0 0 0 0 1 0\nCamera \"perspective\"\n"
+    "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\nWorldBegin\n"
+    "LightSource \"infinite\"\n";
+constexpr const char* square =
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0] "
+    "\"point2 uv\" [0 0 1 0 1 1 0 1]\n";
+
+// The one budget that a refusal names, MiB.
+std::optional<int> named_budget(const std::string& said) {
+  const std::regex words("(?:try --memory |at least )(\\d+)M\\b");
+  std::optional<int> only;
+  for (std::sregex_iterator it(said.begin(), said.end(), words), end; it != end; ++it) {
+    if (only) return std::nullopt;
+    only = std::stoi((*it)[1]);
+  }
+  return only;
+}
+
+class TooLittleMemory : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  // Of side × side texels with some noise, in the library's own defaults. False where this one is not built
+  // with that kind.
+  bool write_picture(const std::string& name, int side) const {
+    const auto out = OIIO::ImageOutput::create(path(name));
+    if (!out) return false;
+    std::vector<float> values;
+    for (int i = 0; i < side * side * 3; ++i)
+      values.push_back(0.5f + 0.4f * static_cast<float>(std::sin(i * 1.7 + i % 91)));
+    const OIIO::ImageSpec spec(side, side, 3,
+                               out->supports("float") ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+    const bool written =
+        out->open(path(name), spec) && out->write_image(OIIO::TypeDesc::FLOAT, values.data());
+    EXPECT_TRUE(written) << name << ": " << out->geterror();
+    return written && out->close();
+  }
+  static std::string with_picture(const std::string& picture) {
+    return fmt::format(
+        "{}Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"{}\"\n"
+        "Material \"diffuse\" \"texture reflectance\" \"t\"\n{}",
+        head, picture, square);
+  }
+  CommandResult partition(const std::string& scene, const std::string& more) const {
+    return run(fmt::format("{} '{}' -o '{}' --force --no-cache --no-sync --quiet --stats '{}' {}",
+                           vitrail("partition"), path(scene), path("out.vit"), path("stats.json"), more));
+  }
+  std::uint64_t peak_bytes() const {
+    return read_json(folder_ / "stats.json")["peak_rss_bytes"].get<std::uint64_t>();
+  }
+  void expect_done_or_refused(const std::string& command, const std::string& what) const {
+    const CommandResult result = run(command);
+    EXPECT_TRUE(result.status == 0 || result.status == 4) << what << ": " << result.status << "\n"
+                                                          << result.output;
+    if (result.status == 4) {
+      EXPECT_TRUE(named_budget(result.output)) << what << ":\n" << result.output;
+    }
+  }
+  // Each budget is enough, or what is named in its place is, and a tenth less is not.
+  void expect_right_budgets(const std::string& scene, const std::vector<int>& ladder) const {
+    std::map<int, CommandResult> runs;
+    const auto run_in = [&](int budget) -> const CommandResult& {
+      const auto [it, is_new] = runs.try_emplace(budget);
+      if (is_new) it->second = partition(scene, fmt::format("--memory {}M", budget));
+      if (is_new && it->second.status == 0) {
+        EXPECT_LE(peak_bytes(), std::uint64_t(budget) << 20) << scene;
+      }
+      return it->second;
+    };
+    int refused = 0, kept = 0;
+    for (const int budget : ladder) {
+      const CommandResult& first = run_in(budget);
+      ++(first.status == 0 ? kept : refused);
+      if (first.status == 0) continue;
+      ASSERT_EQ(first.status, 4) << scene << " in " << budget << "M: " << first.output;
+      const std::optional<int> named = named_budget(first.output);
+      ASSERT_TRUE(named) << first.output;
+      EXPECT_EQ(run_in(*named).status, 0) << scene << ": " << first.output << run_in(*named).output;
+      EXPECT_EQ(run_in(*named * 9 / 10).status, 4)
+          << scene << " in " << *named * 9 / 10 << "M: " << first.output;
+    }
+    EXPECT_GT(refused, 0) << scene << ": the ladder is too high to tell";
+    EXPECT_GT(kept, 0) << scene << ": the ladder is too low to tell";
+  }
+  TemporaryDirectory folder_;
+};
+
+TEST_F(TooLittleMemory, IsDoneOrRefusedForEachKindOfPicture) {
+  write("none.pbrt", std::string(head) + square);
+  ASSERT_EQ(partition("none.pbrt", "").status, 0);
+  const std::uint64_t without = peak_bytes();
+  std::uint64_t most = 0;
+  for (const std::string kind : kinds) {
+    if (!write_picture("picture." + kind, 64)) continue;
+    write("a.pbrt", with_picture("picture." + kind));
+    const CommandResult plenty = partition("a.pbrt", "");
+    ASSERT_EQ(plenty.status, 0) << kind << ": " << plenty.output;
+    most = std::max(most, peak_bytes() - without);
+    EXPECT_LE(peak_bytes() - without, image_library_bytes)
+        << kind << ": the library's need is stated too low";
+    for (const int budget : budgets) {
+      const std::string what = fmt::format("{} in {}M", kind, budget),
+                        memory = fmt::format("--memory {}M", budget);
+      expect_done_or_refused(fmt::format("{} '{}' --quiet {}", vitrail("inspect"), path("a.pbrt"), memory),
+                             "inspect " + what);
+      expect_done_or_refused(fmt::format("{} '{}' -o '{}' --force --no-cache --no-sync --quiet {}",
+                                         vitrail("partition"), path("a.pbrt"), path("out.vit"), memory),
+                             "partition " + what);
+    }
+    expect_done_or_refused(fmt::format("{} '{}' -o '{}' --force --spp 1 --no-cache --quiet --memory 12M",
+                                       vitrail("render"), path("a.pbrt"), path("out.film")),
+                           "render " + kind);
+  }
+  EXPECT_GT(most, image_library_bytes / 4 * 3) << "the library's need is stated too high";
+}
+
+TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForPictures) {
+  ASSERT_TRUE(write_picture("small.png", 64) && write_picture("large.png", 2048));
+  for (const char* picture : {"small.png", "large.png"}) {
+    write("a.pbrt", with_picture(picture));
+    expect_right_budgets("a.pbrt", {8, 16, 32, 64, 128, 256});
+  }
+}
+
+TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForInstances) {
+  ASSERT_TRUE(write_picture("small.png", 64));
+  std::string scene = with_picture("small.png");
+  for (int object = 0; object < 4; ++object) {
+    std::string points, indices;
+    constexpr int side = 200;
+    for (int y = 0; y <= side; ++y)
+      for (int x = 0; x <= side; ++x)
+        points += fmt::format("{} {} {:.3f} ", x, y, std::sin(x * 0.3 + object) * std::cos(y * 0.2));
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const int a = y * (side + 1) + x, b = a + side + 1;
+        indices += fmt::format("{} {} {} {} {} {} ", a, a + 1, b, b, a + 1, b + 1);
+      }
+    scene += fmt::format(
+        "ObjectBegin \"{}\"\nShape \"trianglemesh\" \"point3 P\" [{}] \"integer indices\" [{}]\nObjectEnd\n",
+        object, points, indices);
+  }
+  for (int i = 0; i < 2000; ++i)
+    scene += fmt::format("AttributeBegin\nTranslate {} {} -9\nObjectInstance \"{}\"\nAttributeEnd\n", i % 50,
+                         i / 50, i % 4);
+  write("a.pbrt", scene);
+  expect_right_budgets("a.pbrt", {48, 64, 96, 128, 160, 256});
+}
+
+}  // namespace
+}  // namespace vitrail::test
