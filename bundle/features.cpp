@@ -18,7 +18,7 @@ constexpr std::array required{"normals",     "uvs",        "attributes",    "ins
                               "hair",        "curves",     "faces",         "masking",    "decimals",
                               "media_grids", "fadings",    "glows",         "patterns",   "hidden_emitters",
                               "finishes",    "veils",      "working_gamma", "shadowless", "formulas",
-                              "globes",      "glazes",     "packs",         "clips"};
+                              "globes",      "glazes",     "packs",         "clips",      "codes"};
 constexpr std::array optional{"pieces"};
 
 std::vector<std::string> names(std::uint32_t bits, std::span<const char* const> known) {

@@ -145,6 +145,8 @@ Features features_of(const Manifest& m) {
   require(m.attributes > 0, required_feature::attributes);
   require(!m.objects.empty(), required_feature::instances);
   require(!m.texture_files.empty(), required_feature::textures);
+  require(std::ranges::any_of(m.texture_files, [](const TextureFileEntry& t) { return t.read_bytes > 0; }),
+          required_feature::codes);
   require(std::ranges::any_of(m.objects, [](const ObjectInfo& o) { return o.quadric.has_value(); }),
           required_feature::quadrics);
   require(std::ranges::any_of(m.objects,

@@ -123,6 +123,8 @@ struct Requirements {
 struct TextureFileEntry {
   std::string name;  // "textures/000003.tex"
   std::uint64_t bytes = 0, hash = 0;
+  std::uint64_t read_bytes =
+      0;  // of its texels in memory, where the file has codes; else 0, and they are `bytes`
   bool operator==(const TextureFileEntry&) const = default;
 };
 

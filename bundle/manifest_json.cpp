@@ -228,11 +228,14 @@ Requirements requirements_from_json(const Json& j) {
 }
 
 Json texture_file_to_json(const TextureFileEntry& t) {
-  return {{"name", t.name}, {"bytes", t.bytes}, {"hash", hash(t.hash)}};
+  Json j{{"name", t.name}, {"bytes", t.bytes}, {"hash", hash(t.hash)}};
+  if (t.read_bytes > 0) j["read_bytes"] = t.read_bytes;
+  return j;
 }
 
 TextureFileEntry texture_file_from_json(const Json& j) {
-  return {j.at("name").get<std::string>(), number<std::uint64_t>(j, "bytes"), hash_from(j.at("hash"))};
+  return {j.at("name").get<std::string>(), number<std::uint64_t>(j, "bytes"), hash_from(j.at("hash")),
+          j.contains("read_bytes") ? number<std::uint64_t>(j, "read_bytes") : 0};
 }
 
 Json kd_node_to_json(const KdNode& n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the texels of a baked image are stored: as 1, 2 or 3 words of 32 bits.
+// How the texels of a baked image are stored, and read: as 1, 2 or 3 words of 32 bits.
 #pragma once
 
 #include <algorithm>
@@ -28,25 +28,54 @@ enum class TexelFormat : std::uint32_t {
   matrix_r_reflectance,  // 1 − w·(1 − q)
   matrix_r_unbounded,    // w·q; w where all of x are 0, a grey
   matrix_r_illuminant,   // the same times D65
+  // Codes of 8 bits, as an image file holds them: the file has the 256 values that they stand for. They are
+  // read as texels of another format (`read_format`).
+  color_code,   // three, of linear sRGB; read as reflectance
+  number_code,  // one; read as number
 };
-inline constexpr std::uint32_t texel_format_count = 10;
+inline constexpr std::uint32_t texel_format_count = 12;
+inline constexpr std::size_t code_count = 256;
+
+constexpr bool is_coded(TexelFormat format) {
+  return format == TexelFormat::color_code || format == TexelFormat::number_code;
+}
+constexpr TexelFormat read_format(TexelFormat format) {
+  if (format == TexelFormat::color_code) return TexelFormat::reflectance;
+  return format == TexelFormat::number_code ? TexelFormat::number : format;
+}
 
 constexpr bool by_matrix_r(TexelFormat format) { return format >= TexelFormat::matrix_r_reflectance; }
 constexpr bool is_illuminant(TexelFormat format) {
   return format == TexelFormat::illuminant || format == TexelFormat::matrix_r_illuminant;
 }
 
+// As it is read.
 constexpr std::uint32_t words_per_texel(TexelFormat format) {
   switch (format) {
     case TexelFormat::number:
+    case TexelFormat::number_code:
     case TexelFormat::vector_8:
       return 1;
     case TexelFormat::vector_16:
     case TexelFormat::reflectance:
+    case TexelFormat::color_code:
       return 2;
     default:
       return 3;
   }
+}
+
+// In the file.
+constexpr std::uint32_t bytes_per_texel(TexelFormat format) {
+  if (format == TexelFormat::color_code) return 3;
+  return format == TexelFormat::number_code ? 1 : 4 * words_per_texel(format);
+}
+
+// A colour whose spectrum is still to be found is read as a texel of reflectance with this second word; its
+// first one says nothing. The second word of a spectrum is less than 2³¹.
+constexpr bool is_color_code(std::uint32_t second_word) { return second_word >> 31 != 0; }
+constexpr std::uint32_t color_code_word(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
+  return 1u << 31 | r | g << 8 | b << 16;
 }
 
 using TexelWords = std::array<std::uint32_t, 3>;  // of which words_per_texel count

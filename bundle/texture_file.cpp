@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -91,11 +92,13 @@ OpenFiles& open_files() {
 
 }  // namespace
 
-std::uint64_t header_checksum(TextureHeader header, std::span<const std::uint64_t> table) {
+std::uint64_t header_checksum(TextureHeader header, std::span<const std::uint64_t> table,
+                              std::span<const float> values) {
   header.checksum = 0;
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(&header, 1)));
   hasher.add(std::as_bytes(table));
+  hasher.add(std::as_bytes(values));
   return hasher.digest();
 }
 
@@ -106,8 +109,8 @@ TilePlace place_of(TexelFormat format, const TextureLevel& level, std::uint32_t 
   const std::uint32_t height = std::min(tile_height(format), level.height - y);
   const std::uint64_t texels_before =
       static_cast<std::uint64_t>(y) * level.width + static_cast<std::uint64_t>(x) * height;
-  const std::uint64_t words = words_per_texel(format);
-  return {width, height, level.offset + texels_before * words * 4, words * width * height};
+  const std::uint64_t each = bytes_per_texel(format);
+  return {width, height, level.offset + texels_before * each, each * width * height};
 }
 
 std::uint32_t texture_level_count(std::uint32_t width, std::uint32_t height) {
@@ -124,14 +127,15 @@ TextureFileLayout texture_file_layout(const TextureFileInfo& info) {
     level.tiles_x = ceil_div(level.width, tile_width(info.format));
     level.tiles_y = ceil_div(level.height, tile_height(info.format));
     level.first_tile = layout.tiles;
-    level.offset = texels * words_per_texel(info.format) * 4;
+    level.offset = texels * bytes_per_texel(info.format);
     texels += static_cast<std::uint64_t>(level.width) * level.height;
     layout.tiles += static_cast<std::uint64_t>(level.tiles_x) * level.tiles_y;
     layout.levels.push_back(level);
   }
-  const std::uint64_t start = sizeof(TextureHeader) + layout.tiles * sizeof(std::uint64_t);
+  const std::uint64_t start = sizeof(TextureHeader) + layout.tiles * sizeof(std::uint64_t) +
+                              (is_coded(info.format) ? code_count * sizeof(float) : 0);
   for (TextureLevel& level : layout.levels) level.offset += start;
-  layout.file_bytes = start + texels * words_per_texel(info.format) * 4;
+  layout.file_bytes = start + texels * bytes_per_texel(info.format);
   return layout;
 }
 
@@ -156,10 +160,16 @@ TextureFile::TextureFile(std::filesystem::path file) : file_(std::move(file)) {
   checksums_.resize(layout_.tiles);
   if (!in.read(checksums_.data(), layout_.tiles * sizeof(std::uint64_t), sizeof header))
     fail(file_, "it ends in its table");
-  hash_ = header_checksum(header, checksums_);
+  values_.resize(is_coded(info_.format) ? code_count : 0);
+  if (!in.read(values_.data(), values_.size() * sizeof(float),
+               sizeof header + layout_.tiles * sizeof(std::uint64_t)))
+    fail(file_, "it ends in its values");
+  hash_ = header_checksum(header, checksums_, values_);
   if (hash_ != header.checksum) fail(file_, "wrong checksum of the header");
   features_ = header.features;
-  refuse_unknown(features_.required, 0, file_);
+  refuse_unknown(features_.required, required_feature::codes, file_);
+  if (!std::ranges::all_of(values_, [](float v) { return std::isfinite(v); }))
+    fail(file_, "a value is not finite");
   open_files().keep(file_, hash_, open);
 }
 
@@ -169,12 +179,30 @@ TextureFile::Tile TextureFile::read_tile(std::uint32_t level, std::uint32_t tile
   const TilePlace place = place_of(info_.format, of, tile_x, tile_y);
   const auto in = open_files().get(file_, hash_);
   const Underway underway("reading", file_);
-  if (!in->read(words.data(), place.words * 4, place.offset)) fail(file_, "it has become shorter");
+  // What is shorter in the file is read to the end of the words, and comes to stand before it.
+  const std::size_t texels = std::size_t{place.width} * place.height;
+  const std::span<std::uint32_t> used = words.first(texels * words_per_texel(info_.format));
+  const std::span<std::byte> bytes = std::as_writable_bytes(used).last(place.bytes);
+  if (!in->read(bytes.data(), place.bytes, place.offset)) fail(file_, "it has become shorter");
   const std::uint64_t tile = of.first_tile + static_cast<std::uint64_t>(tile_y) * of.tiles_x + tile_x;
-  if (checksum(std::as_bytes(words.first(place.words))) != checksums_.at(tile))
+  if (checksum(bytes) != checksums_.at(tile))
     fail(file_, fmt::format("wrong checksum of tile {}, {} of level {} (bytes {} to {})", tile_x, tile_y,
-                            level, place.offset, place.offset + place.words * 4));
-  return {place.width, place.height, static_cast<std::size_t>(place.words)};
+                            level, place.offset, place.offset + place.bytes));
+  expand(bytes, used);
+  return {place.width, place.height, used.size()};
+}
+
+// From the first on: a texel is written where none is left to read, or itself.
+void TextureFile::expand(std::span<const std::byte> codes, std::span<std::uint32_t> words) const {
+  const auto* const c = reinterpret_cast<const unsigned char*>(codes.data());
+  if (info_.format == TexelFormat::number_code)
+    for (std::size_t i = 0; i < words.size(); ++i) words[i] = std::bit_cast<std::uint32_t>(values_[c[i]]);
+  if (info_.format == TexelFormat::color_code)
+    for (std::size_t i = 0; i < words.size() / 2; ++i) {
+      const std::uint32_t word = color_code_word(c[3 * i], c[3 * i + 1], c[3 * i + 2]);
+      words[2 * i] = 0;
+      words[2 * i + 1] = word;
+    }
 }
 
 void TextureFile::check_tiles() const {

@@ -47,8 +47,12 @@ TextureFileLayout texture_file_layout(const TextureFileInfo& info);
 // Number of levels down to one texel: each is half of the one before it, rounded down.
 std::uint32_t texture_level_count(std::uint32_t width, std::uint32_t height);
 
-// Writes the file; `texel(level, x, y)` gives the words of each texel. Returns the hash of the file: that of
-// its header, which holds the checksums of the tiles. Throws MachineError.
+// What codes stand for: 256 values; none where the format has no codes.
+using CodeValues = std::vector<float>;
+
+// Writes the file; `texel(level, x, y)` gives the words of each texel, or the codes in the first bytes of a
+// word: code i is worth i/255. Returns the hash of the file: that of its header, which holds the checksums of
+// the tiles. Throws MachineError.
 struct WrittenTextureFile {
   std::uint64_t bytes = 0, hash = 0;
 };
@@ -66,9 +70,11 @@ class TextureFile {
   const TextureFileLayout& layout() const { return layout_; }
   std::uint64_t hash() const { return hash_; }
   const Features& features() const { return features_; }
+  const CodeValues& values() const { return values_; }
 
   // The words of a tile of `level`, row by row from the bottom; rows are `width` texels wide. Files that
-  // were read last stay open; a scene may have any number. Throws Error. Safe from many threads.
+  // were read last stay open; a scene may have any number. Codes of numbers are read as the numbers, those of
+  // colours as is_color_code says. Throws Error. Safe from many threads.
   struct Tile {
     std::uint32_t width = 0, height = 0;
     std::size_t words = 0;
@@ -79,10 +85,13 @@ class TextureFile {
   void check_tiles() const;
 
  private:
+  void expand(std::span<const std::byte> codes, std::span<std::uint32_t> words) const;
+
   std::filesystem::path file_;
   TextureFileInfo info_;
   TextureFileLayout layout_;
   std::vector<std::uint64_t> checksums_;  // a tile
+  CodeValues values_;
   std::uint64_t hash_ = 0;
   Features features_;
 };

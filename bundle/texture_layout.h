@@ -17,17 +17,20 @@ struct TextureHeader {
   std::uint32_t zero = 0;
   std::uint64_t file_bytes = 0;
   std::uint64_t tiles = 0;
-  std::uint64_t checksum = 0;  // of this header, with this field 0, and the table of the tiles' checksums
-  Features features;           // none yet
+  std::uint64_t checksum =
+      0;              // of this header, with this field 0, the table of the tiles' checksums, and values
+  Features features;  // codes, or none
 };
 static_assert(sizeof(TextureHeader) == 64);
 
-std::uint64_t header_checksum(TextureHeader header, std::span<const std::uint64_t> table);
+// `values` are those of codes, which follow the table; none where the format has no codes.
+std::uint64_t header_checksum(TextureHeader header, std::span<const std::uint64_t> table,
+                              std::span<const float> values);
 
 // The part of a tile that its level has, and where it is.
 struct TilePlace {
   std::uint32_t width, height;
-  std::uint64_t offset, words;
+  std::uint64_t offset, bytes;
 };
 TilePlace place_of(TexelFormat format, const TextureLevel& level, std::uint32_t tile_x, std::uint32_t tile_y);
 

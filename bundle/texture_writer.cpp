@@ -17,8 +17,14 @@
 
 namespace vitrail {
 
-TextureWriter::TextureWriter(std::filesystem::path file, const TextureFileInfo& info)
-    : file_(std::move(file)), info_(info), layout_(texture_file_layout(info)), checksums_(layout_.tiles) {
+TextureWriter::TextureWriter(std::filesystem::path file, const TextureFileInfo& info, CodeValues values)
+    : file_(std::move(file)),
+      info_(info),
+      layout_(texture_file_layout(info)),
+      checksums_(layout_.tiles),
+      values_(std::move(values)) {
+  if (values_.size() != (is_coded(info.format) ? code_count : 0))
+    throw std::logic_error("a texture file of codes has 256 values, another none");
   for (const TextureLevel& level : layout_.levels) rows_.push_back({level.height, {}});
   descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor_ < 0)
@@ -31,32 +37,37 @@ TextureWriter::~TextureWriter() {
 }
 
 void TextureWriter::add_row(std::uint32_t level, std::span<const TexelWords> row) {
+  const std::size_t each = bytes_per_texel(info_.format);
+  std::vector<std::byte> bytes(row.size() * each);
+  for (std::size_t x = 0; x < row.size(); ++x) std::memcpy(&bytes[x * each], row[x].data(), each);
+  add_row(level, bytes);
+}
+
+void TextureWriter::add_row(std::uint32_t level, std::span<const std::byte> row) {
   Rows& rows = rows_.at(level);
-  const std::size_t words = words_per_texel(info_.format);
-  for (const TexelWords& texel : row)
-    rows.words.insert(rows.words.end(), texel.begin(), texel.begin() + static_cast<std::ptrdiff_t>(words));
+  rows.bytes.insert(rows.bytes.end(), row.begin(), row.end());
   --rows.left;
   if (rows.left % tile_height(info_.format) == 0) write_tiles(level, rows.left / tile_height(info_.format));
 }
 
 void TextureWriter::write_tiles(std::uint32_t level, std::uint32_t tile_y) {
   const TextureLevel& of = layout_.levels[level];
-  std::vector<std::uint32_t>& from = rows_[level].words;
-  const std::size_t words = words_per_texel(info_.format), row = of.width * words;
+  std::vector<std::byte>& from = rows_[level].bytes;
+  const std::size_t each = bytes_per_texel(info_.format), row = of.width * each;
   const std::size_t height = from.size() / row;
-  std::vector<std::uint32_t> tiles;  // that follow each other in the file
+  std::vector<std::byte> tiles;  // that follow each other in the file
   tiles.reserve(from.size());
   for (std::uint32_t tile_x = 0; tile_x < of.tiles_x; ++tile_x) {
     const TilePlace place = place_of(info_.format, of, tile_x, tile_y);
-    const std::size_t first = tiles.size(), left = tile_x * tile_width(info_.format) * words;
+    const std::size_t first = tiles.size(), left = tile_x * tile_width(info_.format) * each;
     for (std::size_t y = height; y-- > 0;) {
       const auto begin = from.begin() + static_cast<std::ptrdiff_t>(y * row + left);
-      tiles.insert(tiles.end(), begin, begin + static_cast<std::ptrdiff_t>(place.width * words));
+      tiles.insert(tiles.end(), begin, begin + static_cast<std::ptrdiff_t>(place.width * each));
     }
     checksums_[of.first_tile + std::uint64_t{tile_y} * of.tiles_x + tile_x] =
-        checksum(std::as_bytes(std::span(tiles).subspan(first)));
+        checksum(std::span(tiles).subspan(first));
   }
-  write(std::as_bytes(std::span(tiles)), place_of(info_.format, of, 0, tile_y).offset);
+  write(tiles, place_of(info_.format, of, 0, tile_y).offset);
   from.clear();
 }
 
@@ -77,9 +88,11 @@ WrittenTextureFile TextureWriter::finish() {
   header.info = info_;
   header.file_bytes = layout_.file_bytes;
   header.tiles = layout_.tiles;
-  header.checksum = header_checksum(header, checksums_);
+  if (is_coded(info_.format)) header.features.required = required_feature::codes;
+  header.checksum = header_checksum(header, checksums_, values_);
   write(std::as_bytes(std::span(&header, 1)), 0);
   write(std::as_bytes(std::span(checksums_)), sizeof header);
+  write(std::as_bytes(std::span(values_)), sizeof header + checksums_.size() * sizeof(std::uint64_t));
   if (::close(std::exchange(descriptor_, -1)) != 0)
     throw MachineError(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
   finished_ = true;
@@ -88,7 +101,9 @@ WrittenTextureFile TextureWriter::finish() {
 
 WrittenTextureFile write_texture_file(const std::filesystem::path& file, const TextureFileInfo& info,
                                       const TexelSource& texel) {
-  TextureWriter writer(file, info);
+  CodeValues values(is_coded(info.format) ? code_count : 0);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i) / (code_count - 1);
+  TextureWriter writer(file, info, std::move(values));
   std::vector<TexelWords> row;
   for (std::uint32_t level = 0; level < info.levels; ++level) {
     row.resize(std::max(info.width >> level, 1u));

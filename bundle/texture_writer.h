@@ -14,20 +14,23 @@ namespace vitrail {
 // ends before `finish`. Functions throw MachineError.
 class TextureWriter {
  public:
-  TextureWriter(std::filesystem::path file, const TextureFileInfo& info);
+  // `values` of the codes, where the format has codes: 256.
+  TextureWriter(std::filesystem::path file, const TextureFileInfo& info, CodeValues values = {});
   ~TextureWriter();
   TextureWriter(const TextureWriter&) = delete;
   TextureWriter& operator=(const TextureWriter&) = delete;
 
-  // The next row of the level, as wide as it is.
+  // The next row of the level, as wide as it is: of each texel the words, or their first bytes where the file
+  // has fewer; or the bytes as they are in the file.
   void add_row(std::uint32_t level, std::span<const TexelWords> row);
+  void add_row(std::uint32_t level, std::span<const std::byte> row);
   // After the last row of the last level.
   WrittenTextureFile finish();
 
  private:
   struct Rows {
-    std::uint32_t left = 0;            // to come
-    std::vector<std::uint32_t> words;  // of the row of tiles that is being filled, its top row first
+    std::uint32_t left = 0;        // to come
+    std::vector<std::byte> bytes;  // of the row of tiles that is being filled, its top row first
   };
   void write_tiles(std::uint32_t level, std::uint32_t tile_y);
   void write(std::span<const std::byte> bytes, std::uint64_t offset);
@@ -37,6 +40,7 @@ class TextureWriter {
   TextureFileLayout layout_;
   std::vector<Rows> rows_;                // of each level
   std::vector<std::uint64_t> checksums_;  // of each tile
+  CodeValues values_;
   int descriptor_ = -1;
   bool finished_ = false;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/plan/job_plan.h"
+#include "bundle/reflectances/color_words.h"
 
 #include <algorithm>
 #include <thread>
@@ -97,10 +98,13 @@ Homes homes_of(const Manifest& manifest, const RenderOptions& options, int ranks
 }  // namespace
 
 std::uint64_t texture_budget(const Manifest& m, std::uint64_t memory_bytes) {
-  std::uint64_t all = 0;
-  for (const TextureFileEntry& t : m.texture_files) all += t.bytes;
+  std::uint64_t all = 0, codes = 0;
+  for (const TextureFileEntry& t : m.texture_files) {
+    all += std::max(t.bytes, t.read_bytes);
+    codes += t.read_bytes;
+  }
   all *= 2;  // tiles at an edge are smaller in the file than in memory
-  return memory_bytes == 0 ? all : std::min(all, memory_bytes / 4);
+  return (codes > 0 ? conversion_bytes : 0) + (memory_bytes == 0 ? all : std::min(all, memory_bytes / 4));
 }
 
 std::uint64_t film_file_bytes(const FilmSettings& film, const FilmKey& key) {

@@ -11,8 +11,8 @@
 #include <limits>
 #include <utility>
 
+#include "bundle/reflectances/reflectance_table.h"
 #include "bundle/texture_writer.h"
-#include "partitioner/appearance/reflectance_table.h"
 #include "partitioner/appearance/row_halver.h"
 #include "scene/spectra/matrix_r.h"
 

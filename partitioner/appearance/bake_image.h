@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
+#include "bundle/reflectances/reflectance_fitter.h"
 #include "bundle/texture_file.h"
 #include "partitioner/appearance/image_rows.h"
-#include "partitioner/appearance/reflectance_fitter.h"
 #include "scene/spectra/rgb_method.h"
 
 namespace vitrail {

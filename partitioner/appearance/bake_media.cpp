@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "bundle/reflectances/reflectance_fitter.h"
 #include "images/nanovdb.h"
-#include "partitioner/appearance/reflectance_fitter.h"
 #include "scene/models/measured_media.h"
 #include "scene/spectra/color.h"
 #include "scene/spectra/matrix_r.h"

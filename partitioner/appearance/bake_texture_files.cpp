@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "images/file_part.h"
 #include "images/texture_values.h"
@@ -51,7 +52,7 @@ ImageRows rows_of(const ImageTexture& texture, const ImageLayout& layout, Textur
 }
 
 // To be raised where equal images are baked to other texels than before.
-constexpr int baking_revision = 1;
+constexpr int baking_revision = 2;
 
 // Of a baked image: what is in the file, and all that is asked of it. Empty for small files, which are baked
 // as soon as they are looked for.
@@ -70,6 +71,15 @@ std::string key_of(const ImageTexture& image, TextureUse use, bool all_levels, R
   hash.add(file.extension().string());  // tells the kind of some files
   hash.add_content(file);
   return hash.hex() + ".tex";
+}
+
+// Of the texels of an image of codes, in memory.
+std::uint64_t read_bytes(TextureFileInfo info, bool all_levels) {
+  if (all_levels) info.levels = texture_level_count(info.width, info.height);
+  std::uint64_t texels = 0;
+  for (const TextureLevel& level : texture_file_layout(info).levels)
+    texels += std::uint64_t{level.width} * level.height;
+  return texels * words_per_texel(info.format) * sizeof(std::uint32_t);
 }
 
 bool keeps_integers_finite(const ImageTexture& image) {
@@ -102,10 +112,16 @@ std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, 
     const std::string name = next_file();
     const auto kept = bundle_.empty() ? cache_.note(key) : cache_.take(key, bundle_ / name);
     if (kept) {
-      report(image, {(*kept)[2] != 0, (*kept)[3]}, where);
-      files_.push_back({name, (*kept)[0], (*kept)[1]});
+      report(image, {((*kept)[2] & 1) != 0, (*kept)[3]}, where);
+      files_.push_back({name, (*kept)[0], (*kept)[1], (*kept)[2] >> 1});
       return name;
     }
+  }
+  if (const auto rows = byte_rows(image.filename)) {
+    const ImageTexture chosen =
+        use == TextureUse::number && rows->channels % 2 == 0 ? without_choice(image) : image;
+    if (const auto coded = coded_image(chosen, *rows, use, scene_.settings.rgb))
+      return write_codes(image, *rows, *coded, all_levels, where, key);
   }
   const ImageLayout layout = read_image_layout(image.filename);
   const auto size = static_cast<std::uint32_t>(std::max(layout.width, layout.height));
@@ -131,6 +147,49 @@ std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, 
     cache_.keep(key, bundle_ / name,
                 {files_.back().bytes, files_.back().hash, facts.other_primaries ? 1u : 0u, facts.broken});
   return name;
+}
+
+// The cache notes in one number whether primaries do not count, and the bytes of codes as they are read.
+std::string TextureBaker::write_codes(const ImageTexture& image, const ByteRows& rows,
+                                      const CodedImage& coded, bool all_levels, const SourceLocation& where,
+                                      const std::string& key) {
+  const std::string name = next_file();
+  files_.push_back({name, 0, 0});
+  if (bundle_.empty()) {
+    if (!trust_integers_) rows.read([](auto) {});
+    return name;
+  }
+  Writing& task = writing_.emplace_back(Writing{files_.size() - 1, {name, 0, 0}});
+  writers_.run([this, &task, filename = image.filename, rows, coded, all_levels, where, key] {
+    try {
+      const std::filesystem::path file = bundle_ / task.written.name;
+      const WrittenTextureFile written = write_coded_image(file, rows, coded, all_levels);
+      task.written.bytes = written.bytes, task.written.hash = written.hash;
+      task.written.read_bytes =
+          read_bytes(TextureFileInfo{coded.format, static_cast<std::uint32_t>(rows.width),
+                                     static_cast<std::uint32_t>(rows.height)},
+                     all_levels);
+      if (!key.empty())
+        cache_.keep(key, file, {written.bytes, written.hash, task.written.read_bytes << 1, 0});
+    } catch (const Error& error) {
+      task.failure =
+          std::make_exception_ptr(Error(fmt::format("texture {}: {}", filename, error.what()), where));
+    } catch (...) {
+      task.failure = std::current_exception();
+    }
+  });
+  return name;
+}
+
+TextureBaker::~TextureBaker() { writers_.wait(); }
+
+const std::vector<TextureFileEntry>& TextureBaker::files() {
+  writers_.wait();
+  for (const Writing& task : std::exchange(writing_, {})) {
+    if (task.failure) std::rethrow_exception(task.failure);
+    files_[task.file] = task.written;
+  }
+  return files_;
 }
 
 void TextureBaker::report(const ImageTexture& image, const ImageFacts& facts, const SourceLocation& where) {

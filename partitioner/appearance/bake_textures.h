@@ -2,6 +2,10 @@
 // The textures of a scene as a bundle has them: images baked, everything else as it is used.
 #pragma once
 
+#include <tbb/task_group.h>
+
+#include <deque>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -11,6 +15,7 @@
 #include <vector>
 
 #include "bundle/manifest.h"
+#include "partitioner/appearance/bake_codes.h"
 #include "partitioner/appearance/bake_image.h"
 #include "partitioner/appearance/bake_ptex.h"
 #include "partitioner/appearance/texture_mean.h"
@@ -33,6 +38,7 @@ class TextureBaker {
   // it. What cannot be said exactly is added to the diagnostics. The scene and the diagnostics outlive it.
   TextureBaker(const Scene& scene, std::filesystem::path bundle, Diagnostics& diagnostics,
                ImageBaking images = {});
+  ~TextureBaker();
 
   // These throw Error, with the texture's place in the scene file, for images that cannot be read, and
   // MachineError.
@@ -57,7 +63,8 @@ class TextureBaker {
     bool operator==(const Attribute&) const = default;
   };
   const std::vector<Attribute>& attributes() const { return attributes_; }
-  const std::vector<TextureFileEntry>& files() const { return files_; }
+  // Waits for those that are still being written. Throws what `bake` would have thrown for them.
+  const std::vector<TextureFileEntry>& files();
   std::vector<Texture> take_textures() { return std::move(textures_); }
 
  private:
@@ -74,6 +81,8 @@ class TextureBaker {
   std::string write_file(const ImageTexture& image, TextureUse use, bool all_levels,
                          const SourceLocation& where);
   std::string write_image(const ImageRows& rows, TextureUse use, bool all_levels);
+  std::string write_codes(const ImageTexture& image, const ByteRows& rows, const CodedImage& coded,
+                          bool all_levels, const SourceLocation& where, const std::string& key);
   std::string next_file();
   void report(const ImageTexture& image, const ImageFacts& facts, const SourceLocation& where);
   Id<Texture> add(TextureModel model, TextureUse use);
@@ -88,12 +97,20 @@ class TextureBaker {
   ReflectanceFitter fitter_;
   std::vector<Texture> textures_;
   std::vector<Attribute> attributes_;
+  // Images of codes are written beside each other, while the scene goes on.
+  struct Writing {
+    std::size_t file;
+    TextureFileEntry written;
+    std::exception_ptr failure = nullptr;
+  };
+  std::deque<Writing> writing_;
   std::vector<TextureFileEntry> files_;
   std::map<std::pair<std::uint32_t, TextureUse>, SpectrumParameter> baked_;
   using ImageKey =
       std::tuple<std::string, Encoding, float, float, bool, ImageNumber, Primaries, TextureUse, bool>;
   std::map<ImageKey, std::string> images_;
   KnownMeans means_;
+  tbb::task_group writers_;  // ends before all that it refers to
 };
 
 // What a vertex has in a slot of that use. Numbers: the mean of the colour. Spectra: x at 360, 595 and 830 nm

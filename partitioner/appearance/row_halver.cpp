@@ -31,7 +31,13 @@ void RowHalver::add(std::span<const float> row, const std::function<void(std::sp
   const int half = std::max(1, width_ / 2);
   const auto channels = static_cast<std::size_t>(channels_);
   std::vector<float>& narrow = kept_.emplace_back(static_cast<std::size_t>(half) * channels);
-  for (int i = 0; i < half; ++i) {
+  for (int i = 0; i < half && width_ % 2 == 0; ++i) {
+    const float* const pair = &row[2 * static_cast<std::size_t>(i) * channels];
+    for (std::size_t c = 0; c < channels; ++c)
+      narrow[static_cast<std::size_t>(i) * channels + c] =
+          static_cast<float>((static_cast<double>(pair[c]) + static_cast<double>(pair[c + channels])) / 2);
+  }
+  for (int i = 0; i < half && width_ % 2 != 0; ++i) {
     const Part part(i, width_);
     for (std::size_t c = 0; c < channels; ++c) {
       double sum = 0;
@@ -46,7 +52,13 @@ void RowHalver::add(std::span<const float> row, const std::function<void(std::sp
   for (; emitted_ < rows; ++emitted_) {
     const Part part(emitted_, height_);
     if (part.after() > taken_) break;
-    for (std::size_t x = 0; x < out.size(); ++x) {
+    const auto kept = [&](int k) { return kept_[static_cast<std::size_t>(k - first_)].data(); };
+    if (height_ % 2 == 0) {
+      const float *const upper = kept(part.first()), *const lower = kept(part.first() + 1);
+      for (std::size_t x = 0; x < out.size(); ++x)
+        out[x] = static_cast<float>((static_cast<double>(upper[x]) + static_cast<double>(lower[x])) / 2);
+    }
+    for (std::size_t x = 0; x < out.size() && height_ % 2 != 0; ++x) {
       double sum = 0;
       for (int k = part.first(); k < part.after(); ++k)
         sum += static_cast<double>(kept_[static_cast<std::size_t>(k - first_)][x]) * part.share(k);

@@ -195,7 +195,8 @@ TEST(BakeTextures, GreysAreNumbersAndNormalMapsExact) {
   const SpectrumParameter spectrum = baker.bake(grey, TextureUse::reflectance);
   const Id<Texture> vector = baker.bake_vector(normal);
   const auto format = [&](const char* name) { return TextureFile(s.directory / name).info().format; };
-  EXPECT_EQ(format("b.vit/textures/000000.tex"), TexelFormat::number);
+  baker.files();
+  EXPECT_EQ(format("b.vit/textures/000000.tex"), TexelFormat::number_code);
   EXPECT_EQ(format("b.vit/textures/000001.tex"), TexelFormat::vector_8);
   const Textures textures = s.look_up();
   test::expect_near(textures.spectrum(spectrum, at_uv(0.8, 0.5), some_wavelengths),

@@ -34,6 +34,7 @@ struct BakedScene {
   }
   TextureBaker& bake() { return baker.emplace(scene, directory / "b.vit", diagnostics); }
   Textures look_up(std::uint64_t budget = 1 << 20) {
+    baker->files();
     baked = baker->take_textures();
     return Textures(baked, directory / "b.vit", budget);
   }

@@ -35,8 +35,10 @@ struct CachedScene : test::BakedScene {
     static int bundles = 0;
     const fs::path bundle = directory / ("b" + std::to_string(bundles++));
     TextureBaker own(scene, bundle, diagnostics, {.cache = cached ? cache : fs::path()});
-    const std::string content = content_of(bundle / own.bake_image(image, use, {}));
-    EXPECT_EQ(own.files().at(0).bytes, content.size());
+    const std::string name = own.bake_image(image, use, {});
+    const std::uint64_t bytes = own.files().at(0).bytes;
+    const std::string content = content_of(bundle / name);
+    EXPECT_EQ(bytes, content.size());
     return content;
   }
   std::vector<fs::path> entries() const {

@@ -67,7 +67,7 @@ class Renumbering {
   }
   void use(Light& light) {
     light.name.clear();
-    if (auto* projection = std::get_if<ProjectionLight>(&light.model)) use(projection->image);
+    if (auto* projection = std::get_if<ProjectionLight>(&light.model)) use(*projection->image);
     if (auto* spot = std::get_if<SpotLight>(&light.model); spot && spot->texture) use(*spot->texture);
   }
 

@@ -27,7 +27,7 @@ struct BakedImage::Implementation {
         cache(std::move(tiles)),
         entries(std::make_unique<TileCache::Entry[]>(file.layout().tiles)),
         levels(file.layout().levels.data()),
-        format(file.info().format),
+        format(read_format(file.info().format)),
         shift_x(shift_of(tile_width(format))),
         shift_y(shift_of(tile_height(format))) {}
 

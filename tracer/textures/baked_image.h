@@ -30,7 +30,7 @@ class BakedImage {
   int width() const { return static_cast<int>(file().info().width); }  // of level 0
   int height() const { return static_cast<int>(file().info().height); }
   int levels() const { return static_cast<int>(file().info().levels); }
-  TexelFormat format() const { return file().info().format; }
+  TexelFormat format() const { return read_format(file().info().format); }  // of what is looked up
   int width(int level) const;
   int height(int level) const;
 

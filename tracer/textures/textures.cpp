@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/textures/textures.h"
+#include "bundle/reflectances/color_words.h"
 
 #include <fmt/format.h>
 
@@ -284,13 +285,15 @@ struct Textures::Implementation {
   void open_images(const std::vector<Texture>& textures, const std::filesystem::path& bundle,
                    std::uint64_t budget_bytes) {
     std::map<std::string, TextureFile> files;
-    std::uint64_t table_bytes = 0;
+    std::uint64_t table_bytes = 0, taken = 0;
     for (const Texture& texture : textures) {
       const auto* image = std::get_if<ImageTexture>(&texture.model);
       if (!image || files.contains(image->filename)) continue;
       const auto opened = files.emplace(image->filename, TextureFile(bundle / image->filename)).first;
       table_bytes += opened->second.layout().tiles * BakedImage::table_bytes_per_tile;
+      if (is_coded(opened->second.info().format)) taken = conversion_bytes;
     }
+    table_bytes += taken;
     cache = std::make_shared<TileCache>(budget_bytes > table_bytes ? budget_bytes - table_bytes : 0);
     for (auto& [name, file] : files) images.emplace(name, BakedImage(std::move(file), cache));
   }

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "bundle/reflectances/color_words.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {
@@ -71,6 +72,27 @@ void TileCache::store(Entry& entry, std::span<const std::uint32_t> words) {
   for (std::size_t i = 0; i < words.size(); ++i) to[i].store(words[i], std::memory_order_release);
   slot.used.store(1, std::memory_order_relaxed);
   entry.store(index << 32 | sequence, std::memory_order_release);
+}
+
+// vector_16 has two words too, the second of them below 2¹⁶. A reader loads the second word first: where it
+// is of a spectrum, so is the first one, which was stored before it. Threads that convert the same code store
+// the same.
+void TileCache::convert(const Tile& tile, std::span<const std::uint32_t> texels, const Words& out) {
+  std::array<bool, 4> converted{};
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (!is_color_code(out(i, 1))) continue;
+    const TexelWords words = color_words(out(i, 1), tile.file.values(), fitter_);
+    out(i, 0) = words[0], out(i, 1) = words[1];
+    converted.at(i) = true;
+  }
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  const std::uint64_t entry = tile.entry.load(std::memory_order_relaxed);
+  if (!lock || !is_resident(entry)) return;
+  std::atomic<std::uint32_t>* const to = words_ + (entry >> 32) * max_tile_words;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (!converted[i]) continue;
+    for (const std::size_t w : {0u, 1u}) to[2 * texels[i] + w].store(out(i, w), std::memory_order_release);
+  }
 }
 
 bool TileCache::is_resident(std::uint64_t entry) const {

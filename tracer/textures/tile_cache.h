@@ -8,6 +8,7 @@
 #include <mutex>
 #include <span>
 
+#include "bundle/reflectances/reflectance_fitter.h"
 #include "bundle/texture_file.h"
 
 namespace vitrail {
@@ -15,6 +16,9 @@ namespace vitrail {
 // Memory for tiles: a fixed number of slots of 16 KiB, given to the tiles in use by the clock algorithm.
 // Reading takes no lock (a sequence lock a slot, Lameter 2005): a reader copies the texels that it wants and
 // then looks whether the slot has been given away meanwhile; if so, it reads the file.
+//
+// A file of colour codes is read into texels of spectra that are still to be found: each is found when it is
+// first looked up (`convert`), and kept if no other thread is writing.
 class TileCache {
  public:
   // At least one slot. The system gives the memory when it is first used. Throws MachineError.
@@ -29,7 +33,7 @@ class TileCache {
   struct Tile {
     const TextureFile& file;
     Entry& entry;
-    TexelFormat format;
+    TexelFormat format;  // as it is read
     std::uint32_t level, x, y;
   };
   // Where the words of some texels go: word w of texel i to first[(3·i + w)·stride].
@@ -40,11 +44,16 @@ class TileCache {
       return first[(3 * texel + word) * stride];
     }
   };
-  // Copies the words of the texels with these indices, row by row in the tile. Throws Error for a damaged
-  // tile.
+  // Copies the words of the texels with these indices, row by row in the tile. Colours whose spectra are
+  // still to be found are replaced by them, there too. Throws Error for a damaged tile.
   template <std::size_t N>
   void read(const Tile& tile, const std::array<std::uint32_t, N>& texels, const Words& out) {
     if (!read_resident(tile, texels, out)) read_and_store(tile, texels, out);
+    if (words_per_texel(tile.format) != 2) return;
+    std::uint32_t either = 0;
+    for (std::size_t i = 0; i < N; ++i) either |= out(i, 1);
+    if (is_color_code(either) && tile.file.info().format == TexelFormat::color_code)
+      convert(tile, texels, out);
   }
 
   std::uint64_t tile_loads() const { return loads_.load(std::memory_order_relaxed); }
@@ -86,15 +95,17 @@ class TileCache {
     for (std::size_t i = 0; i < N; ++i) {
       const std::atomic<std::uint32_t>* const texel = from + std::size_t{texels[i]} * WordsEach;
 #pragma GCC unroll 3
-      for (std::uint32_t w = 0; w < WordsEach; ++w) out(i, w) = texel[w].load(std::memory_order_acquire);
+      for (std::uint32_t w = WordsEach; w-- > 0;) out(i, w) = texel[w].load(std::memory_order_acquire);
     }
   }
   void read_and_store(const Tile& tile, std::span<const std::uint32_t> texels, const Words& out);
   void store(Entry& entry, std::span<const std::uint32_t> words);
+  void convert(const Tile& tile, std::span<const std::uint32_t> texels, const Words& out);
 
   std::uint64_t slot_count_;
   Slot* slots_ = nullptr;
   std::atomic<std::uint32_t>* words_ = nullptr;
+  ReflectanceFitter fitter_;
   std::mutex mutex_;        // of the hand, and of all writing to slots
   std::uint64_t hand_ = 0;  // the slot that is considered next
   std::atomic<std::uint64_t> loads_{0}, resident_{0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "partitioner/appearance/reflectance_fitter.h"
+#include "bundle/reflectances/reflectance_fitter.h"
 
 #include <gtest/gtest.h>
 

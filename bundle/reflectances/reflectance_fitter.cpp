@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "partitioner/appearance/reflectance_fitter.h"
+#include "bundle/reflectances/reflectance_fitter.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <mutex>
 #include <vector>
 
-#include "partitioner/appearance/sigmoid_newton.h"
+#include "bundle/reflectances/sigmoid_newton.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "partitioner/appearance/reflectance_table.h"
+#include "bundle/reflectances/reflectance_table.h"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "partitioner/appearance/reflectance_chart.h"
-#include "partitioner/appearance/sigmoid_newton.h"
+#include "bundle/reflectances/reflectance_chart.h"
+#include "bundle/reflectances/sigmoid_newton.h"
 #include "scene/spectra/color.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "partitioner/appearance/sigmoid_newton.h"
+#include "bundle/reflectances/sigmoid_newton.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "partitioner/appearance/reflectance_table.h"
+#include "bundle/reflectances/reflectance_table.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "partitioner/appearance/reflectance_chart.h"
+#include "bundle/reflectances/reflectance_chart.h"
 
 // What make_reflectance_table.cpp wrote.
 extern "C" const vitrail::ReflectanceVertex vitrail_reflectance_table[];

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of 8 bits a channel, read as the bytes that they hold: PNG by zlib alone, without the image
+// library, and JPEG.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+
+namespace vitrail {
+
+// Channels are Y, Y and alpha, RGB, or RGB and alpha, as of a StoredImage.
+struct ByteRows {
+  int width = 0, height = 0, channels = 0;
+  // Calls with all rows from the top, one or several at a time. What the function throws stops the reading.
+  // Throws Error with the file's name where the picture is damaged.
+  std::function<void(const std::function<void(std::span<const std::uint8_t>)>&)> read;
+};
+
+// Nothing for other files, for parts of files, and for PNG that is interlaced, has a palette, or states a
+// transparent colour: the image library reads those. Throws Error for what may not be read.
+std::optional<ByteRows> byte_rows(const std::filesystem::path& file);
+
+}  // namespace vitrail

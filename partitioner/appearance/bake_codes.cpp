@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/appearance/bake_codes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <utility>
+#include <vector>
+
+#include "bundle/texture_writer.h"
+#include "images/texture_values.h"
+#include "partitioner/appearance/row_halver.h"
+
+namespace vitrail {
+
+namespace {
+
+// What the texture makes of each byte, in the channel that counts.
+CodeValues values_of_bytes(const ImageTexture& texture, TextureUse use) {
+  const bool number = use == TextureUse::number;
+  StoredImage ramp{black_image(code_count, 1, number ? 1 : 3), true, {}};
+  const auto channels = static_cast<std::size_t>(ramp.image.channels);
+  for (std::size_t i = 0; i < ramp.image.values.size(); ++i)
+    ramp.image.values[i] =
+        static_cast<float>(i / channels) * (1.0f / (code_count - 1));  // as the library has it
+  ImageTexture one = texture;
+  if (number && one.number == ImageNumber::alpha) one.number = ImageNumber::mean;  // of the ramp
+  const Image all = texture_values(one, std::move(ramp), number ? ImageUse::number : ImageUse::color);
+  CodeValues values;
+  for (std::size_t i = 0; i < all.values.size(); i += channels) values.push_back(all.values[i]);
+  return values;
+}
+
+// The channel that a number is, if it is one.
+std::optional<std::size_t> channel_of(ImageNumber number, int channels) {
+  const bool grey = channels < 3;
+  switch (number) {
+    case ImageNumber::alpha:
+      return channels % 2 == 0 ? std::optional(static_cast<std::size_t>(channels - 1)) : std::nullopt;
+    case ImageNumber::red:
+      return 0;
+    case ImageNumber::green:
+      return grey ? 0 : 1;
+    case ImageNumber::blue:
+      return grey ? 0 : 2;
+    default:
+      return grey ? std::optional<std::size_t>(0) : std::nullopt;
+  }
+}
+
+bool has_only_greys(const ByteRows& rows) {
+  if (rows.channels < 3) return true;
+  struct Colored {};
+  const auto step = static_cast<std::size_t>(rows.channels);
+  try {
+    rows.read([&](std::span<const std::uint8_t> bytes) {
+      for (std::size_t at = 0; at < bytes.size(); at += step)
+        if (bytes[at] != bytes[at + 1] || bytes[at] != bytes[at + 2]) throw Colored();
+    });
+  } catch (const Colored&) {
+    return false;
+  }
+  return true;
+}
+
+// The code whose value is `value`, or one of the two around it: the greater as often as the value is near it.
+// The thresholds are a sequence of low discrepancy in x and y (Roberts 2018, "R2").
+std::uint8_t code_near(const CodeValues& values, float value, std::uint32_t x, std::uint32_t y,
+                       std::size_t channel) {
+  const auto above = std::ranges::lower_bound(values, value) - values.begin();
+  const auto upper = static_cast<std::size_t>(std::min<std::ptrdiff_t>(above, code_count - 1));
+  if (upper == 0 || values[upper] <= value) return static_cast<std::uint8_t>(upper);
+  const double low = static_cast<double>(values[upper - 1]), high = static_cast<double>(values[upper]);
+  const double at = 0.7548776662466927 * x + 0.5698402909980532 * y + static_cast<double>(channel) / 3 + 0.5;
+  const bool greater = (static_cast<double>(value) - low) / (high - low) > at - std::floor(at);
+  return static_cast<std::uint8_t>(greater ? upper : upper - 1);
+}
+
+// Each level takes its rows from the top and hands those of the next one on.
+class CodedLevels {
+ public:
+  CodedLevels(TextureWriter& writer, const TextureFileInfo& info, const CodeValues& values)
+      : writer_(writer),
+        info_(info),
+        values_(values),
+        channels_(bytes_per_texel(info.format)),
+        next_y_(info.levels) {}
+
+  void add_codes(std::span<const std::uint8_t> codes) {
+    writer_.add_row(0, std::as_bytes(codes));
+    if (info_.levels == 1) return;
+    decoded_.resize(codes.size());
+    for (std::size_t i = 0; i < codes.size(); ++i) decoded_[i] = values_[codes[i]];
+    hand_on(0, decoded_);
+  }
+
+ private:
+  void hand_on(std::uint32_t level, std::span<const float> row) {
+    if (level + 1 == info_.levels) return;
+    if (halvers_.size() <= level)
+      halvers_.emplace_back(static_cast<int>(row.size() / channels_),
+                            static_cast<int>(std::max(info_.height >> level, 1u)),
+                            static_cast<int>(channels_));
+    halvers_[level].add(row, [&](std::span<const float> half) { add_means(level + 1, half); });
+  }
+  void add_means(std::uint32_t level, std::span<const float> row) {
+    std::vector<std::uint8_t> codes(row.size());
+    const std::uint32_t y = next_y_[level]++;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      codes[i] = code_near(values_, row[i], static_cast<std::uint32_t>(i / channels_), y, i % channels_);
+    writer_.add_row(level, std::as_bytes(std::span(codes)));
+    hand_on(level, row);
+  }
+
+  TextureWriter& writer_;
+  TextureFileInfo info_;
+  const CodeValues& values_;
+  std::size_t channels_;
+  std::vector<std::uint32_t> next_y_;  // of each level, from its top
+  std::vector<float> decoded_;
+  std::deque<RowHalver> halvers_;  // of each level but the last; they stay where they are
+};
+
+}  // namespace
+
+std::optional<CodedImage> coded_image(const ImageTexture& texture, const ByteRows& rows, TextureUse use,
+                                      RgbMethod method) {
+  if (use != TextureUse::number && use != TextureUse::reflectance && use != TextureUse::unbounded) return {};
+  CodedImage coded{TexelFormat::color_code, 0, values_of_bytes(texture, use)};
+  const bool color = use != TextureUse::number;
+  for (float& v : coded.values) {
+    if (!std::isfinite(v)) return {};
+    if (color) v = std::max(v, 0.0f);
+    if (use == TextureUse::reflectance) v = std::min(v, 1.0f);
+  }
+  if (!std::ranges::is_sorted(coded.values)) return {};
+  if (!color) {
+    const auto channel = channel_of(texture.number, rows.channels);
+    if (!channel) return {};
+    coded.format = TexelFormat::number_code, coded.first_channel = *channel;
+  } else if (has_only_greys(rows)) {
+    coded.format = TexelFormat::number_code;
+  } else if (coded.values.back() > 1 || method == RgbMethod::matrix_r) {
+    return {};
+  }
+  return coded;
+}
+
+WrittenTextureFile write_coded_image(const std::filesystem::path& file, const ByteRows& rows,
+                                     const CodedImage& coded, bool all_levels) {
+  const auto width = static_cast<std::uint32_t>(rows.width), height = static_cast<std::uint32_t>(rows.height);
+  const TextureFileInfo info{coded.format, width, height,
+                             all_levels ? texture_level_count(width, height) : 1};
+  TextureWriter writer(file, info, coded.values);
+  CodedLevels levels(writer, info, coded.values);
+  const auto step = static_cast<std::size_t>(rows.channels), row = step * width;
+  const std::size_t taken = bytes_per_texel(coded.format);
+  std::vector<std::uint8_t> codes(width * taken);
+  rows.read([&](std::span<const std::uint8_t> bytes) {
+    for (; !bytes.empty(); bytes = bytes.subspan(row)) {
+      if (step == taken) {
+        levels.add_codes(bytes.first(row));
+        continue;
+      }
+      for (std::size_t x = 0; x < width; ++x)
+        for (std::size_t c = 0; c < taken; ++c)
+          codes[x * taken + c] = bytes[x * step + coded.first_channel + c];
+      levels.add_codes(codes);
+    }
+  });
+  return writer.finish();
+}
+
+}  // namespace vitrail
