@@ -145,8 +145,9 @@ TEST_F(TooLittleMemory, IsDoneOrRefusedForEachKindOfPicture) {
 }
 
 TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForPictures) {
-  ASSERT_TRUE(write_picture("small.png", 64) && write_picture("large.png", 2048));
-  for (const char* picture : {"small.png", "large.png"}) {
+  ASSERT_TRUE(write_picture("small.png", 64) && write_picture("middle.png", 512) &&
+              write_picture("large.png", 2048));
+  for (const char* picture : {"small.png", "middle.png", "large.png"}) {
     write("a.pbrt", with_picture(picture));
     expect_right_budgets("a.pbrt", {8, 16, 32, 64, 128, 256});
   }
