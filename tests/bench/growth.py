@@ -54,13 +54,13 @@ def rows():
     yield Row("spectra", s.spectra, 1600, "sample", short=True)
     yield Row("measured table", s.measured, 16384, "value", spp=(8, 16))
     yield Row("table of Fourier series", s.fourier, 256, "pair", spp=(8, 16))
-    yield Row("point lights", s.points, 500, "light", (1.25, 1.4), TREE, short=True)
+    yield Row("point lights", s.points, 500, "light", (1.25, 1.4), TREE, bytes=(45, 450, 420), short=True)
     yield Row("spot lights", s.spots, 300, "light", (1.25, 1.4), TREE)
     yield Row("distant lights", s.distant, 32, "light", short=True)
     yield Row("triangles that shine", s.lamp_triangles, 1000, "triangle", (1.5, 2), TREE)
     yield Row("spheres that shine", s.lamp_spheres, 250, "sphere", (1.5, 2), TREE)
     yield Row("triangles", s.triangles, 5000, "triangle", (1.5, 2), TREE, short=True)
-    yield Row("curves", s.curves, 500, "curve", (1.5, 2), TREE)
+    yield Row("curves", s.curves, 500, "curve", (1.5, 2), TREE, bytes=(230, 1200, 230))
     yield Row("quadrics", s.spheres, 250, "sphere", (1.5, 2), TREE)
     yield Row("instances", s.instances, 400, "instance", (1.5, 2), TREE)
     yield Row("prototypes", s.prototypes, 100, "prototype", (1.5, 2), TREE)
@@ -130,8 +130,9 @@ def line(bench, row, short):
     growth = [w / work[0] for w in work[1:]]
     faults = [f"{row.name}: {g:.2f} times the work at {n} {row.item}s, at most {most}"
               for g, n, most in zip(growth, counts[1:], row.most) if g > most]
-    sizes = [(b - a) / (counts[-1] - counts[-2]) for a, b in zip(found[-2][1], found[-1][1])]
-    if row.bytes and not short:
+    # Of few items they are lost in the rest of the memory.
+    sizes = [] if short else [(b - a) / (counts[-1] - counts[-2]) for a, b in zip(found[-2][1], found[-1][1])]
+    if row.bytes:
         faults += [f"{row.name}: {s:.0f} bytes a {row.item} in {where}, at most {most}"
                    for s, most, where in zip(sizes, row.bytes, ("the bundle", "partition", "render")) if s > most]
     limits = " · ".join(str(most) for most in row.most[:len(growth)])
@@ -163,7 +164,7 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         bench = Bench(options.bin.resolve(), options.keep or pathlib.Path(temporary))
         growths = ["8 N"] + ["64 N"] * (not options.short)
-        head = ["data", "N", "instructions a sample", *growths, "at most", "bytes of bundle", "of partition", "of render"]
+        head = ["data", "N", "instructions a sample", *growths, "at most"] + ["bytes of bundle", "of partition", "of render"] * (not options.short)
         table, faults = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"], []
         print(*table, sep="\n")
         for row in rows():

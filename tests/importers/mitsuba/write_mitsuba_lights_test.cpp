@@ -2,6 +2,7 @@
 // The text that the Mitsuba writer makes of lights. What Mitsuba makes of it: mitsuba_oracle.h.
 #include "importers/mitsuba/write/write_mitsuba.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
