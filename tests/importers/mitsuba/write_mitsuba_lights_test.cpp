@@ -51,7 +51,7 @@ TEST_F(WriteMitsuba, ExposureIsInTheLights) {
 
 TEST_F(WriteMitsuba, LightsKeepTheirNames) {
   Scene scene = square_scene({});
-  scene.lights = {{PointLight{{1, 2, 3}, ConstantSpectrum{3}}, {}, "bulb"}};
+  scene.lights = {Light{.model = PointLight{{1, 2, 3}, ConstantSpectrum{3}}, .name = "bulb"}};
   scene.area_lights.push_back({.radiance = ConstantSpectrum{5}, .name = "panel"});
   scene.shapes[0].area_light = Id<AreaLight>{0};
   const auto root = write(scene);
