@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bundle/manifest.h"
+#include "bundle/reflectances/color_words.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
@@ -14,6 +15,7 @@ namespace {
 constexpr std::uint64_t mib = 1 << 20;
 
 struct Bundle {
+  std::uint64_t conversion = 0;  // what finding spectra of codes may take
   std::filesystem::path path;
   std::uint64_t bytes = 0, largest = 0;
 };
@@ -29,6 +31,8 @@ Bundle make_bundle(const TemporaryDirectory& directory, const std::filesystem::p
     bundle.bytes += d.bytes;
     bundle.largest = std::max(bundle.largest, d.bytes);
   }
+  for (const TextureFileEntry& t : read_manifest(bundle.path).texture_files)
+    if (t.read_bytes > 0) bundle.conversion = conversion_bytes;
   return bundle;
 }
 
@@ -47,7 +51,8 @@ nlohmann::json render(const TemporaryDirectory& directory, const Bundle& bundle,
 std::string quarter(const Bundle& bundle, const nlohmann::json& everything, int threads) {
   const std::uint64_t domains = std::max(bundle.bytes / 4, bundle.largest);
   const std::uint64_t rank = everything["base_rss_bytes"].get<std::uint64_t>() +
-                             (9 + static_cast<unsigned>(threads)) * mib + domains + domains / 4;
+                             (9 + static_cast<unsigned>(threads)) * mib + bundle.conversion + domains +
+                             domains / 4;
   return fmt::format("--memory {} --domain-memory {}", rank, domains);
 }
 
