@@ -147,14 +147,14 @@ ImportedScene read(const PartitionArguments& a, std::uint64_t kept_bytes, Stage&
   });
 }
 
-// With all meshes in their files where the memory is too little for some.
+// With all meshes in their files where the memory is too little for some, and there is any left.
 ImportedScene read_within_memory(const PartitionArguments& a, std::uint64_t kept_bytes, Stage& stage) {
   try {
     return read(a, kept_bytes, stage);
   } catch (...) {
-    if (!memory_refusal().refused) throw;
+    constexpr std::uint64_t least = 4 << 20;
+    if (!memory_refusal().refused || !memory_allows(least)) throw;
   }
-  ::malloc_trim(0);
   forget_refusal();
   return read(a, 0, stage);
 }
