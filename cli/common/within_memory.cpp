@@ -28,7 +28,7 @@ double enough_bytes(const MemoryRefusal& refusal, double budget, const Stage& st
   double needed = std::max(resident + static_cast<double>(refusal.asked_bytes), budget);
   needed += static_cast<double>(memory_reserve(static_cast<std::uint64_t>(needed)));
   if (stage.needed_bytes > 0) return std::max(needed, static_cast<double>(stage.needed_bytes));
-  needed *= 1.5;
+  needed *= 2;
   const double digit = mib * std::pow(10, std::max(0.0, std::floor(std::log10(needed / mib)) - 1));
   return std::ceil(needed / digit) * digit;
 }

@@ -169,7 +169,8 @@ PartitionStats divide(const Scene& scene, PartitionArguments& a, Stage& stage) {
     } catch (const MemoryNeeded&) {
       throw;
     } catch (...) {
-      const bool is_dividing = std::string_view(stage.what).starts_with("cutting");
+      const std::string_view at = stage.what;
+      const bool is_dividing = at.starts_with("cutting") || at.starts_with("sorting");
       if (!memory_refusal().refused || !is_dividing || a.options.memory_share <= least_share) throw;
     }
     ::malloc_trim(0);
