@@ -9,6 +9,8 @@
 namespace vitrail::test {
 namespace {
 
+constexpr double albedo = 0.5;
+
 // What a Lambertian floor of that albedo shows from above, of a scene with these lights and other nodes.
 double shown(const std::string& nodes, const std::string& more) {
   GltfText file;
