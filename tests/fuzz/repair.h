@@ -67,10 +67,13 @@ inline std::uint64_t repair_texture(std::vector<std::byte>& bytes) {
     for (std::uint32_t y = 0; y < level.tiles_y; ++y)
       for (std::uint32_t x = 0; x < level.tiles_x; ++x) {
         const TilePlace place = place_of(info.format, level, x, y);
-        table.push_back(checksum(std::span(bytes).subspan(place.offset, place.words * 4)));
+        table.push_back(checksum(std::span(bytes).subspan(place.offset, place.bytes)));
       }
   std::memcpy(&bytes[sizeof header], table.data(), table.size() * sizeof table[0]);
-  header.checksum = header_checksum(header, table);
+  std::vector<float> values(is_coded(info.format) ? code_count : 0);
+  std::memcpy(values.data(), &bytes[sizeof header + table.size() * sizeof table[0]],
+              values.size() * sizeof(float));
+  header.checksum = header_checksum(header, table, values);
   put(bytes, 0, header);
   return header.checksum;
 }
