@@ -115,7 +115,9 @@ std::string lack_of(const Manifest& m, const MemoryNeeds& needs) {
   const double left = bytes_left(needs);
   if (left < static_cast<double>(needs.baking_bytes))
     return needs.image_library ? "the scene and what reads its images" : "the scene";
-  if (left < needs.object_bytes) return "the largest object that has instances";
+  // bytes_in_work is a little more than what an object takes.
+  constexpr double taken = 0.95;
+  if (left < taken * needs.object_bytes) return "the largest object that has instances";
   const DomainNeeds domain = needs_of_domain(m, needs, number_of_domains(m, needs));
   if (left < domain.in_cell + domain.build)
     return fmt::format(

@@ -15,6 +15,7 @@ template <class T>
 class Boxed {
  public:
   Boxed() = default;
+  // The value is copied or moved into a box of its own.
   template <class U>
   requires std::convertible_to<U&&, T> &&(!std::same_as<std::remove_cvref_t<U>, Boxed>)Boxed(U&& value)
       : value_(std::make_unique<T>(std::forward<U>(value))) {}
@@ -24,6 +25,7 @@ class Boxed {
   Boxed& operator=(Boxed&&) noexcept = default;
   ~Boxed() = default;
 
+  // The value, which is there: T{} where none was set. To change one that was never set takes memory.
   const T& operator*() const { return value_ ? *value_ : unset(); }
   T& operator*() {
     if (!value_) value_ = std::make_unique<T>();

@@ -50,16 +50,17 @@ class TooLittleMemory : public testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
-  // Of side × side texels with some noise, in the library's own defaults. False where this one is not built
-  // with that kind.
-  bool write_picture(const std::string& name, int side) const {
+  // Of side × side texels with some noise, in the library's own defaults or with 16 bits. False where this
+  // one is not built with that kind.
+  bool write_picture(const std::string& name, int side, bool with_16_bits = false) const {
     const auto out = OIIO::ImageOutput::create(path(name));
     if (!out) return false;
     std::vector<float> values;
     for (int i = 0; i < side * side * 3; ++i)
       values.push_back(0.5f + 0.4f * static_cast<float>(std::sin(i * 1.7 + i % 91)));
+    const OIIO::TypeDesc of_kind = out->supports("float") ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
     const OIIO::ImageSpec spec(side, side, 3,
-                               out->supports("float") ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+                               with_16_bits ? OIIO::TypeDesc(OIIO::TypeDesc::UINT16) : of_kind);
     const bool written =
         out->open(path(name), spec) && out->write_image(OIIO::TypeDesc::FLOAT, values.data());
     EXPECT_TRUE(written) << name << ": " << out->geterror();
@@ -145,8 +146,9 @@ TEST_F(TooLittleMemory, IsDoneOrRefusedForEachKindOfPicture) {
 }
 
 TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForPictures) {
-  ASSERT_TRUE(write_picture("small.png", 64) && write_picture("middle.png", 512) &&
-              write_picture("large.png", 2048));
+  // Those of 8 bits take less than what is named: they do without the library (images/byte_rows.h).
+  ASSERT_TRUE(write_picture("small.png", 64, true) && write_picture("middle.png", 512, true) &&
+              write_picture("large.png", 2048, true));
   for (const char* picture : {"small.png", "middle.png", "large.png"}) {
     write("a.pbrt", with_picture(picture));
     expect_right_budgets("a.pbrt", {8, 16, 32, 64, 128, 256});
@@ -154,7 +156,7 @@ TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForPictures) {
 }
 
 TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForInstances) {
-  ASSERT_TRUE(write_picture("small.png", 64));
+  ASSERT_TRUE(write_picture("small.png", 64, true));
   std::string scene = with_picture("small.png");
   for (int object = 0; object < 4; ++object) {
     std::string points, indices;

@@ -36,8 +36,10 @@ void require_references(const Asset& asset, const std::filesystem::path& file) {
 }  // namespace
 
 Asset read_asset(const std::filesystem::path& file) {
-  open_regular(file);  // says best what is wrong with the name
-  const GrantedMemory reading(library_bytes + bytes_a_byte * std::filesystem::file_size(file));
+  open_regular(file);       // says best what is wrong with the name
+  std::error_code unknown;  // the reader says what is wrong with the file
+  const std::uint64_t bytes = std::filesystem::file_size(file, unknown);
+  const GrantedMemory reading(library_bytes + (unknown ? 0 : bytes_a_byte * bytes));
   static const auto read =
       reinterpret_cast<ReadAsset>(module_symbol(asset_module, asset_symbol, "reads .fbx, .dae and .3ds"));
   Asset asset;
