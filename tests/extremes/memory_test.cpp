@@ -67,7 +67,7 @@ TEST_P(Memory, IsKeptOrRefused) {
   EXPECT_LE(done.peak_bytes, budget);
   EXPECT_THAT(done.status, ::testing::AnyOf(0, 4)) << done.output;
   if (done.status == 4) {
-    EXPECT_THAT(done.output, ::testing::HasSubstr("needed")) << done.output;
+    EXPECT_THAT(done.output, ::testing::HasSubstr("try --memory ")) << done.output;
   }
   EXPECT_EQ(std::filesystem::exists(directory / "out.vit"), done.status == 0);
 }
