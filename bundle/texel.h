@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the texels of a baked image are stored, and read: as 1, 2 or 3 words of 32 bits.
+// The texels of a baked image are stored and read in these formats: as 1, 2 or 3 words of 32 bits.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +49,7 @@ constexpr bool is_illuminant(TexelFormat format) {
   return format == TexelFormat::illuminant || format == TexelFormat::matrix_r_illuminant;
 }
 
-// As it is read.
+// Returns the words of a texel as it is read.
 constexpr std::uint32_t words_per_texel(TexelFormat format) {
   switch (format) {
     case TexelFormat::number:
@@ -65,7 +65,7 @@ constexpr std::uint32_t words_per_texel(TexelFormat format) {
   }
 }
 
-// In the file.
+// Returns the bytes of a texel in the file.
 constexpr std::uint32_t bytes_per_texel(TexelFormat format) {
   if (format == TexelFormat::color_code) return 3;
   return format == TexelFormat::number_code ? 1 : 4 * words_per_texel(format);

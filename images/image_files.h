@@ -26,11 +26,13 @@ struct ImageLayout {
   int width = 0, height = 0, channels = 0;  // of a StoredImage
   bool integer = false;
   std::optional<Chromaticities> chromaticities;
-  // Of memory, that reading takes with the library's own: the whole, and some rows at a time.
+  // The bytes of memory that reading takes, the library's own included: of the whole, and of some rows at a
+  // time.
   std::uint64_t whole_bytes = 0, rows_bytes = 0;
 };
 
-// What it takes to load the library and to open a file: measured, tests/images/library_memory_test.cpp.
+// The memory that loading the library and opening a file take: measured,
+// tests/cli/too_little_memory_test.cpp.
 inline constexpr std::uint64_t image_library_bytes = 132 << 20;
 
 // Whether there was a first.

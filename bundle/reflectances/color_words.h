@@ -17,7 +17,7 @@ TexelWords reflectance_words(const std::array<float, 3>& color, const Reflectanc
 // The same of the colour that a word of codes stands for (is_color_code).
 TexelWords color_words(std::uint32_t word, std::span<const float> values, const ReflectanceFitter& fitter);
 
-// What the table and the grid of fits may take of memory.
+// The memory that the table and the grid of fits may take.
 inline constexpr std::uint64_t conversion_bytes = 9 << 20;
 
 }  // namespace vitrail

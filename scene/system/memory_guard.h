@@ -70,7 +70,8 @@ MemoryRefusal memory_refusal();
 // The same work is tried in another way: as if nothing had been refused. Called while no other thread works.
 void forget_refusal();
 
-// Of a budget, what is kept free: for what threads take between two looks, and for an orderly end.
+// Returns the part of a budget that is kept free: for what threads take between two looks, and for an orderly
+// end.
 std::uint64_t memory_reserve(std::uint64_t budget_bytes);
 
 }  // namespace vitrail
