@@ -73,20 +73,57 @@ function(vitrail_program verb)
   set_property(GLOBAL APPEND PROPERTY VITRAIL_VERBS ${verb})
 endfunction()
 
-# vitrail_test(NAME LABEL l SOURCES … LIBRARIES … [TIMEOUT s]): one GoogleTest program, registered with ctest. The limit
-# of time is one that only a hang reaches.
+# vitrail_test(NAME LABEL l SOURCES … LIBRARIES … [TIMEOUT s] [ALONE]): tests of these sources, registered with ctest, and the
+# program test_NAME that runs them. All tests of a folder of tests/ are linked into one program, test_in_FOLDER, of which
+# test_NAME is a link: it looks up which files are NAME's. ALONE: a program of its own. The limit of time is one that only
+# a hang reaches.
 function(vitrail_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALONE" "LABEL;TIMEOUT" "SOURCES;LIBRARIES")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 600)
   endif()
-  add_executable(test_${name} ${arg_SOURCES})
-  target_link_libraries(test_${name} PRIVATE vitrail::options ${arg_LIBRARIES} GTest::gmock GTest::gtest_main)
-  target_compile_definitions(test_${name} PRIVATE
-    VITRAIL_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VITRAIL_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
-  target_precompile_headers(test_${name} REUSE_FROM vitrail_precompiled_tests)
-  add_test(NAME ${name} COMMAND test_${name})
+  if(arg_ALONE)
+    set(program test_${name})
+    vitrail_test_program(${program})
+  else()
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
+    string(REGEX REPLACE "/.*" "" folder ${folder})
+    set(program test_in_${folder})
+    if(NOT TARGET ${program})
+      vitrail_test_program(${program})
+    endif()
+    add_custom_target(test_${name} DEPENDS ${program})
+    file(CREATE_LINK ${program} ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/test_${name} SYMBOLIC)
+  endif()
+  get_target_property(known ${program} SOURCES)
+  foreach(source ${arg_SOURCES})
+    file(REAL_PATH ${source} source)
+    if(NOT source IN_LIST known)
+      target_sources(${program} PRIVATE ${source})
+    endif()
+    file(RELATIVE_PATH source ${PROJECT_SOURCE_DIR} ${source})
+    set_property(TARGET ${program} APPEND PROPERTY VITRAIL_TEST_FILES "{\"test_${name}\", \"${source}\"},")
+  endforeach()
+  target_link_libraries(${program} PRIVATE ${arg_LIBRARIES})
+  add_test(NAME ${name} COMMAND ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/test_${name})
   set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
+endfunction()
+
+# Release tests release's libraries; the tests' own lines take two thirds of the time to compile without the dearest passes.
+set(vitrail_test_options $<$<CONFIG:Release>:-O1>)
+
+# vitrail_test_program(PROGRAM): a program of tests, as yet without any.
+function(vitrail_test_program program)
+  add_executable(${program} ${PROJECT_SOURCE_DIR}/tests/support/main.cpp)
+  target_link_libraries(${program} PRIVATE vitrail::options GTest::gmock)
+  target_compile_definitions(${program} PRIVATE
+    VITRAIL_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VITRAIL_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  target_compile_options(${program} PRIVATE ${vitrail_test_options})
+  target_precompile_headers(${program} REUSE_FROM vitrail_precompiled_tests)
+  file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/written/tests/${program}/test_files.h
+    CONTENT "$<JOIN:$<TARGET_PROPERTY:${program},VITRAIL_TEST_FILES>,\n>\n")
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/support/main.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  target_include_directories(${program} PRIVATE ${CMAKE_BINARY_DIR}/written/tests/${program})
 endfunction()
 
 # vitrail_lanes(FILE FLAG …): how a file of tracer/lanes is compiled, for an instruction set: no comparison traps, so

@@ -7,7 +7,7 @@
 
 #include "tests/bundle/sample_bundle.h"
 
-namespace vitrail {
+namespace vitrail::census_test {
 
 namespace {
 
@@ -96,4 +96,4 @@ TEST(Census, FindsWhatIsDoubled) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::census_test

@@ -12,7 +12,7 @@
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::corruption_test {
 
 namespace {
 
@@ -180,4 +180,4 @@ TEST(CorruptionOfBundle, LoadedDomainsHaveTheirObjects) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::corruption_test

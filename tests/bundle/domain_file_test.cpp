@@ -12,7 +12,7 @@
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::domain_file_test {
 
 namespace {
 
@@ -129,4 +129,4 @@ TEST_F(DomainFile, TreeMayNotBeTooDeep) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::domain_file_test

@@ -7,7 +7,7 @@
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::full_disk_test {
 
 namespace {
 
@@ -52,4 +52,4 @@ TEST(FullDisk, UnwritableDirectory) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::full_disk_test

@@ -14,7 +14,7 @@
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::manifest_test {
 
 namespace {
 
@@ -429,4 +429,4 @@ TEST_F(ManifestFile, MaterialsThatDoubleAreRefused) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::manifest_test

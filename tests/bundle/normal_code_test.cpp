@@ -6,7 +6,7 @@
 
 #include "bundle/domain_file.h"
 
-namespace vitrail {
+namespace vitrail::normal_code_test {
 
 namespace {
 
@@ -44,4 +44,4 @@ TEST(NormalCode, WhatHasNoDirectionHasNoCode) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::normal_code_test

@@ -8,7 +8,7 @@
 
 #include "tests/bundle/sample_bundle.h"
 
-namespace vitrail {
+namespace vitrail::occupancy_test {
 namespace {
 
 const Bounds3f box{{-1, 2, 10}, {7, 6, 10.5f}};
@@ -95,4 +95,4 @@ TEST(Occupancy, EmptySpaceIsPassed) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::occupancy_test

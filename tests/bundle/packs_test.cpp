@@ -13,7 +13,7 @@
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::packs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -139,4 +139,4 @@ TEST_F(Packs, AreVerifiedWithoutAManifest) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::packs_test

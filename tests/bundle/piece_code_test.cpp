@@ -11,7 +11,7 @@
 
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::piece_code_test {
 
 namespace {
 
@@ -170,4 +170,4 @@ TEST(PieceCode, DamageIsRefused) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::piece_code_test

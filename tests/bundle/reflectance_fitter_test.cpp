@@ -9,7 +9,7 @@
 
 #include "scene/spectra/rgb_to_spectrum.h"
 
-namespace vitrail {
+namespace vitrail::reflectance_fitter_test {
 
 namespace {
 
@@ -73,4 +73,4 @@ TEST(ReflectanceFitter, IsAFunctionOfTheColor) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::reflectance_fitter_test

@@ -11,7 +11,7 @@
 
 #include "scene/spectra/rgb_to_spectrum.h"
 
-namespace vitrail {
+namespace vitrail::reflectance_table_test {
 
 namespace {
 
@@ -112,4 +112,4 @@ TEST(ReflectanceTable, LeavesGreysAndWhatIsOutsideToTheFit) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::reflectance_table_test

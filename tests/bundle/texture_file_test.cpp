@@ -10,7 +10,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::texture_file_test {
 
 namespace {
 
@@ -217,4 +217,4 @@ TEST(Texel, BlackAndWhite) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::texture_file_test

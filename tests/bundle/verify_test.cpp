@@ -13,7 +13,7 @@
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::verify_test {
 
 namespace {
 
@@ -248,4 +248,4 @@ TEST_F(Features, OptionalOnesAreIgnored) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::verify_test

@@ -10,7 +10,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::alpha_test {
 namespace {
 
 using ::testing::AllOf;
@@ -122,4 +122,4 @@ TEST_F(AlphaTyped, WhatIsHiddenIsInspectedAndKeptApart) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::alpha_test

@@ -11,7 +11,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::bad_input_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -243,4 +243,4 @@ TEST_F(BadInput, WrongUsage) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::bad_input_test

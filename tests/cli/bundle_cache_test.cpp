@@ -13,7 +13,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::bundle_cache_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -282,4 +282,4 @@ TEST(WorldKey, IsOfTheProgramThatCuts) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::bundle_cache_test

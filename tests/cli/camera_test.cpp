@@ -10,7 +10,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::camera_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -91,4 +91,4 @@ TEST_F(CameraTyped, ThatIsNotThereIsRefused) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::camera_test

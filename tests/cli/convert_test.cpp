@@ -11,7 +11,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::convert_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -350,4 +350,4 @@ TEST_F(Convert, ACheckTakesMoreSamplesWhereNoiseHidesTheMean) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::convert_test

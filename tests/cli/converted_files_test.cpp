@@ -9,7 +9,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::converted_files_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -122,4 +122,4 @@ TEST_F(ConvertedFiles, OtherVerbsTooKeepWhatTheyRead) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::converted_files_test

@@ -9,7 +9,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::cryptomatte_test {
 namespace {
 
 using ::testing::AllOf;
@@ -162,4 +162,4 @@ TEST_F(CryptomatteTyped, ObjectsOfAnObjAreMasks) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::cryptomatte_test

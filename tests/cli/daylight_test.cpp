@@ -12,7 +12,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::daylight_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -171,4 +171,4 @@ TEST_F(Daylight, IsALightOfPbrt) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::daylight_test

@@ -14,7 +14,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::develop_test {
 namespace {
 
 using ::testing::AllOf;
@@ -183,4 +183,4 @@ TEST_F(Develop, MergesFilmsIntoOne) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::develop_test

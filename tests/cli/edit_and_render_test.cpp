@@ -13,7 +13,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::edit_and_render_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -221,4 +221,4 @@ TEST_F(EditAndRender, ARestartGoesOn) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::edit_and_render_test

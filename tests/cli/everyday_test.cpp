@@ -11,7 +11,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::everyday_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -263,4 +263,4 @@ TEST(Everyday, StatisticsKeepTheirContract) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::everyday_test

@@ -9,7 +9,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::frames_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -169,4 +169,4 @@ TEST_F(Frames, OfTheExamplesAreFrames) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::frames_test

@@ -6,7 +6,7 @@
 #include "tests/glazing/glazing_files.h"
 #include "tests/support/command.h"
 
-namespace vitrail::test {
+namespace vitrail::test::glazing_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -103,4 +103,4 @@ TEST(Glazing, OfASceneIsSaidToBeHeldBeyondItsData) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::glazing_test

@@ -13,7 +13,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::help_test {
 namespace {
 
 using ::testing::ContainsRegex;
@@ -201,4 +201,4 @@ TEST(Completion, OfOtherShellsIsTheirLanguage) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::help_test

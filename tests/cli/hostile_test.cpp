@@ -12,7 +12,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::hostile_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -286,4 +286,4 @@ TEST_F(Hostile, FilesOfABundleAreRegular) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::hostile_test

@@ -9,7 +9,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::image_cache_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,4 +68,4 @@ TEST_F(ImageCache, ServesRenderToo) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::image_cache_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/partitioned_box.h"
 
-namespace vitrail::test {
+namespace vitrail::test::inspect_json_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -133,4 +133,4 @@ TEST_F(InspectJson, TheTextBeginsWithASummary) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::inspect_json_test

@@ -9,7 +9,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::light_groups_test {
 namespace {
 
 using ::testing::AllOf;
@@ -74,4 +74,4 @@ TEST_F(LightGroupsTyped, WhatCannotBeIsRefused) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::light_groups_test

@@ -11,7 +11,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"
 
-namespace vitrail {
+namespace vitrail::mesh_options_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -155,4 +155,4 @@ TEST_F(MeshOptions, WrongOnesAreUsage) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mesh_options_test

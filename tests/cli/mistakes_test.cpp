@@ -9,7 +9,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::mistakes_test {
 namespace {
 
 using ::testing::AllOf;
@@ -264,4 +264,4 @@ TEST_F(Mistakes, HelpSaysWhatHappensWithoutAnOption) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::mistakes_test

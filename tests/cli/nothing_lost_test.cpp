@@ -11,7 +11,7 @@
 #include "tests/support/background.h"
 #include "tests/support/partitioned_box.h"
 
-namespace vitrail::test {
+namespace vitrail::test::nothing_lost_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -214,4 +214,4 @@ TEST_F(NothingLost, OutputsAreCheckedBeforeTheWork) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::nothing_lost_test

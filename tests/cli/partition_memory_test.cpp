@@ -19,7 +19,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"
 
-namespace vitrail::test {
+namespace vitrail::test::partition_memory_test {
 namespace {
 
 class PartitionMemory : public ::testing::Test {
@@ -177,4 +177,4 @@ TEST_F(PartitionMemory, FullDisk) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::partition_memory_test

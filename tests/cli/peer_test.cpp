@@ -10,7 +10,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::peer_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -198,4 +198,4 @@ TEST_F(Peer, WritesImagesForPovRayAsAnotherKind) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::peer_test

@@ -11,7 +11,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::pictures_test {
 namespace {
 
 using ::testing::AllOf;
@@ -238,4 +238,4 @@ TEST_F(Pictures, BundlesSayWhatTheyWereMadeOf) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::pictures_test

@@ -11,7 +11,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::plan_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -140,4 +140,4 @@ TEST_F(Plan, RefusesTheProfileOfAnotherBundle) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::plan_test

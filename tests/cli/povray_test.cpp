@@ -11,7 +11,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::povray_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,4 +168,4 @@ TEST_F(Povray, TheFilmOfOneDomainInAnEighthOfTheMemory) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::povray_test

@@ -14,7 +14,7 @@
 #include "tests/support/background.h"
 #include "tests/support/partitioned_box.h"
 
-namespace vitrail::test {
+namespace vitrail::test::preview_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -158,4 +158,4 @@ TEST_F(Previews, APreviewIsThereAtOnceAndWhereTheRenderIsStopped) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::preview_test

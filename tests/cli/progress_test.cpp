@@ -12,7 +12,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/support/terminal.h"
 
-namespace vitrail::test {
+namespace vitrail::test::progress_test {
 namespace {
 
 using ::testing::AllOf;
@@ -116,4 +116,4 @@ TEST(Progress, ALogHasALineSoon) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::progress_test

@@ -7,7 +7,7 @@
 #include "tests/glazing/glazing_files.h"
 #include "tests/support/command.h"
 
-namespace vitrail::test {
+namespace vitrail::test::set_glazing_test {
 namespace {
 
 using ::testing::AllOf;
@@ -205,4 +205,4 @@ TEST_F(SetGlazing, ASceneWithoutSaysSo) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::set_glazing_test

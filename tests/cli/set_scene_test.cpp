@@ -10,7 +10,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::set_scene_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -169,4 +169,4 @@ TEST_F(SetScene, WhatCannotBeIsRefused) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::set_scene_test

@@ -8,7 +8,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::spectrum_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -110,4 +110,4 @@ TEST(Spectrum, PrintsOneColorAndPlots) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::spectrum_test

@@ -16,7 +16,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::too_little_memory_test {
 namespace {
 
 using testing::HasSubstr;
@@ -181,4 +181,4 @@ TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForInstances) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::too_little_memory_test

@@ -9,7 +9,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::verify_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -90,4 +90,4 @@ TEST_F(VerifyProgram, NotABundle) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::verify_test

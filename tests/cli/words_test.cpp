@@ -9,7 +9,7 @@
 
 #include "tests/support/partitioned_box.h"
 
-namespace vitrail::test {
+namespace vitrail::test::words_test {
 namespace {
 
 using ::testing::AllOf;
@@ -73,4 +73,4 @@ TEST_F(Words, TooLittleMemoryComesWithWhatIsEnough) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::words_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vitrail {
+namespace vitrail::color_difference_test {
 namespace {
 
 struct Pair {
@@ -36,4 +36,4 @@ TEST(Ciede2000, OfPicturesIsAsTheScreenShowsThem) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::color_difference_test

@@ -15,7 +15,7 @@
 #include "compare/metrics.h"
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::flip_test {
 namespace {
 
 constexpr int width = 40, height = 30;
@@ -110,4 +110,4 @@ TEST(Flip, MagmaEndsAsPublished) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::flip_test

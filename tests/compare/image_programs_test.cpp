@@ -11,7 +11,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::image_programs_test {
 namespace {
 
 using testing::AllOf;
@@ -252,4 +252,4 @@ TEST_F(ImagePrograms, DamagedFilmsAreBadInput) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::image_programs_test

@@ -12,7 +12,7 @@
 #include "compare/error_images.h"
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::metrics_test {
 namespace {
 
 using testing::HasSubstr;
@@ -137,4 +137,4 @@ TEST(Heatmap, IsBlackWithoutErrorWhiteAtTheMostAndMagentaWithoutNumber) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::metrics_test

@@ -11,7 +11,7 @@
 #include "scene/spectra/color.h"
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::mitsuba_rule_test {
 namespace {
 
 constexpr int side = 48, samples = 868;
@@ -109,4 +109,4 @@ TEST(Mask, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mitsuba_rule_test

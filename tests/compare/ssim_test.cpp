@@ -8,7 +8,7 @@
 
 #include "scene/spectra/color.h"
 
-namespace vitrail {
+namespace vitrail::ssim_test {
 namespace {
 
 constexpr int side = 24;
@@ -66,4 +66,4 @@ TEST(Ssim, KnowsNothingAboutPixelsThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::ssim_test

@@ -9,7 +9,7 @@
 
 #include "compare/comparison_page.h"
 
-namespace vitrail {
+namespace vitrail::web_page_test {
 namespace {
 
 using testing::HasSubstr;
@@ -89,4 +89,4 @@ TEST(Page, KeepsTheBitsOfPicturesOfAnyBrightness) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::web_page_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace vitrail {
+namespace vitrail::welch_tests {
 namespace {
 
 constexpr int side = 256;  // 1024 tiles
@@ -85,4 +85,4 @@ TEST(Welch, LeavesOutWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::welch_tests

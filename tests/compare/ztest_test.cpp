@@ -10,7 +10,7 @@
 #include "compare/variance.h"
 #include "film/develop.h"
 
-namespace vitrail {
+namespace vitrail::ztest_test {
 namespace {
 
 // From tables of Student's distribution.
@@ -178,4 +178,4 @@ TEST(PooledVariance, CountsDegreesOfFreedom) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::ztest_test

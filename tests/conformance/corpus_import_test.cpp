@@ -15,7 +15,7 @@
 #include "tests/support/equal_scenes.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::corpus_import_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -131,4 +131,4 @@ TEST(CorpusImport, EverySceneOfIt) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::corpus_import_test

@@ -10,7 +10,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::courtesies_test {
 namespace {
 
 struct Case {
@@ -161,4 +161,4 @@ TEST(Courtesies, EachRowWithEachReader) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::courtesies_test

@@ -15,7 +15,7 @@
 #include "tests/conformance/corpus_render.h"
 #include "tests/support/command.h"
 
-namespace vitrail::test {
+namespace vitrail::test::docs_picture_test {
 namespace {
 
 constexpr int block = 16;
@@ -128,4 +128,4 @@ INSTANTIATE_TEST_SUITE_P(Corpus, DocsPicture, ::testing::ValuesIn(documented_sce
                          [](const auto& scene) { return case_name(scene.param.name()); });
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::docs_picture_test

@@ -13,7 +13,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::mitsuba_clip_test {
 namespace {
 
 constexpr int side = 8;
@@ -133,4 +133,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, MitsubaClip, ::testing::ValuesIn(cases()),
                          [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::mitsuba_clip_test

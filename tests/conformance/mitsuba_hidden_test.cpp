@@ -13,7 +13,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::mitsuba_hidden_test {
 namespace {
 
 constexpr int side = 8;
@@ -114,4 +114,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, MitsubaHidden, ::testing::ValuesIn(cases()),
                          [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::mitsuba_hidden_test

@@ -16,7 +16,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::mitsuba_layers_test {
 namespace {
 
 constexpr int width = 48, height = 36, grid = 24;
@@ -135,4 +135,4 @@ TEST(MitsubaLayers, AreOurs) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::mitsuba_layers_test

@@ -13,7 +13,7 @@
 #include "tests/conformance/corpus_render.h"
 #include "tests/support/command.h"
 
-namespace vitrail::test {
+namespace vitrail::test::mitsuba_reference_test {
 namespace {
 
 constexpr std::size_t sample_budget = 2'000'000;
@@ -115,4 +115,4 @@ INSTANTIATE_TEST_SUITE_P(Corpus, MitsubaReference, ::testing::ValuesIn(scenes_wi
                          [](const auto& scene) { return case_name(scene.param.name()); });
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::mitsuba_reference_test

@@ -12,7 +12,7 @@
 #include "tests/support/command.h"
 #include "tests/support/render.h"
 
-namespace vitrail::test {
+namespace vitrail::test::nori_radiance_test {
 namespace {
 
 class NoriRadiance : public ::testing::TestWithParam<const char*> {};
@@ -43,4 +43,4 @@ INSTANTIATE_TEST_SUITE_P(Corpus, NoriRadiance,
                          });
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::nori_radiance_test

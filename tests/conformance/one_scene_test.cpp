@@ -17,7 +17,7 @@
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::one_scene_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -143,4 +143,4 @@ TEST_F(OneScene, LooksTheSameToMitsuba) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::one_scene_test

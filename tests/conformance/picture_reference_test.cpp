@@ -11,7 +11,7 @@
 #include "tests/conformance/nori_scene.h"
 #include "tests/support/command.h"
 
-namespace vitrail::test {
+namespace vitrail::test::picture_reference_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -122,4 +122,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::picture_reference_test

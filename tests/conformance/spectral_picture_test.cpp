@@ -9,7 +9,7 @@
 #include "tests/conformance/corpus_render.h"
 #include "tests/support/command.h"
 
-namespace vitrail::test {
+namespace vitrail::test::spectral_picture_test {
 namespace {
 
 class SpectralPicture : public ::testing::Test {
@@ -88,4 +88,4 @@ TEST_F(SpectralPicture, IsOnePictureWhateverTheDomains) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::spectral_picture_test

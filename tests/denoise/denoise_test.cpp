@@ -12,7 +12,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::denoise_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -79,4 +79,4 @@ TEST_F(WithoutDenoiser, WrongUseIsOne) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::denoise_test

@@ -16,7 +16,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::denoised_box_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -139,4 +139,4 @@ TEST_F(DenoisedBox, KeepsItsFilm) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::denoised_box_test

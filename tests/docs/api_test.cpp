@@ -11,7 +11,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::api_test {
 namespace {
 
 TEST(Api, HasNothingUndocumented) {
@@ -35,4 +35,4 @@ TEST(Api, HasNothingUndocumented) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::api_test

@@ -15,7 +15,7 @@
 #include "tests/docs/pages.h"
 #include "tests/support/command.h"
 
-namespace vitrail::test {
+namespace vitrail::test::commands_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -95,4 +95,4 @@ TEST(Commands, NameOptionsThatAreThere) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::commands_test

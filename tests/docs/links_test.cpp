@@ -8,7 +8,7 @@
 
 #include "tests/docs/pages.h"
 
-namespace vitrail::test {
+namespace vitrail::test::links_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ TEST(Lines, OfPagesForUsersAreShort) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::links_test

@@ -8,7 +8,7 @@
 
 #include "tests/docs/pages.h"
 
-namespace vitrail::test {
+namespace vitrail::test::sentences_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +80,4 @@ TEST(Sentences, AreShortWherePeopleRead) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::sentences_test

@@ -9,7 +9,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::statistics_test {
 namespace {
 
 // Below the heading "## HEADING", the first cell of each row.
@@ -47,4 +47,4 @@ TEST(Statistics, OfPartitionAndRenderAreDocumented) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::statistics_test

@@ -9,7 +9,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::tutorial_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -46,4 +46,4 @@ INSTANTIATE_TEST_SUITE_P(Each, Tutorial, ::testing::ValuesIn(tutorials()), [](co
 });
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::tutorial_test

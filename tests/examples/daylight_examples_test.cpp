@@ -12,7 +12,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::daylight_examples_test {
 namespace {
 
 std::vector<std::vector<std::string>> table(const std::filesystem::path& file) {
@@ -136,4 +136,4 @@ TEST(Caustic, IsOfPhotons) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::daylight_examples_test

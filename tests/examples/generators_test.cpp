@@ -14,7 +14,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::generators_test {
 namespace {
 
 struct Case {
@@ -221,4 +221,4 @@ TEST(Terrain, TilesMeet) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::generators_test

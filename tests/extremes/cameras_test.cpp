@@ -12,7 +12,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"
 
-namespace vitrail::test {
+namespace vitrail::test::cameras_test {
 namespace {
 
 // Radiance in glass is n² times that outside (Clausius), where light gets there at all: straight ahead it
@@ -145,4 +145,4 @@ TEST(Camera, AtAVertexOfACut) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::cameras_test

@@ -7,7 +7,7 @@
 
 #include "tests/extremes/measure.h"
 
-namespace vitrail::test {
+namespace vitrail::test::denormals_test {
 namespace {
 
 Scene still_life(double size) {
@@ -115,4 +115,4 @@ TEST(Denormals, Media) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::denormals_test

@@ -8,7 +8,7 @@
 #include "tests/laws/exact/soup.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::domains_test {
 namespace {
 
 Scene soup_of_triangles(std::size_t count) {
@@ -61,4 +61,4 @@ TEST(Domains, TilePiecesExactly) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::domains_test

@@ -11,7 +11,7 @@
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail::test {
+namespace vitrail::test::interfaces_test {
 namespace {
 
 using Precise = boost::multiprecision::mpfr_float_100;
@@ -167,4 +167,4 @@ TEST(Index, ObjectsVanishUnderAUniformSky) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::interfaces_test

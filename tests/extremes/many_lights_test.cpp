@@ -10,7 +10,7 @@
 #include "tests/extremes/measure.h"
 #include "tests/laws/exact/soup.h"
 
-namespace vitrail::test {
+namespace vitrail::test::many_lights_test {
 namespace {
 
 // All `side`² of them 5 above a floor, `spacing` apart, with the middle over the origin.
@@ -91,4 +91,4 @@ TEST(ManyLights, APointEach) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::many_lights_test

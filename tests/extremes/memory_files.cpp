@@ -293,8 +293,6 @@ Path serialized(const Path& directory, double share) {
   return directory / "scene.xml";
 }
 
-constexpr std::uint64_t mib = 1 << 20;
-
 }  // namespace
 
 std::vector<MemoryRow> memory_file_rows() {

@@ -181,8 +181,6 @@ Path open_blocks(const Path& directory, double share) {
       [](int i) { return fmt::format("AttributeBegin\nAttribute \"shape\" \"float a{}\" 1\n", i); }, closing);
 }
 
-constexpr std::uint64_t mib = 1 << 20;
-
 }  // namespace
 
 std::vector<MemoryRow> memory_record_rows() {

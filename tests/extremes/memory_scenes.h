@@ -2,12 +2,15 @@
 // Scenes that take memory: each by one thing.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace vitrail::test {
+
+constexpr std::uint64_t mib = 1 << 20;
 
 struct MemoryRow {
   std::string what;

@@ -17,7 +17,7 @@
 #include "tests/extremes/memory_scenes.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::memory_test {
 namespace {
 
 struct Done {
@@ -78,4 +78,4 @@ INSTANTIATE_TEST_SUITE_P(Records, Memory, ::testing::ValuesIn(memory_record_rows
 INSTANTIATE_TEST_SUITE_P(Files, Memory, ::testing::ValuesIn(memory_file_rows()), name_of);
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::memory_test

@@ -12,7 +12,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::merging_test {
 namespace {
 
 FilmSettings pixels(int width) {
@@ -111,4 +111,4 @@ TEST(Merging, ByDevelop) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::merging_test

@@ -10,7 +10,7 @@
 #include "tests/extremes/measure.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail::test {
+namespace vitrail::test::panes_test {
 namespace {
 
 constexpr float thickness = 0.0625f;
@@ -200,4 +200,4 @@ TEST(Coplanar, ABoxOnAFloorLeaksNoLight) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::panes_test

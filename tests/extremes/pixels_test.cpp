@@ -14,7 +14,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::pixels_test {
 namespace {
 
 constexpr int large = 32768;
@@ -170,4 +170,4 @@ TEST(Pixels, WhatDoesNotFitIsRefused) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::pixels_test

@@ -8,7 +8,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tests/extremes/measure.h"
 
-namespace vitrail::test {
+namespace vitrail::test::radiances_test {
 namespace {
 
 constexpr double radiances[] = {1e-30, 1e-10, 1e-4, 1, 1e4, 1e7, 1e20, 1e30};
@@ -80,4 +80,4 @@ TEST(Sun, LeavesItsShadowToTheSky) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::radiances_test

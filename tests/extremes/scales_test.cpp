@@ -5,7 +5,7 @@
 
 #include "tests/extremes/measure.h"
 
-namespace vitrail::test {
+namespace vitrail::test::scales_test {
 namespace {
 
 struct Place {
@@ -190,4 +190,4 @@ TEST(FarAway, WhatIsSeenCounts) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::scales_test

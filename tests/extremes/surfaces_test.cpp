@@ -11,7 +11,7 @@
 #include "tracer/bsdf/microfacet.h"
 #include "tracer/rays/ray_records.h"
 
-namespace vitrail::test {
+namespace vitrail::test::surfaces_test {
 namespace {
 
 Material metal(float alpha) {
@@ -128,4 +128,4 @@ TEST(Albedo, CloudOfNearlyOne) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::surfaces_test

@@ -10,7 +10,7 @@
 #include "tests/laws/exact/exact_oracle.h"
 #include "tests/laws/exact/soup.h"
 
-namespace vitrail::test {
+namespace vitrail::test::triangles_test {
 namespace {
 
 Point3f rounded(Point3d p) { return cast<float>(p); }
@@ -204,4 +204,4 @@ TEST(Giants, DoNotShadowWhatIsRound) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::triangles_test

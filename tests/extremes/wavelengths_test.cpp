@@ -8,7 +8,7 @@
 #include "tests/extremes/measure.h"
 #include "tracer/sampling/wavelengths.h"
 
-namespace vitrail::test {
+namespace vitrail::test::wavelengths_test {
 namespace {
 
 constexpr SpectralBins bins{.count = 470};  // a nanometre each
@@ -96,4 +96,4 @@ TEST(Wavelengths, LinesAsRendered) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::wavelengths_test

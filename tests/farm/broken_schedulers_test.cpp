@@ -6,7 +6,7 @@
 
 #include "tests/farm/random_job.h"
 
-namespace vitrail {
+namespace vitrail::broken_schedulers_test {
 namespace {
 
 template <class SchedulerType, class WatchType = Watch, class SpillType = Spill,
@@ -217,4 +217,4 @@ TEST(Simulation, CatchesBrokenSchedulers) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::broken_schedulers_test

@@ -18,7 +18,7 @@
 #include "tests/support/background.h"
 #include "tests/support/partitioned_box.h"
 
-namespace vitrail::test {
+namespace vitrail::test::changed_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -246,4 +246,4 @@ TEST(Crashes, OfOtherReasonsAreAsBefore) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::changed_files_test

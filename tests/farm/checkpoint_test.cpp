@@ -8,7 +8,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::checkpoint_test {
 namespace {
 
 using testing::HasSubstr;
@@ -110,4 +110,4 @@ TEST_F(Checkpoint, SaysWhatMadeIt) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::checkpoint_test

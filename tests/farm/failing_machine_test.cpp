@@ -7,7 +7,7 @@
 #include "film/film_progress.h"
 #include "tests/support/partitioned_box.h"
 
-namespace vitrail::test {
+namespace vitrail::test::failing_machine_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -162,4 +162,4 @@ TEST_F(FailingMachine, ACheckpointCutAnywhereIsRefused) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::failing_machine_test

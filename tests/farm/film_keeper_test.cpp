@@ -19,7 +19,7 @@
 #include "tests/farm/machine_limits.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::film_keeper_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -233,4 +233,4 @@ TEST_F(TheFilmKeeper, SaysThatTheNextFilmHasNoRoom) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::film_keeper_test

@@ -10,7 +10,7 @@
 #include "tests/support/background.h"
 #include "tests/support/partitioned_box.h"
 
-namespace vitrail::test {
+namespace vitrail::test::launchers_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -221,4 +221,4 @@ TEST_F(Launchers, WithoutLocksTheFileIsBelieved) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::launchers_test

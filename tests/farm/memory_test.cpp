@@ -11,7 +11,7 @@
 #include "farm/rays/waiting_batches.h"
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::memory_test {
 namespace {
 
 constexpr std::uint64_t mib = 1 << 20, most = std::numeric_limits<std::uint64_t>::max();
@@ -206,4 +206,4 @@ TEST(RaysAllowed, AreSomeWhateverThereIs) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::memory_test

@@ -7,7 +7,7 @@
 #include "film/film_progress.h"
 #include "tests/support/partitioned_box.h"
 
-namespace vitrail::test {
+namespace vitrail::test::message_faults_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -50,4 +50,4 @@ TEST_F(MessageFaults, AMessageThatNeverComesWholeEndsTheJob) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::message_faults_test

@@ -17,7 +17,7 @@
 #include "tests/farm/machine_limits.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::output_lock_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -164,4 +164,4 @@ TEST_F(TheOutputLock, BelievesWhatItCannotKnow) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::output_lock_test

@@ -4,7 +4,7 @@
 #include "farm/conclude/gather_profile.h"
 #include "farm/run/profiling.h"
 
-namespace vitrail {
+namespace vitrail::profiling_test {
 namespace {
 
 // Recording takes ten times as long: it counts in neither sum.
@@ -49,4 +49,4 @@ TEST(Profiling, KnowsRaysWhoseSendersWereNotRecorded) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::profiling_test

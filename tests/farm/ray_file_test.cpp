@@ -17,7 +17,7 @@
 #include "tests/farm/machine_limits.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::ray_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -190,4 +190,4 @@ TEST(ScratchDirectory, IsOnADiskUnlessChosen) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::ray_file_test

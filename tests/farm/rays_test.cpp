@@ -7,7 +7,7 @@
 #include "farm/rays/queues.h"
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::rays_test {
 namespace {
 
 TEST(Queues, KeepEveryRayOfBothKinds) {
@@ -100,4 +100,4 @@ TEST(Wire, AParcelHoldsItsBatches) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::rays_test

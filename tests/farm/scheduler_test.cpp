@@ -7,7 +7,7 @@
 
 #include "farm/scheduler/scheduler.h"
 
-namespace vitrail {
+namespace vitrail::scheduler_test {
 namespace {
 
 // Exact of a few, within a factor of two of many.
@@ -236,4 +236,4 @@ TEST(Residency, KeepsAnothersDomainOnlyIfMuchAskedFor) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::scheduler_test

@@ -9,7 +9,7 @@
 
 #include "tests/farm/random_job.h"
 
-namespace vitrail {
+namespace vitrail::simulation_test {
 namespace {
 
 std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
@@ -281,4 +281,4 @@ TEST(Simulation, WhoWaitsForWorkGeneratesIt) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::simulation_test

@@ -11,7 +11,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::timeline_test {
 namespace {
 
 using Kind = Timeline::Kind;
@@ -99,4 +99,4 @@ TEST(TraceFile, TellsTimesOfRank0sClock) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::timeline_test

@@ -10,7 +10,7 @@
 #include "tests/support/background.h"
 #include "tests/support/partitioned_box.h"
 
-namespace vitrail::test {
+namespace vitrail::test::trace_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -142,4 +142,4 @@ TEST_F(Trace, WhereNothingTakesItTheFilmIsWrittenAllTheSame) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::trace_test

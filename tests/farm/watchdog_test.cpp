@@ -8,7 +8,7 @@
 
 #include "scene/system/underway.h"
 
-namespace vitrail {
+namespace vitrail::watchdog_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -49,4 +49,4 @@ TEST(Watchdog, WaitsForWhoGoesOn) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::watchdog_test

@@ -11,7 +11,7 @@
 #include "farm/plan/work.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::work_test {
 namespace {
 
 TEST(Work, EverySampleBelongsToOneItem) {
@@ -229,4 +229,4 @@ TEST(Work, ItemsWithoutSamplesAreDone) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::work_test

@@ -8,7 +8,7 @@
 #include "scene/daylight/photometry.h"
 #include "scene/spectra/color.h"
 
-namespace vitrail {
+namespace vitrail::false_color_test {
 namespace {
 
 Image picture_of(std::initializer_list<double> luminances) {
@@ -58,4 +58,4 @@ TEST(FalseColor, FindsARoundEnd) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::false_color_test

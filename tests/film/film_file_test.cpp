@@ -15,7 +15,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::film_file_test {
 namespace {
 
 class FilmFile : public testing::Test {
@@ -284,4 +284,4 @@ TEST(FilmProgress, IsCompleteWhenAllItemsAre) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::film_file_test

@@ -14,7 +14,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::film_layers_test {
 namespace {
 
 FilmSettings settings(const FilmLayers& layers) {
@@ -213,4 +213,4 @@ TEST(FilmLayers, DevelopIntoNamedChannels) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::film_layers_test

@@ -11,7 +11,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::film_rows_test {
 namespace {
 
 class RowsOfAFilm : public testing::Test {
@@ -159,4 +159,4 @@ TEST_F(RowsOfAFilm, AreRefusedWhereTheFileIsDamaged) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::film_rows_test

@@ -42,7 +42,7 @@ extern "C" int munmap(void* at, std::size_t bytes) {
   return result;
 }
 
-namespace vitrail {
+namespace vitrail::film_scratch_test {
 namespace {
 
 constexpr std::uint64_t mib = 1 << 20, window = FilmScratch::least_window_bytes;
@@ -205,4 +205,4 @@ TEST_F(FilmInFiles, NobodyWaitsForADiskThatFreesSlowly) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::film_scratch_test

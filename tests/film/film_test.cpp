@@ -15,7 +15,7 @@
 #include "scene/records/pixel_place.h"
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::film_test {
 namespace {
 
 FilmSettings settings(int width, int height) {
@@ -355,4 +355,4 @@ TEST(Develop, WhiteIsWhite) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::film_test

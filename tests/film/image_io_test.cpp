@@ -15,7 +15,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::image_io_test {
 namespace {
 
 Picture picture() {
@@ -237,4 +237,4 @@ TEST(ImageIo, WhatCannotBeReadIsNamed) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::image_io_test

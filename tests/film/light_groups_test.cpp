@@ -11,7 +11,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::light_groups_test {
 namespace {
 
 FilmSettings settings() {
@@ -112,4 +112,4 @@ TEST(LightGroups, AreChannelsOfThePicture) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::light_groups_test

@@ -19,7 +19,7 @@
 #include "film/film_progress.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::mattes_test {
 namespace {
 
 struct Seen {
@@ -204,4 +204,4 @@ TEST(Cryptomatte, TheManifestIsJson) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mattes_test

@@ -9,7 +9,7 @@
 #include "scene/spectra/color.h"
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::picture_extent_test {
 namespace {
 
 // R is x, G is y, B is 1; and an id of each pixel.
@@ -92,4 +92,4 @@ TEST(LayerPicture, ShowsNumbersAsTheyAreOrForScreens) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::picture_extent_test

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace vitrail {
+namespace vitrail::pixel_sums_test {
 namespace {
 
 FilmSettings crop_of_a_picture() {
@@ -92,4 +92,4 @@ TEST(PixelSums, LeaveOtherFilmsAlone) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pixel_sums_test

@@ -10,7 +10,7 @@
 #include "film/film_noise.h"
 #include "film/sample_map.h"
 
-namespace vitrail {
+namespace vitrail::sample_map_test {
 namespace {
 
 constexpr int width = 40, height = 30;
@@ -160,4 +160,4 @@ TEST(Noise, OfFewPixelsIsHardlyKnown) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::sample_map_test

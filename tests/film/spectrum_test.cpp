@@ -6,7 +6,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::spectrum_test {
 namespace {
 
 const SpectralBins bins{4, 380, 780};
@@ -77,4 +77,4 @@ TEST(SpectralPicture, IsWrittenAndReadByTheNamesOfItsWavelengths) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::spectrum_test

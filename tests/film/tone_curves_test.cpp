@@ -8,7 +8,7 @@
 
 #include "scene/spectra/color.h"
 
-namespace vitrail {
+namespace vitrail::tone_curves_test {
 namespace {
 
 using Tones = Image (*)(const Image&);
@@ -77,4 +77,4 @@ TEST(ToneCurves, FittingExposureLeavesWhatIsNotFarAboveWhite) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::tone_curves_test

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace vitrail {
+namespace vitrail::tone_map_test {
 namespace {
 
 std::array<double, 3> shown(float r, float g, float b) {
@@ -41,4 +41,4 @@ TEST(ToneMap, IsMonotonicAndPalesBrightColours) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::tone_map_test

@@ -5,7 +5,7 @@
 
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::white_balance_test {
 namespace {
 
 Picture picture_of(const RGB& c, float variance) {
@@ -61,4 +61,4 @@ TEST(WhiteBalance, ChangesVariancesAsLuminances) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::white_balance_test

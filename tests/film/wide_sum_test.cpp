@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace vitrail {
+namespace vitrail::wide_sum_test {
 namespace {
 
 // Of all sizes and both signs.
@@ -72,4 +72,4 @@ TEST(WideSum, LosesNoCarryBetweenThreads) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::wide_sum_test

@@ -11,7 +11,7 @@
 #include "film/group_mix.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::working_gamma_test {
 namespace {
 
 // Four pixels of a grey each, of two samples that differ by 2·`scatter`.
@@ -97,4 +97,4 @@ TEST(WorkingGamma, FilesKeepIt) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::working_gamma_test

@@ -14,7 +14,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-namespace vitrail::test {
+namespace vitrail::test::hostile_bundles_test {
 namespace {
 
 template <class T>
@@ -61,4 +61,4 @@ TEST(HostileBundles, AreRefusedOrRendered) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::hostile_bundles_test

@@ -11,7 +11,7 @@
 #include "glazing/system_file.h"
 #include "tests/support/command.h"
 
-namespace vitrail::test {
+namespace vitrail::test::corpus_glazing_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ TEST_F(GlazingCorpus, ProductsHaveTheirMakersAverages) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::corpus_glazing_test

@@ -7,7 +7,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/glazing/glazing_files.h"
 
-namespace vitrail::test {
+namespace vitrail::test::evaluation_test {
 namespace {
 
 Evaluation of_flat(double t, Sampling sampling) {
@@ -92,4 +92,4 @@ TEST(Standard, IsReadFromFiles) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::evaluation_test

@@ -14,7 +14,7 @@
 #include "tests/glazing/glazing_files.h"
 #include "tests/support/command.h"
 
-namespace vitrail::test {
+namespace vitrail::test::kept_system_test {
 namespace {
 
 class KeptSystem : public ::testing::Test {
@@ -110,4 +110,4 @@ TEST_F(KeptSystem, RefusesWhatIsNoSystem) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::kept_system_test

@@ -13,7 +13,7 @@
 #include "scene/geometry/pi.h"
 #include "scene/spectra/named_spectra.h"
 
-namespace vitrail {
+namespace vitrail::pane_test {
 namespace {
 
 StackPane sheet(double n, double k, double mm) { return {{{{{550, n, k}}, mm}}, {{}, {}}}; }
@@ -185,4 +185,4 @@ TEST(Pane, CoatedModelIsNearThinFilmTheory) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pane_test

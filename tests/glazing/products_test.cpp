@@ -9,7 +9,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/glazing/glazing_files.h"
 
-namespace vitrail::test {
+namespace vitrail::test::products_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -224,4 +224,4 @@ TEST(Products, SayWhereAFileIsWrong) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::products_test

@@ -12,7 +12,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/glazing/glazing_files.h"
 
-namespace vitrail::test {
+namespace vitrail::test::states_test {
 namespace {
 
 PaneValues average_of(const OpticalRows& rows, const char* method) {
@@ -119,4 +119,4 @@ TEST(States, SayWhereTheyAreHeld) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::states_test

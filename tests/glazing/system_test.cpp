@@ -10,7 +10,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/glazing/glazing_files.h"
 
-namespace vitrail::test {
+namespace vitrail::test::system_test {
 namespace {
 
 GlazingLayer flat(PaneValues v, bool flipped = false) {
@@ -165,4 +165,4 @@ TEST(GlazingSystem, HasOneStateAndOneTemperatureBehindItsName) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::system_test

@@ -8,7 +8,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/glazing/glazing_files.h"
 
-namespace vitrail::test {
+namespace vitrail::test::truncation_test {
 namespace {
 
 const std::string system_text = R"({"name": "unit", "layers": [{"pane": "pane.txt", "flipped": true},
@@ -50,4 +50,4 @@ TEST(GlazingFiles, SurviveTruncationAndDamage) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::truncation_test

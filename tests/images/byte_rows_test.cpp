@@ -10,7 +10,7 @@
 #include "tests/images/png_file.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::byte_rows_test {
 
 namespace {
 
@@ -107,4 +107,4 @@ TEST(ByteRows, OtherKindsAreLeftToTheLibrary) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::byte_rows_test

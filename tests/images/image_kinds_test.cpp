@@ -13,7 +13,7 @@
 #include "tests/images/image_bytes.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::image_kinds_test {
 namespace {
 
 using namespace test;
@@ -305,4 +305,4 @@ TEST_F(ImageKinds, WhatIsNoPictureIsRefused) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::image_kinds_test

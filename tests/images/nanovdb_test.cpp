@@ -20,7 +20,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::nanovdb_test {
 namespace {
 
 using testing::HasSubstr;
@@ -161,4 +161,4 @@ TEST_F(NanoVdb, BrokenFiles) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::nanovdb_test

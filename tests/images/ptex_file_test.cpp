@@ -13,7 +13,7 @@
 #include "tests/images/ptex_bytes.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::ptex_file_test {
 namespace {
 
 using namespace test;
@@ -155,4 +155,4 @@ TEST_F(Ptex, DamagedFiles) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::ptex_file_test

@@ -10,7 +10,7 @@
 #include "tests/support/png.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::texture_values_test {
 namespace {
 
 using testing::ElementsAre;
@@ -199,4 +199,4 @@ TEST_F(TextureValues, SameValues) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::texture_values_test

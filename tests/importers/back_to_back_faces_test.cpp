@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace vitrail {
+namespace vitrail::back_to_back_faces_test {
 namespace {
 
 using Quad = std::array<Point3f, 4>;
@@ -110,4 +110,4 @@ TEST_F(BackToBack, WithinObjectsToo) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::back_to_back_faces_test

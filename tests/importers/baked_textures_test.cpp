@@ -10,7 +10,7 @@
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
-namespace vitrail {
+namespace vitrail::baked_textures_test {
 namespace {
 
 using testing::HasSubstr;
@@ -155,4 +155,4 @@ TEST_F(Baked, EachFormatHasThem) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::baked_textures_test

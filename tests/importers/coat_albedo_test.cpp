@@ -12,7 +12,7 @@
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
-namespace vitrail {
+namespace vitrail::coat_albedo_test {
 namespace {
 
 // What comes out of a base ρ below a coat that light goes back and forth under: a geometric series.
@@ -64,4 +64,4 @@ TEST(CoatAlbedo, WhatPbrtGets) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::coat_albedo_test

@@ -10,7 +10,7 @@
 
 #include "scene/geometry/transform.h"
 
-namespace vitrail {
+namespace vitrail::coincident_lamps_test {
 namespace {
 
 using testing::HasSubstr;
@@ -166,4 +166,4 @@ TEST_F(CoincidentLamps, QuadricsAndInstancesTwice) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::coincident_lamps_test

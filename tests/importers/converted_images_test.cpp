@@ -6,7 +6,7 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::converted_images_test {
 namespace {
 
 using testing::ElementsAre;
@@ -87,4 +87,4 @@ TEST_F(ImagesBeside, ProductsOfColorsAndAnImage) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::converted_images_test

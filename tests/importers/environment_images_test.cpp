@@ -13,7 +13,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::environment_images_test {
 namespace {
 
 constexpr EnvironmentProjection projections[] = {EnvironmentProjection::equal_area,
@@ -197,4 +197,4 @@ TEST(MeanIntensity, IsThatOfTheSameFlux) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::environment_images_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vitrail {
+namespace vitrail::exposed_lights_test {
 namespace {
 
 TEST(ExposedLights, EveryLightIsTimesTheImagingRatio) {
@@ -43,4 +43,4 @@ TEST(ExposedLights, EveryLightIsTimesTheImagingRatio) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::exposed_lights_test

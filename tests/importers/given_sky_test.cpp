@@ -6,7 +6,7 @@
 
 #include "scene/spectra/rgb_to_spectrum.h"
 
-namespace vitrail {
+namespace vitrail::given_sky_test {
 namespace {
 
 using testing::HasSubstr;
@@ -67,4 +67,4 @@ TEST(GivenSky, LampsThatOutshineItAreTold) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::given_sky_test

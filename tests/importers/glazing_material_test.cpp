@@ -9,7 +9,7 @@
 #include "importers/import.h"
 #include "tests/glazing/glazing_files.h"
 
-namespace vitrail::test {
+namespace vitrail::test::glazing_material_test {
 namespace {
 
 const std::string electrochromic = R"({"layers": [{"states": [{"state": 0, "pane": "pane.dat"},
@@ -136,4 +136,4 @@ TEST_F(GlazingMaterial, RefusesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::glazing_material_test

@@ -11,7 +11,7 @@
 #include "importers/import.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::growth_test {
 namespace {
 
 constexpr int few = 1000, many = 8 * few;
@@ -144,4 +144,4 @@ TEST_F(Growth, InstancesOfLargeObjects) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::growth_test

@@ -10,7 +10,7 @@
 #include "scene/spectra/spectrum.h"
 #include "tests/importers/pbrt/pbrt_text.h"
 
-namespace vitrail {
+namespace vitrail::import_test {
 namespace {
 
 const std::string ply =
@@ -241,4 +241,4 @@ TEST(DefaultView, SeesQuadricsByTheirExtent) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::import_test

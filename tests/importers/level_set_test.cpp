@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 
-namespace vitrail {
+namespace vitrail::level_set_test {
 namespace {
 
 SampledFunction sampled(int nx, int ny, int nz, auto&& f) {
@@ -59,4 +59,4 @@ TEST(LevelSet, OfAPlaneIsExact) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::level_set_test

@@ -14,7 +14,7 @@
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
-namespace vitrail {
+namespace vitrail::mapped_uvs_test {
 namespace {
 
 bool nothing(const TextureMapping&) { return false; }
@@ -154,4 +154,4 @@ TEST(MappedUvs, PbrtAndObjHaveThem) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mapped_uvs_test

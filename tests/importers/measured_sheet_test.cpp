@@ -12,7 +12,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::measured_sheet_test {
 namespace {
 
 using testing::ElementsAre;
@@ -117,4 +117,4 @@ TEST_F(MeasuredSheets, AreOpenToBothSidesInEveryFormat) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::measured_sheet_test

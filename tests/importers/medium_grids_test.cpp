@@ -26,7 +26,7 @@
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
-namespace vitrail {
+namespace vitrail::medium_grids_test {
 namespace {
 
 Grid grid(int nx, int channels, std::vector<float> values, GridEdge edge) {
@@ -161,4 +161,4 @@ TEST(MediumGrids, NanoVdbForBoth) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::medium_grids_test

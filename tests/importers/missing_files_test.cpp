@@ -9,7 +9,7 @@
 #include "importers/readers.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::missing_files_test {
 namespace {
 
 using testing::HasSubstr;
@@ -155,4 +155,4 @@ TEST(MissingFiles, AreRefusedWithTheirPlaceOrReplacedInEveryReader) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::missing_files_test

@@ -12,7 +12,7 @@
 #include "scene/shapes/mesh_uv.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::missing_uvs_test {
 namespace {
 
 constexpr MissingUv all_rules[] = {MissingUv::pbrt,           MissingUv::pbrt_turned, MissingUv::patches,
@@ -108,4 +108,4 @@ TEST(MissingUvs, TurningATriangleKeepsThem) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::missing_uvs_test

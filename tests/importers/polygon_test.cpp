@@ -10,7 +10,7 @@
 
 #include "importers/shapes/point_tree.h"
 
-namespace vitrail {
+namespace vitrail::polygon_test {
 namespace {
 
 using Flat = std::vector<Point2d>;
@@ -171,4 +171,4 @@ TEST(PointTree, FindsWhatIsWithin) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::polygon_test

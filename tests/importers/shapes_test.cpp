@@ -14,7 +14,7 @@
 #include "scene/geometry/unit_circle.h"
 #include "scene/shapes/tessellate.h"
 
-namespace vitrail {
+namespace vitrail::shapes_test {
 namespace {
 
 using testing::ElementsAre;
@@ -487,4 +487,4 @@ TEST(Polygon, DegenerateOnesEnd) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::shapes_test

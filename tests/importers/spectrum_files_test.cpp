@@ -8,7 +8,7 @@
 #include "importers/spectra/spectrum_file.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::spectrum_files_test {
 namespace {
 
 using testing::HasSubstr;
@@ -145,4 +145,4 @@ TEST_F(SpectrumFiles, AreReadByMitsubaScenes) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::spectrum_files_test

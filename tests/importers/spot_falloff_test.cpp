@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vitrail {
+namespace vitrail::spot_falloff_test {
 namespace {
 
 using enum SpotLight::Falloff;
@@ -63,4 +63,4 @@ TEST(SpotFalloff, TheSameStaysAndHardEdgesToo) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::spot_falloff_test

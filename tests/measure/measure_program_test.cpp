@@ -10,7 +10,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::measure_program_test {
 namespace {
 
 using ::testing::AllOf;
@@ -127,4 +127,4 @@ TEST_F(MeasureProgram, LeavesThePagesOfOthersAlone) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::measure_program_test

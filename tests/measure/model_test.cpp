@@ -9,7 +9,7 @@
 #include "measure/words.h"
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::model_test {
 namespace {
 
 using testing::AllOf;
@@ -146,4 +146,4 @@ TEST(Words, NoEfficiencyIsSaidOfPicturesWithoutNoise) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::model_test

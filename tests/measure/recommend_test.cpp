@@ -15,7 +15,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::recommend_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -143,4 +143,4 @@ TEST(Recommendation, LeavesOutWhatTakesLight) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::recommend_test

@@ -11,7 +11,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::session_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -112,4 +112,4 @@ TEST_F(SessionTest, SettingsAreIdenticalWhereAllSeedsAre) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::session_test

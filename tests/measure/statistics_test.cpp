@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace vitrail {
+namespace vitrail::statistics_test {
 namespace {
 
 constexpr int size = 32;
@@ -94,4 +94,4 @@ TEST(Statistics, IntervalsAreStudents) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::statistics_test

@@ -8,7 +8,7 @@
 #include "scene/spectra/color.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
-namespace vitrail {
+namespace vitrail::appearance_test {
 namespace {
 
 // The last of `materials` is in use.
@@ -143,4 +143,4 @@ TEST(Appearance, DoublingChainsOfTexturesAndMaterialsTakeLinearTime) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::appearance_test

@@ -13,7 +13,7 @@
 #include "tracer/textures/baked_image.h"
 #include "tracer/textures/tile_cache.h"
 
-namespace vitrail {
+namespace vitrail::bake_codes_test {
 
 namespace {
 
@@ -211,4 +211,4 @@ TEST(BakeCodes, DamagedPixelsAreSaidWithTheirTexture) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::bake_codes_test

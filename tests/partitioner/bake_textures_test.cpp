@@ -9,7 +9,7 @@
 #include "tests/partitioner/baked_scene.h"
 #include "tracer/textures/baked_image.h"
 
-namespace vitrail {
+namespace vitrail::bake_textures_test {
 
 namespace {
 
@@ -316,4 +316,4 @@ TEST(RowHalver, KeepsTheMeanAndThePlace) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::bake_textures_test

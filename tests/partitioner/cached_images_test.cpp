@@ -9,7 +9,7 @@
 #include "partitioner/caching/file_cache.h"
 #include "tests/partitioner/baked_scene.h"
 
-namespace vitrail {
+namespace vitrail::cached_images_test {
 
 namespace {
 
@@ -114,4 +114,4 @@ TEST(CachedImages, SayAgainWhatWasNotExact) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::cached_images_test

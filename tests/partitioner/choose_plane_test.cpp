@@ -7,7 +7,7 @@
 
 #include "tests/support/test_scenes.h"
 
-namespace vitrail {
+namespace vitrail::choose_plane_test {
 
 namespace {
 
@@ -119,4 +119,4 @@ TEST(ChoosePlane, BalancesUnevenScenes) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::choose_plane_test

@@ -7,7 +7,7 @@
 
 #include "bundle/census.h"
 
-namespace vitrail {
+namespace vitrail::cut_test {
 
 namespace {
 
@@ -122,4 +122,4 @@ TEST(Cut, PiecesStayInOrderAndWinding) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::cut_test

@@ -9,7 +9,7 @@
 
 #include "partitioner/placing/wedged_panes.h"
 
-namespace vitrail {
+namespace vitrail::decimals_test {
 namespace {
 
 // 24 vertices of a box about a point, turned, each number written by `write` and read again.
@@ -86,4 +86,4 @@ TEST(PaneFaces, AreAsFarFromParallelAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::decimals_test

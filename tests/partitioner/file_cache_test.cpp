@@ -14,7 +14,7 @@
 #include "partitioner/caching/content_hash.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::file_cache_test {
 
 namespace {
 
@@ -178,4 +178,4 @@ TEST(ContentHash, TellsContentsAndTextsApart) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::file_cache_test

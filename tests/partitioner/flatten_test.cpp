@@ -7,7 +7,7 @@
 
 #include "tests/support/test_scenes.h"
 
-namespace vitrail {
+namespace vitrail::flatten_test {
 
 namespace {
 
@@ -206,4 +206,4 @@ TEST(Flatten, HashSeesEveryRecord) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::flatten_test

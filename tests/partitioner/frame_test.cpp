@@ -5,7 +5,7 @@
 
 #include "scene/shapes/deferred_mesh.h"
 
-namespace vitrail {
+namespace vitrail::frame_test {
 namespace {
 
 const FramePart unit{{1, 2, 3}, 1, 1000};
@@ -64,4 +64,4 @@ TEST(Frame, AMeshHasItsFocusWhereItsTrianglesAre) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::frame_test

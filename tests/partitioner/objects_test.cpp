@@ -10,7 +10,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/test_scenes.h"
 
-namespace vitrail {
+namespace vitrail::objects_test {
 namespace {
 
 using test::bumpy_torus;
@@ -161,4 +161,4 @@ TEST(Objects, ShapesOfOneMeshAndTwoSurfacesAreTwoObjects) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::objects_test

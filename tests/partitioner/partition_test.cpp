@@ -15,7 +15,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"
 
-namespace vitrail {
+namespace vitrail::partition_test {
 
 namespace {
 
@@ -268,4 +268,4 @@ TEST_F(Partition, TooManyDomains) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::partition_test

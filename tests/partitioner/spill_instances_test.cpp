@@ -10,7 +10,7 @@
 
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::spill_instances_test {
 namespace {
 
 // More parts than the process may have files open; each is written several times.
@@ -50,4 +50,4 @@ TEST(InstanceSpill, HasMorePartsThanFilesMayBeOpen) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::spill_instances_test

@@ -13,7 +13,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"
 
-namespace vitrail {
+namespace vitrail::streaming_test {
 
 namespace {
 
@@ -159,4 +159,4 @@ TEST_F(Streaming, SaysWhatMemoryIsNeeded) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::streaming_test

@@ -14,7 +14,7 @@
 #include "tests/laws/scattering/table_cases.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::table_files_test {
 namespace {
 
 FourierTable fourier() {
@@ -116,4 +116,4 @@ TEST_F(TableFiles, AreKeptOnceWhereAShapeUsesThem) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::table_files_test

@@ -9,7 +9,7 @@
 #include "tracer/textures/noise.h"
 #include "tracer/textures/tile_cache.h"
 
-namespace vitrail {
+namespace vitrail::texture_graph_test {
 
 namespace {
 
@@ -396,4 +396,4 @@ TEST(TextureGraph, GraphsThatMakeNoSense) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::texture_graph_test

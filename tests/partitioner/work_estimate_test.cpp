@@ -8,7 +8,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::work_estimate_test {
 namespace {
 
 // Below x = 0 in the profile's coordinates 100 items and 100 rays, above it 300 and 3900.
@@ -86,4 +86,4 @@ TEST(RayProfile, NothingTakesLessThanNoTime) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::work_estimate_test

@@ -95,7 +95,7 @@ constexpr std::array adapters{
           "type='diffuse'/></bsdf></bsdf>"},
 };
 
-constexpr std::array colors{
+constexpr std::array color_texts{
     Value{"rgb", "<rgb name='NAME' value='.7,.4,.2'/>"},
     Value{"grey", "<rgb name='NAME' value='.5'/>"},
     Value{"number", "<spectrum name='NAME' value='.6'/>"},
@@ -120,7 +120,7 @@ constexpr std::array colors{
           "value='a.png'/></texture></texture>"},
 };
 
-constexpr std::array numbers{
+constexpr std::array number_texts{
     Value{"number", "<float name='NAME' value='.3'/>"},
     Value{"bitmap",
           "<texture type='bitmap' name='NAME'><string name='filename' value='grey.exr'/><boolean name='raw' "
@@ -203,7 +203,7 @@ constexpr std::array emitters{
 constexpr const char* own_emitter = "<emitter type='area'><rgb name='radiance' value='1,.8,.5'/></emitter>";
 
 constexpr const char* tilt = "<rotate x='1' angle='-20'/><rotate y='1' angle='25'/>";
-constexpr std::array shapes{
+constexpr std::array shape_texts{
     Value{"rectangle",
           "<shape type='rectangle'><transform name='to_world'>TILT</transform>BSDF EMITTER</shape>"},
     Value{"flipped rectangle",
@@ -238,7 +238,8 @@ constexpr std::array shapes{
           "type='instance'><ref id='group'/><transform name='to_world'>TILT</transform></shape>"},
 };
 
-const std::array<std::span<const Value>, 6> dimensions{{bsdfs, adapters, colors, numbers, emitters, shapes}};
+const std::array<std::span<const Value>, 6> dimensions{
+    {bsdfs, adapters, color_texts, number_texts, emitters, shape_texts}};
 
 void replace_all(std::string& text, std::string_view what, std::string_view with) {
   for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size())
@@ -311,7 +312,7 @@ void write_grey_picture(const std::filesystem::path& file) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-std::vector<std::size_t> sizes() {
+std::vector<std::size_t> value_counts() {
   std::vector<std::size_t> result;
   for (const auto& values : dimensions) result.push_back(values.size());
   return result;
@@ -324,7 +325,7 @@ MitsubaSources::MitsubaSources(const std::filesystem::path& folder) {
   write_grey_picture(folder / "grey.tga");
 }
 
-std::vector<MitsubaSources::Row> MitsubaSources::rows() const { return rows_of_all_pairs(sizes()); }
+std::vector<MitsubaSources::Row> MitsubaSources::rows() const { return rows_of_all_pairs(value_counts()); }
 
 std::string MitsubaSources::name(const Row& row) const {
   std::string text = "file:";

@@ -10,7 +10,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::pbrt_grammar_test {
 namespace {
 
 using testing::Contains;
@@ -97,4 +97,4 @@ TEST(PbrtGrammar, TakesTheCorpus) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::pbrt_grammar_test

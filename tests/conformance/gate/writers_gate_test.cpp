@@ -23,7 +23,7 @@
 #include "tests/support/equal_scenes.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::writers_gate_test {
 namespace {
 
 using Row = CrossProduct::Row;
@@ -225,4 +225,4 @@ TEST(WritersGate, MitsubaFilesAreReadAsMitsubaReadsThem) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::writers_gate_test

@@ -11,7 +11,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::assimp_test {
 namespace {
 
 using testing::HasSubstr;
@@ -241,4 +241,4 @@ TEST_F(Assimp, AnObjectOf3dsByItsSuffix) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::assimp_test

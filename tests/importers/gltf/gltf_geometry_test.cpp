@@ -6,7 +6,7 @@
 #include "scene/shapes/deferred_mesh.h"
 #include "tests/importers/gltf/gltf_text.h"
 
-namespace vitrail::test {
+namespace vitrail::test::gltf_geometry_test {
 namespace {
 
 std::vector<Point3f> world_corners(const Scene& scene, const Shape& shape) {
@@ -187,4 +187,4 @@ TEST(GltfGeometry, TheFirstCameraOrTheOneThatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::gltf_geometry_test

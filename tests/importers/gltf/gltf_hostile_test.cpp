@@ -2,7 +2,7 @@
 // Files that are wrong: an error with its place, whatever they say.
 #include "tests/importers/gltf/gltf_text.h"
 
-namespace vitrail::test {
+namespace vitrail::test::gltf_hostile_test {
 namespace {
 
 // What is said of it, with its place.
@@ -147,4 +147,4 @@ TEST(GltfHostile, BuffersThatAreMissing) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::gltf_hostile_test

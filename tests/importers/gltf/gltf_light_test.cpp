@@ -6,7 +6,7 @@
 #include "tests/importers/gltf/gltf_text.h"
 #include "tests/support/render.h"
 
-namespace vitrail::test {
+namespace vitrail::test::gltf_light_test {
 namespace {
 
 constexpr double albedo = 0.5;
@@ -59,4 +59,4 @@ TEST(GltfLight, CandelaPerSquareMetreOfALamp) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::gltf_light_test

@@ -10,7 +10,7 @@
 #include "tests/importers/gltf/gltf_text.h"
 #include "tests/support/png.h"
 
-namespace vitrail::test {
+namespace vitrail::test::gltf_materials_test {
 namespace {
 
 const MaterialModel& model_of(const ImportedScene& imported) { return imported.scene.materials.at(0).model; }
@@ -186,4 +186,4 @@ TEST(GltfLight, EmissionShinesOnTheFrontUnlessDoubleSided) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::gltf_materials_test

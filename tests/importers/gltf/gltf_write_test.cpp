@@ -13,7 +13,7 @@
 #include "tests/support/equal_scenes.h"
 #include "tests/support/png.h"
 
-namespace vitrail::test {
+namespace vitrail::test::gltf_write_test {
 namespace {
 
 // A scene of glTF with most of what comes back as it was.
@@ -171,4 +171,4 @@ TEST_F(WriteGltf, FadingLampsAreAsBrightAtTheMiddle) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::gltf_write_test

@@ -5,7 +5,7 @@
 #include "scene/geometry/pi.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
 
-namespace vitrail {
+namespace vitrail::mitsuba_camera_test {
 namespace {
 
 using testing::HasSubstr;
@@ -154,4 +154,4 @@ TEST_F(MitsubaOracle, FilmAndIntegrator) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mitsuba_camera_test

@@ -7,7 +7,7 @@
 #include "importers/mitsuba/write/write_mitsuba.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::mitsuba_clip_test {
 namespace {
 
 constexpr ClipRange none;
@@ -126,4 +126,4 @@ TEST(MitsubaClipping, IsWrittenBackToTheBit) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mitsuba_clip_test

@@ -14,7 +14,7 @@
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
-namespace vitrail::mitsuba {
+namespace vitrail::mitsuba::mitsuba_emitters_test {
 namespace {
 
 using testing::Contains;
@@ -257,4 +257,4 @@ TEST_F(MitsubaEmitters, WhatIsDroppedIsSaid) {
 }
 
 }  // namespace
-}  // namespace vitrail::mitsuba
+}  // namespace vitrail::mitsuba::mitsuba_emitters_test

@@ -10,7 +10,7 @@
 #include "scene/spectra/flat_emission.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
 
-namespace vitrail {
+namespace vitrail::mitsuba_lights_test {
 namespace {
 
 using testing::Contains;
@@ -334,4 +334,4 @@ TEST_F(MitsubaPicture, EnvironmentMap) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mitsuba_lights_test

@@ -7,7 +7,7 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/mitsuba/mitsuba_load.h"
 
-namespace vitrail {
+namespace vitrail::mitsuba_load_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -365,4 +365,4 @@ TEST_F(MitsubaLoad, DirectAddsUpSamplesOfLightsWithoutExtent) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mitsuba_load_test

@@ -6,7 +6,7 @@
 #include "scene/geometry/pi.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
 
-namespace vitrail {
+namespace vitrail::mitsuba_materials_test {
 namespace {
 
 using testing::Contains;
@@ -336,4 +336,4 @@ TEST_F(MitsubaOracle, PlasticWithoutAttributes) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mitsuba_materials_test

@@ -15,7 +15,7 @@
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
-namespace vitrail::mitsuba {
+namespace vitrail::mitsuba::mitsuba_media_test {
 namespace {
 
 using testing::Contains;
@@ -270,4 +270,4 @@ TEST_F(MitsubaMedia, WrongVolumeFilesAreErrors) {
 }
 
 }  // namespace
-}  // namespace vitrail::mitsuba
+}  // namespace vitrail::mitsuba::mitsuba_media_test

@@ -2,7 +2,7 @@
 // What <animation> of Mitsuba 0.6 moves.
 #include "tests/importers/mitsuba/mitsuba_load.h"
 
-namespace vitrail {
+namespace vitrail::mitsuba_motion_test {
 namespace {
 
 const std::string animation =
@@ -88,4 +88,4 @@ TEST_F(MitsubaMotion, Mistakes) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mitsuba_motion_test

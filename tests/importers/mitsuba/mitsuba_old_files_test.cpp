@@ -6,7 +6,7 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/mitsuba/mitsuba_load.h"
 
-namespace vitrail {
+namespace vitrail::mitsuba_old_files_test {
 namespace {
 
 TEST_F(MitsubaLoad, OldSpellings) {
@@ -266,4 +266,4 @@ TEST_F(MitsubaLoad, SamplesOfLightsChangeNothingInOldFiles) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mitsuba_old_files_test

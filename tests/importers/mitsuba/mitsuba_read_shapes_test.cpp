@@ -15,7 +15,7 @@
 #include "tests/importers/curve_records.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail::mitsuba {
+namespace vitrail::mitsuba::mitsuba_read_shapes_test {
 namespace {
 
 using testing::ElementsAre;
@@ -540,4 +540,4 @@ TEST(MitsubaShapes, BadParametersAreErrorsWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace vitrail::mitsuba
+}  // namespace vitrail::mitsuba::mitsuba_read_shapes_test

@@ -15,7 +15,7 @@
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
-namespace vitrail::mitsuba {
+namespace vitrail::mitsuba::mitsuba_sensor_test {
 namespace {
 
 using testing::Contains;
@@ -512,4 +512,4 @@ TEST(SnappedTransform, TwiceIsOnce) {
 }
 
 }  // namespace
-}  // namespace vitrail::mitsuba
+}  // namespace vitrail::mitsuba::mitsuba_sensor_test

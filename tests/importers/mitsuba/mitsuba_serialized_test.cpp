@@ -13,7 +13,7 @@
 #include "tests/importers/bytes_of_numbers.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail::mitsuba {
+namespace vitrail::mitsuba::mitsuba_serialized_test {
 namespace {
 
 using testing::ElementsAre;
@@ -123,4 +123,4 @@ TEST(MitsubaSerialized, ReadsMitsubasOwnFiles) {
 }
 
 }  // namespace
-}  // namespace vitrail::mitsuba
+}  // namespace vitrail::mitsuba::mitsuba_serialized_test

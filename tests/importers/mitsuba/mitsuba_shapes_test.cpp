@@ -6,7 +6,7 @@
 #include "tests/importers/curve_records.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
 
-namespace vitrail {
+namespace vitrail::mitsuba_shapes_test {
 namespace {
 
 using testing::Contains;
@@ -286,4 +286,4 @@ TEST_F(MitsubaOracle, CurvesHaveTheirWidthAndEnds) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mitsuba_shapes_test

@@ -11,7 +11,7 @@
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
-namespace vitrail {
+namespace vitrail::mitsuba_shown_otherwise_test {
 namespace {
 
 using testing::Contains;
@@ -224,4 +224,4 @@ TEST_F(ShownOtherwise, LightOfLinesInRgb) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mitsuba_shown_otherwise_test

@@ -15,7 +15,7 @@
 #include "tests/importers/written_scenes.h"
 #include "tests/support/png.h"
 
-namespace vitrail {
+namespace vitrail::write_mitsuba_images_test {
 namespace {
 
 using testing::Contains;
@@ -217,4 +217,4 @@ TEST_F(MitsubaImages, BlackOutsideIsABorder) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::write_mitsuba_images_test

@@ -13,7 +13,7 @@
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
-namespace vitrail {
+namespace vitrail::write_mitsuba_lights_test {
 namespace {
 
 using testing::IsEmpty;
@@ -147,4 +147,4 @@ TEST_F(WriteMitsuba, SpotsOfABallLieAllAround) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::write_mitsuba_lights_test

@@ -12,7 +12,7 @@
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
-namespace vitrail {
+namespace vitrail::write_mitsuba_materials_test {
 namespace {
 
 using testing::ElementsAre;
@@ -237,4 +237,4 @@ TEST_F(WriteMitsuba, OpacitiesOfShapesAreMasks) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::write_mitsuba_materials_test

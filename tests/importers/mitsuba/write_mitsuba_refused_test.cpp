@@ -5,7 +5,7 @@
 #include "importers/mitsuba/write/write_spectra.h"
 #include "tests/importers/mitsuba/write_mitsuba_fixture.h"
 
-namespace vitrail {
+namespace vitrail::write_mitsuba_refused_test {
 namespace {
 
 class RefusedByMitsuba : public WriteMitsuba {};
@@ -302,4 +302,4 @@ TEST_F(LampsImages, OnWhatIsNotFlatAreReported) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::write_mitsuba_refused_test

@@ -16,7 +16,7 @@
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
-namespace vitrail {
+namespace vitrail::write_mitsuba_test {
 namespace {
 
 using testing::Contains;
@@ -291,4 +291,4 @@ TEST_F(WriteMitsuba, UnwritableFolders) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::write_mitsuba_test

@@ -6,7 +6,7 @@
 #include "importers/obj/read/obj.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::obj_glass_test {
 namespace {
 
 using testing::Contains;
@@ -98,4 +98,4 @@ TEST_F(ObjGlass, OfTwoFacesBackToBackIsSolid) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::obj_glass_test

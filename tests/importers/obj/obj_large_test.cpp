@@ -13,7 +13,7 @@
 #include "importers/obj/read/obj.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::obj_large_test {
 namespace {
 
 using testing::HasSubstr;
@@ -217,4 +217,4 @@ TEST(LargeObj, ManyVerticesAtOnePlace) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::obj_large_test

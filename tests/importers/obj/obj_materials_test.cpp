@@ -5,7 +5,7 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/obj/obj_fixture.h"
 
-namespace vitrail {
+namespace vitrail::obj_materials_test {
 namespace {
 
 using testing::HasSubstr;
@@ -249,4 +249,4 @@ TEST_F(Obj, LibrariesAndTheirNames) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::obj_materials_test

@@ -7,7 +7,7 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/obj/obj_fixture.h"
 
-namespace vitrail {
+namespace vitrail::obj_test {
 namespace {
 
 using testing::ElementsAre;
@@ -384,4 +384,4 @@ TEST(ObjCorpus, AllAreReadOrRefusedWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::obj_test

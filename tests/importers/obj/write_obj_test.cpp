@@ -14,7 +14,7 @@
 #include "tests/importers/temporary_folder.h"
 #include "tests/support/png.h"
 
-namespace vitrail {
+namespace vitrail::write_obj_test {
 namespace {
 
 using testing::Contains;
@@ -396,4 +396,4 @@ TEST(WriteObjCorpus, MeshesAndMaterialsComeBack) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::write_obj_test

@@ -7,7 +7,7 @@
 #include "tests/importers/pbrt/pbrt_text.h"
 #include "tests/support/double_gauss.h"
 
-namespace vitrail {
+namespace vitrail::pbrt_camera_film_test {
 namespace {
 
 ImportedScene settings(const std::string& text) { return import_text(text + "\nWorldBegin\n" + triangle); }
@@ -336,4 +336,4 @@ TEST(PbrtIntegrators, SppmTracesPhotons) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pbrt_camera_film_test

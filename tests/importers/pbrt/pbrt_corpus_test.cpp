@@ -9,7 +9,7 @@
 
 #include "importers/pbrt/read/pbrt.h"
 
-namespace vitrail {
+namespace vitrail::pbrt_corpus_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,4 +75,4 @@ TEST(PbrtCorpus, EveryFileIsImported) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pbrt_corpus_test

@@ -7,7 +7,7 @@
 #include "scene/records/nesting.h"
 #include "tests/importers/pbrt/pbrt_text.h"
 
-namespace vitrail {
+namespace vitrail::pbrt_directives_test {
 namespace {
 
 void expect_near(Point3d found, Point3d expected) {
@@ -461,4 +461,4 @@ TEST(PbrtNames, SettingsThatChangeNoPictureAreSilent) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pbrt_directives_test

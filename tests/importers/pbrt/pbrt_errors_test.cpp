@@ -2,7 +2,7 @@
 // Bad input stops with the place of the offender, its line, and what to do about it.
 #include "tests/importers/pbrt/pbrt_text.h"
 
-namespace vitrail {
+namespace vitrail::pbrt_errors_test {
 namespace {
 
 struct Case {
@@ -198,4 +198,4 @@ TEST(PbrtErrorPlaces, DamagedFilesNeverCrash) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pbrt_errors_test

@@ -8,7 +8,7 @@
 #include "importers/pbrt/read/version.h"
 #include "tests/importers/pbrt/pbrt_text.h"
 
-namespace vitrail::pbrt {
+namespace vitrail::pbrt::pbrt_lexer_test {
 namespace {
 
 struct Text {
@@ -197,4 +197,4 @@ TEST(PbrtVersion, FollowsTheFirstTellTaleWord) {
 }
 
 }  // namespace
-}  // namespace vitrail::pbrt
+}  // namespace vitrail::pbrt::pbrt_lexer_test

@@ -12,7 +12,7 @@
 #include "tests/importers/pbrt/pbrt_text.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::pbrt_lights_test {
 namespace {
 
 Spectrum infinite(const ImportedScene& imported) {
@@ -292,4 +292,4 @@ TEST(PbrtAreaLights, DoNotShineOnInterfaces) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pbrt_lights_test

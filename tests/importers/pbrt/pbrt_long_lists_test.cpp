@@ -3,7 +3,7 @@
 
 #include "tests/importers/pbrt/pbrt_text.h"
 
-namespace vitrail {
+namespace vitrail::pbrt_long_lists_test {
 namespace {
 
 // Lists of more than 4096 numbers are kept narrower and read in pieces.
@@ -80,4 +80,4 @@ TEST_F(LongLists, AreChecked) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pbrt_long_lists_test

@@ -4,7 +4,7 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/pbrt/pbrt_text.h"
 
-namespace vitrail {
+namespace vitrail::pbrt_materials_test {
 namespace {
 
 // The material of a triangle after `directives`.
@@ -395,4 +395,4 @@ TEST(PbrtMaterials, DiagnosticsSayWhichDirectiveTheyAreAbout) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pbrt_materials_test

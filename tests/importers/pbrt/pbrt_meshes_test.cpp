@@ -4,7 +4,7 @@
 
 #include "tests/importers/pbrt/pbrt_text.h"
 
-namespace vitrail {
+namespace vitrail::pbrt_meshes_test {
 namespace {
 
 // A mesh whose first vertex says its number; the larger the number, the sooner it is read.
@@ -81,4 +81,4 @@ TEST(PbrtMeshes, ProgressGrowsAndStopsTheReading) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pbrt_meshes_test

@@ -12,7 +12,7 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/pbrt/pbrt_text.h"
 
-namespace vitrail {
+namespace vitrail::pbrt_shapes_test {
 namespace {
 
 // The front's normal of triangle `t` of a shape in the world, by the rule of scene.h.
@@ -469,4 +469,4 @@ TEST(PbrtShapes, ChangeTheColoursOfTheirMaterial) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pbrt_shapes_test

@@ -4,7 +4,7 @@
 #include "tests/importers/pbrt/pbrt_text.h"
 #include "tests/support/png.h"
 
-namespace vitrail {
+namespace vitrail::pbrt_textures_test {
 namespace {
 
 // The texture "t" after `directives`, as a material uses it.
@@ -206,4 +206,4 @@ TEST(PbrtTextures, FilteringIsNoLoss) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pbrt_textures_test

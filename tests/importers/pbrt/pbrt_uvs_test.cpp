@@ -8,7 +8,7 @@
 #include "scene/shapes/mesh_uv.h"
 #include "tests/importers/pbrt/pbrt_text.h"
 
-namespace vitrail {
+namespace vitrail::pbrt_uvs_test {
 namespace {
 
 const std::string textured =
@@ -173,4 +173,4 @@ TEST(PbrtMissingUvs, OfASubdividedCage) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pbrt_uvs_test

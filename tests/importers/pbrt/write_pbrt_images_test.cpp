@@ -12,7 +12,7 @@
 
 #include "images/texture_values.h"
 
-namespace vitrail {
+namespace vitrail::write_pbrt_images_test {
 namespace {
 
 class PbrtImages : public testing::Test {
@@ -261,4 +261,4 @@ TEST_F(PbrtImages, SpotLightsWithTexturesBecomeProjections) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::write_pbrt_images_test

@@ -3,7 +3,7 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/pbrt/pbrt_round_trip.h"
 
-namespace vitrail {
+namespace vitrail::write_pbrt_materials_test {
 namespace {
 
 TEST(WritePbrt, Materials) {
@@ -336,4 +336,4 @@ TEST(WritePbrt, TexturesHaveOnlyWhatPbrtTakesOfThem) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::write_pbrt_materials_test

@@ -5,7 +5,7 @@
 #include "tests/importers/curve_records.h"
 #include "tests/importers/pbrt/pbrt_round_trip.h"
 
-namespace vitrail {
+namespace vitrail::write_pbrt_shapes_test {
 namespace {
 
 TEST(WritePbrt, HairIsExactAndMeantForCurves) {
@@ -221,4 +221,4 @@ TEST(WritePbrt, WhatShinesInAnObjectIsWrittenWithEveryInstance) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::write_pbrt_shapes_test

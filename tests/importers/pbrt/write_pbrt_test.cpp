@@ -7,7 +7,7 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/pbrt/pbrt_round_trip.h"
 
-namespace vitrail {
+namespace vitrail::write_pbrt_test {
 namespace {
 
 TEST(WritePbrt, Cameras) {
@@ -294,4 +294,4 @@ TEST(WritePbrt, MediaHaveOnlyWhatPbrtTakesOfThem) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::write_pbrt_test

@@ -12,7 +12,7 @@
 #include "importers/ply/read/ply_scene.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::ply_test {
 namespace {
 
 using testing::ElementsAre;
@@ -483,4 +483,4 @@ TEST_F(Ply, FilesThatAreNotThere) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::ply_test

@@ -9,7 +9,7 @@
 #include "importers/ply/write/write_ply_scene.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::write_ply_test {
 namespace {
 
 using testing::Contains;
@@ -138,4 +138,4 @@ TEST_F(WritePly, InstancesAndEmptyScenes) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::write_ply_test

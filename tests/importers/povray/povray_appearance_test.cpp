@@ -10,14 +10,14 @@
 #include "tests/importers/povray/povray_oracle.h"
 #include "tests/support/png.h"
 
-namespace vitrail {
+namespace vitrail::povray_appearance_test {
 namespace {
 
 class PovrayAppearance : public PovrayOracle {
  protected:
   // The plane z = 0 of that reflectance, in light of irradiance π.
   Scene lit(const ImageTexture& reflectance) {
-    Scene scene = empty_scene();
+    Scene scene = empty_povray_scene();
     scene.textures.push_back({reflectance});
     add(scene, square(-5, 5, -5, 5, 0), DiffuseMaterial{Id<Texture>{0}});
     scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({pi, pi, pi})}});
@@ -49,7 +49,7 @@ TEST_F(PovrayAppearance, SkiesHaveTheirIlluminance) {
   folder_.write("grey.pgm", grey);
   using enum EnvironmentLight::Projection;
   for (const auto projection : {latitude_longitude, equal_area}) {
-    Scene scene = empty_scene();
+    Scene scene = empty_povray_scene();
     scene.settings.max_depth = 0;
     EnvironmentLight sky;
     sky.filename = (folder_ / "grey.pgm").string();
@@ -166,7 +166,7 @@ TEST_F(PovrayAppearance, HiddenLampsLightTheScene) {
 
 TEST_F(PovrayAppearance, MediaAbsorbAndScatter) {
   const auto in_a_medium = [](AbsorptionScattering coefficients) {
-    Scene scene = empty_scene();
+    Scene scene = empty_povray_scene();
     Medium medium;
     medium.coefficients = std::move(coefficients);
     scene.media.push_back(medium);
@@ -205,7 +205,7 @@ void add_box(TriangleMesh& box) {
 
 // Of a container that nothing else shows.
 TEST_F(PovrayAppearance, WhatFillsAClosedSurface) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   Medium medium;
   medium.coefficients = AbsorptionScattering{Spectrum{ConstantSpectrum{.5f}}, Spectrum{ConstantSpectrum{0}}};
   scene.media.push_back(medium);
@@ -241,7 +241,7 @@ TEST_F(PovrayAppearance, GridsOfMedia) {
   const std::array<double, 3> of_mean{.2, .4, .8}, grey{.5, .5, .5};
   for (const auto& [medium, mean] :
        {std::pair{beside, of_mean}, std::pair{of_grids, grey}, std::pair{of_colors, of_mean}}) {
-    Scene scene = empty_scene();
+    Scene scene = empty_povray_scene();
     scene.media.push_back(medium);
     add_emitter(scene, square(-5, 5, -5, 5, 0), {1, 1, 1});
     Shape& slab = add(scene, {}, InterfaceMaterial{});
@@ -272,7 +272,7 @@ TEST_F(PovrayAppearance, LightOutsideOfSrgb) {
 
 // POV-Ray shows one background or sky sphere, the last.
 TEST_F(PovrayAppearance, LightsFromAllAroundAreSummed) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   scene.settings.max_depth = 0;
   scene.lights.push_back({InfiniteLight{emission_from_rgb({.2, .4, .1})}});
   scene.lights.push_back({InfiniteLight{emission_from_rgb({.3, .1, .5})}});
@@ -337,7 +337,7 @@ TEST_F(PovrayAppearance, CylindricalMapping) {
 
 // A ball, or a box, of glass before stripes that shine.
 Scene before_stripes(bool box, bool inside_out, float eta) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   scene.settings.max_depth = 8;
   for (int i = -2; i < 3; ++i) {
     const auto x = static_cast<float>(i);
@@ -375,4 +375,4 @@ TEST_F(PovrayAppearance, GlassInsideOutHasTheInverseIndex) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::povray_appearance_test

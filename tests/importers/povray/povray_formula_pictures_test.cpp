@@ -3,7 +3,7 @@
 #include "tests/importers/povray/povray_pictures.h"
 #include "tests/support/png.h"
 
-namespace vitrail {
+namespace vitrail::povray_formula_pictures_test {
 namespace {
 
 class PovrayFormulas : public PovrayPictures {
@@ -80,4 +80,4 @@ TEST_F(PovrayFormulas, ImagesWithHoles) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::povray_formula_pictures_test

@@ -4,7 +4,7 @@
 
 #include "tests/importers/povray/povray_oracle.h"
 
-namespace vitrail {
+namespace vitrail::povray_lamps_test {
 namespace {
 
 // The share of a plane's hemisphere that a square of ±half covers, whose middle is at (−x,−y) from the point
@@ -89,7 +89,7 @@ TEST_F(PovrayOracle, PointsShineStraightThroughGlass) {
 
 // Nothing shows of a ball that scatters all light, under a sky of one radiance.
 TEST_F(PovrayOracle, MediaScatterTheSky) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   scene.settings.max_depth = 8;
   Medium fog;
   fog.coefficients = AbsorptionScattering{ConstantSpectrum{0}, ConstantSpectrum{1}};
@@ -108,4 +108,4 @@ TEST_F(PovrayOracle, MediaScatterTheSky) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::povray_lamps_test

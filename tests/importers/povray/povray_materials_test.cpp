@@ -7,7 +7,7 @@
 #include "tests/importers/povray/povray_oracle.h"
 #include "tests/support/png.h"
 
-namespace vitrail {
+namespace vitrail::povray_materials_test {
 namespace {
 
 using testing::Contains;
@@ -49,7 +49,7 @@ void show_all(Scene& scene) {
 }
 
 Scene all_materials() {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   scene.settings.max_depth = 3;
   Roughness rough;
   rough.alpha_u = 0.25f;
@@ -79,7 +79,7 @@ TEST_F(PovrayMaterials, AllAreAccepted) {
 
 TEST_F(PovrayMaterials, AllTexturesAreAccepted) {
   if (!has_povray()) GTEST_SKIP() << "povray is not installed: nothing was rendered";
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   const std::string file = folder_.write("a \"b\".ppm", "P3\n2 1\n255\n255 0 0  0 255 0\n").string();
   const Id<Texture> image = add_texture(scene, ImageTexture{file});
   ImageTexture odd{file, SphericalMapping{}, Wrap::clamp, TextureFilter::nearest, Encoding::gamma, 2.2f, .5f};
@@ -147,7 +147,7 @@ TEST_F(PovrayMaterials, WhatIsNotExactIsSaid) {
 TEST_F(PovrayMaterials, NotesSayTheSize) {
   test::write_png(folder_ / "ramp.png", 4, 1, 1, {0, 51, 102, 255});
   test::write_png(folder_ / "tilted.png", 1, 1, 3, {218, 128, 218});  // 45 degrees
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   ImageTexture ramp{(folder_ / "ramp.png").string()}, tilted{(folder_ / "tilted.png").string()};
   ramp.encoding = tilted.encoding = Encoding::linear;
   ConductorMaterial mirror{PerfectReflector{}};
@@ -174,7 +174,7 @@ TEST_F(PovrayMaterials, NotesSayTheSize) {
 }
 
 TEST_F(PovrayMaterials, ExactScenesNeedNoWords) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   add(scene, square(-1, 1, -1, 1, 0), DiffuseMaterial{reflectance_from_rgb({.2, .4, .6})});
   scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({1, 1, 1})}});
   const std::string text = text_of(scene);
@@ -184,7 +184,7 @@ TEST_F(PovrayMaterials, ExactScenesNeedNoWords) {
 }
 
 TEST_F(PovrayMaterials, MeshesWithoutAreaAreLeftOut) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   add(scene, square(1, 1, -1, 1, 0), DiffuseMaterial{});
   add(scene, TriangleMesh{}, DiffuseMaterial{});
   EXPECT_THAT(text_of(scene), testing::Not(HasSubstr("mesh2")));
@@ -198,7 +198,7 @@ TEST_F(PovrayOracle, RoughMirrorsHaveTheSlopesOfTheirFacets) {
   using enum Roughness::Distribution;
   for (const auto distribution : {ggx, beckmann})
     for (const float alpha : {.1f, .3f, .5f}) {
-      Scene scene = empty_scene();
+      Scene scene = empty_povray_scene();
       scene.settings.max_depth = 2;
       scene.settings.direct_only = true;
       scene.film.width = scene.film.height = 96;
@@ -288,7 +288,7 @@ TEST_F(PovrayOracle, PrincipledMaterialsHaveAllTheirParts) {
 // A pane of two sheets is as bright as what is behind it, less what both reflect, to and fro: of that POV-Ray
 // shows about one half.
 TEST_F(PovrayOracle, SheetsOfGlassMakePanes) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   add(scene, square(-5, 5, -5, 5, 0), DielectricMaterial{ConstantSpectrum{1.5f}});
   TriangleMesh below = square(-5, 5, -5, 5, -.1f);
   std::swap(below.positions[1], below.positions[3]);
@@ -310,7 +310,7 @@ TEST_F(PovrayOracle, SheetsOfGlassMakePanes) {
 
 // As they are rendered: numbers are 0, colours .5.
 TEST_F(PovrayMaterials, AttributesThatNoMeshHas) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   const Id<Texture> nothing = add_texture(scene, MeshAttributeTexture{.name = "nothing"});
   ConductorMaterial mirror{PerfectReflector{}};
   mirror.roughness.alpha_u = mirror.roughness.alpha_v = nothing;
@@ -330,7 +330,7 @@ TEST_F(PovrayOracle, ImagesEndAsTheyAreWrapped) {
     image.encoding = Encoding::linear;
     image.filter = TextureFilter::nearest;
     image.wrap = wrap;
-    Scene scene = empty_scene();
+    Scene scene = empty_povray_scene();
     scene.textures.push_back({image});
     TriangleMesh mesh = square(-2, 2, -2, 2, 0);
     mesh.uvs = {{-1, -1}, {2, -1}, {2, 2}, {-1, 2}};
@@ -374,4 +374,4 @@ TEST_F(PovrayOracle, BlendsByAnyTexture) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::povray_materials_test

@@ -47,7 +47,7 @@ inline const std::array<double, 3> black{0, 0, 0}, red{1, 0, 0}, green{0, 1, 0},
     white{1, 1, 1};
 
 inline Scene plane(RGB reflectance = {.8, .5, .25}) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   add(scene, square(-5, 5, -5, 5, 0), diffuse(reflectance));
   return scene;
 }

@@ -9,7 +9,7 @@
 #include "tests/importers/povray/povray_oracle.h"
 #include "tests/support/png.h"
 
-namespace vitrail {
+namespace vitrail::povray_oracle_test {
 namespace {
 
 // ---- Radiometry ---------------------------------------------------------------------------------
@@ -78,7 +78,7 @@ TEST_F(PovrayOracle, SquareLight) {
 
 TEST_F(PovrayOracle, SquareLightsShineAndAreSeenFromTheirFrontOnly) {
   for (const bool two_sided : {false, true}) {
-    Scene scene = empty_scene();
+    Scene scene = empty_povray_scene();
     add_emitter(scene, square(-1.8f, -.2f, -1.8f, 1.8f, 0), {.6, .4, .2});  // faces the camera
     TriangleMesh away = square(.2f, 1.8f, -1.8f, 1.8f, 0);
     for (auto& t : away.triangles) std::swap(t[1], t[2]);
@@ -111,7 +111,7 @@ TEST_F(PovrayOracle, OpacitiesOfShapes) {
 // What is behind shows through, brighter by the lamp's radiance; from behind it is alone.
 TEST_F(PovrayOracle, LampsOfNothing) {
   for (const bool flipped : {false, true}) {
-    Scene scene = empty_scene();
+    Scene scene = empty_povray_scene();
     scene.settings.max_depth = 4;
     add_emitter(scene, square(-5, 5, -5, 5, 0), {.4, .4, .4});
     add_emitter(scene, square(-5, 5, -5, 5, .5), {.2, .3, .4}).flip_orientation = flipped;
@@ -126,7 +126,7 @@ TEST_F(PovrayOracle, LampsOfNothing) {
 // Of each the front shines and the back is black, as of its triangles; those that POV-Ray has stay
 // themselves.
 TEST_F(PovrayOracle, QuadricsAreTheirTriangles) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   scene.film.width = scene.film.height = 96;
   scene.film.crop = {0, 96, 0, 96};
   scene.area_lights.push_back({emission_from_rgb({1, 0, 0})});
@@ -252,7 +252,7 @@ TEST_F(PovrayOracle, LightsThatAreNoRectanglesByRadiosity) {
 
 // In a closed box of radiance e and reflectance ρ all is e/(1 − ρ).
 TEST_F(PovrayOracle, LightBetweenSurfacesByRadiosity) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   TriangleMesh box;
   box.positions = {{-3, -3, -3}, {3, -3, -3}, {-3, 3, -3}, {3, 3, -3},
                    {-3, -3, 3},  {3, -3, 3},  {-3, 3, 3},  {3, 3, 3}};
@@ -288,7 +288,7 @@ TEST_F(PovrayOracle, SmallAndDistantScenes) {
 }
 
 TEST_F(PovrayOracle, Mirror) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   add(scene, square(-5, 5, -5, 5, 0), ConductorMaterial{PerfectReflector{}});
   scene.lights.push_back({InfiniteLight{emission_from_rgb({.5, .75, 1})}});
   scene.settings.max_depth = 3;
@@ -302,7 +302,7 @@ TEST_F(PovrayOracle, Mirror) {
 
 // Glass absorbs nothing: in a sky of one colour it cannot be seen.
 TEST_F(PovrayOracle, GlassInAFurnace) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   TriangleMesh slab = square(-5, 5, -5, 5, 0), below = square(-5, 5, -5, 5, -1);
   for (auto& t : below.triangles) std::swap(t[1], t[2]);
   for (auto& t : below.triangles) slab.triangles.push_back({t[0] + 4, t[1] + 4, t[2] + 4});
@@ -323,7 +323,7 @@ TEST_F(PovrayOracle, GlassInAFurnace) {
 
 // A lamp in the upper right quarter of the picture.
 Scene corner_lamp() {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   add_emitter(scene, square(.2f, 1.8f, .2f, 1.8f, 0), {1, 0, 0});
   return scene;
 }
@@ -360,7 +360,7 @@ TEST_F(PovrayOracle, ScreenWindowsAndOrthographicCameras) {
 TEST_F(PovrayOracle, SphericalCameras) {
   for (const Transform& turn :
        {Transform{}, scale({-1, 1, 1}), rotate(1, {1, 2, 3}), rotate(1, {1, 2, 3}) * scale({1, 1, -1})}) {
-    Scene scene = empty_scene();
+    Scene scene = empty_povray_scene();
     SphericalCamera camera;
     camera.camera_to_world = turn;
     camera.projection = SphericalCamera::Projection::latitude_longitude;
@@ -384,7 +384,7 @@ TEST_F(PovrayOracle, SphericalCameras) {
 
 // An edge far behind the plane in focus is blurred as far as the lens is wide, seen from that plane.
 TEST_F(PovrayOracle, LensesBlur) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   auto& camera = std::get<PerspectiveCamera>(scene.camera);
   camera.camera_to_world = {};
   camera.lens = {.25, 1};
@@ -415,7 +415,7 @@ TEST_F(PovrayOracle, OptionsOfTheFilm) {
 
 TEST_F(PovrayOracle, ImagesLieWithTheirLowerLeftCornerAtZero) {
   folder_.write("image.ppm", "P3\n2 2\n255\n255 0 0  0 255 0  0 0 255  255 255 255\n");
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   scene.textures.push_back({ImageTexture{(folder_ / "image.ppm").string()}});
   std::get<ImageTexture>(scene.textures[0].model).filter = TextureFilter::nearest;
   add(scene, square(-2, 2, -2, 2, 0), DiffuseMaterial{Id<Texture>{0}});
@@ -445,7 +445,7 @@ TEST_F(PovrayOracle, ImagesLieWithTheirLowerLeftCornerAtZero) {
 TEST_F(PovrayOracle, ColorsUnderTransparentAlphaStay) {
   test::write_png(folder_ / "image.png", 2, 2, 4,
                   {255, 0, 0, 0, 0, 255, 0, 128, 0, 0, 255, 255, 255, 255, 255, 0});
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   scene.textures.push_back({ImageTexture{(folder_ / "image.png").string()}});
   std::get<ImageTexture>(scene.textures[0].model).filter = TextureFilter::nearest;
   add(scene, square(-2, 2, -2, 2, 0), DiffuseMaterial{Id<Texture>{0}});
@@ -459,7 +459,7 @@ TEST_F(PovrayOracle, ColorsUnderTransparentAlphaStay) {
 // A blend by the blue channel of an image, which POV-Ray would take for its grey.
 TEST_F(PovrayOracle, NumbersAreOfTheirChannel) {
   test::write_png(folder_ / "image.png", 2, 2, 3, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255});
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   ImageTexture image{(folder_ / "image.png").string()};
   image.number = ImageNumber::blue;
   scene.textures.push_back({image, true});
@@ -475,7 +475,7 @@ TEST_F(PovrayOracle, NumbersAreOfTheirChannel) {
 
 TEST_F(PovrayOracle, ProductsOfTextures) {
   folder_.write("image.ppm", "P3\n2 2\n255\n255 0 0  0 255 0  0 0 255  255 255 255\n");
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   ImageTexture image{(folder_ / "image.ppm").string()};
   image.filter = TextureFilter::nearest;
   scene.textures.push_back({image});
@@ -491,7 +491,7 @@ TEST_F(PovrayOracle, ProductsOfTextures) {
 }
 
 TEST_F(PovrayOracle, InstancesAndTheirMeshFiles) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   TriangleMesh many = square(.1f, .2f, .1f, .2f, 0);
   while (many.triangles.size() < 100) many.triangles.push_back(many.triangles[many.triangles.size() % 2]);
   Shape shape = make_shape(scene, many, DiffuseMaterial{ConstantSpectrum{1}});
@@ -544,7 +544,7 @@ TEST_F(PovrayOracle, EnvironmentsFaceTheRightWay) {
   const Transform turned = rotate(.7, {1, 2, 3}) * scale({1, 1, -1});
   for (const bool is_map : {true, false})
     for (const Transform& light_to_world : {Transform{}, turned}) {
-      Scene scene = empty_scene();
+      Scene scene = empty_povray_scene();
       scene.settings.max_depth = 0;
       EnvironmentLight light;
       light.filename = (folder_ / (is_map ? "map.ppm" : "square.ppm")).string();
@@ -565,4 +565,4 @@ TEST_F(PovrayOracle, EnvironmentsFaceTheRightWay) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::povray_oracle_test

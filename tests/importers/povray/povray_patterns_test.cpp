@@ -7,7 +7,7 @@
 #include "scene/models/pattern.h"
 #include "tests/importers/povray/povray_oracle.h"
 
-namespace vitrail {
+namespace vitrail::povray_patterns_test {
 namespace {
 
 using Kind = PatternTexture::Kind;
@@ -48,7 +48,7 @@ TEST_F(PovrayPatterns, TightSpot) {
 
 // A plane that glows by the pattern and is lit by nothing.
 Scene glowing(const PatternTexture& pattern) {
-  Scene scene = empty_scene();
+  Scene scene = empty_povray_scene();
   scene.textures.push_back({pattern});
   AreaLight light;
   light.radiance = Id<Texture>{0};
@@ -119,4 +119,4 @@ TEST_F(PovrayPatterns, ThoseOfNoise) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::povray_patterns_test

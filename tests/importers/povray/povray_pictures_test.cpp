@@ -2,7 +2,7 @@
 // Small scenes as povray shows them, and as they are read and rendered here: the means of 8 × 8 blocks.
 #include "tests/importers/povray/povray_pictures.h"
 
-namespace vitrail {
+namespace vitrail::povray_pictures_test {
 namespace {
 
 // A ball on a floor in two lights, with ambient and a mirror.
@@ -431,4 +431,4 @@ TEST_F(PovrayPictures, Cameras) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::povray_pictures_test

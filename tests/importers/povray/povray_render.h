@@ -69,7 +69,7 @@ inline PovPicture render_povray(const Scene& scene, const TemporaryFolder& folde
 
 // By default 32 × 32 pixels, seen from (0,0,4) down to the plane z = 0, of which ±2 is in the picture, +x
 // right and +y up; direct light only.
-inline Scene empty_scene() {
+inline Scene empty_povray_scene() {
   Scene scene;
   PerspectiveCamera camera;
   camera.camera_to_world = look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0});

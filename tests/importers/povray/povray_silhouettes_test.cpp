@@ -10,7 +10,7 @@
 #include "tests/importers/povray/povray_render.h"
 #include "tests/support/render.h"
 
-namespace vitrail {
+namespace vitrail::povray_silhouettes_test {
 namespace {
 
 // Of povray's picture a sample a pixel, in blocks of 8 × 8; ours has a pixel a block.
@@ -119,4 +119,4 @@ TEST_F(PovraySilhouettes, CutFractals) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::povray_silhouettes_test

@@ -8,7 +8,7 @@
 #include "importers/povray/read/povray.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::read_bumps_test {
 namespace {
 
 class ReadPovrayBumps : public ::testing::Test {
@@ -101,4 +101,4 @@ TEST_F(ReadPovrayBumps, TheSameTextureElsewhereIsTilted) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::read_bumps_test

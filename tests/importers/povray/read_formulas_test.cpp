@@ -12,7 +12,7 @@
 #include "scene/models/texture_mapping.h"
 #include "tests/importers/povray/povray_render.h"
 
-namespace vitrail {
+namespace vitrail::read_formulas_test {
 namespace {
 
 constexpr int side = 32;
@@ -246,4 +246,4 @@ TEST(ReadFormulasOfImages, AreTheMeanOfWhatTheyShow) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::read_formulas_test

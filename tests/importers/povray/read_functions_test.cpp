@@ -10,7 +10,7 @@
 #include "importers/povray/read/reader.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::read_functions_test {
 namespace {
 
 class ReadFunctions : public ::testing::Test {
@@ -193,4 +193,4 @@ TEST_F(ReadFunctions, ExtentsAreThoseOfTheShape) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::read_functions_test

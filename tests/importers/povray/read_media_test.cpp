@@ -9,7 +9,7 @@
 #include "scene/spectra/color.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::read_media_test {
 namespace {
 
 class ReadPovrayMedia : public ::testing::Test {
@@ -257,4 +257,4 @@ TEST_F(ReadPovrayMedia, TheEyeInAContainerAndAround) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::read_media_test

@@ -12,7 +12,7 @@
 #include "scene/shapes/deferred_mesh.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::read_pictures_test {
 namespace {
 
 class ReadPovrayPictures : public ::testing::Test {
@@ -341,4 +341,4 @@ TEST_F(ReadPovrayPictures, AClearLayerOverASurfaceIsItsCoat) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::read_pictures_test

@@ -10,7 +10,7 @@
 #include "importers/povray/read/reader.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::read_povray_test {
 namespace {
 
 class ReadPovray : public ::testing::Test {
@@ -372,4 +372,4 @@ TEST_F(ReadPovray, PigmentsOfASkyLieAboveEachOther) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::read_povray_test

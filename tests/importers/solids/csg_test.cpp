@@ -9,7 +9,7 @@
 #include "scene/geometry/pi.h"
 #include "tests/importers/solids/solid_checks.h"
 
-namespace vitrail::solids {
+namespace vitrail::solids::csg_test {
 namespace {
 
 Csg cube(double low, double high, std::uint32_t surface = 0) {
@@ -222,4 +222,4 @@ TEST(Csg, OperandsThatIntersectThemselvesAreRefusedOrRight) {
 }
 
 }  // namespace
-}  // namespace vitrail::solids
+}  // namespace vitrail::solids::csg_test

@@ -12,7 +12,7 @@
 #include "importers/solids/primitives.h"
 #include "tests/importers/solids/solid_checks.h"
 
-namespace vitrail::solids {
+namespace vitrail::solids::csg_trees_test {
 namespace {
 
 using Inside = std::function<bool(Point3d)>;
@@ -147,4 +147,4 @@ TEST(CsgTrees, AreRightAndHardlyEverRefused) {
 }
 
 }  // namespace
-}  // namespace vitrail::solids
+}  // namespace vitrail::solids::csg_trees_test

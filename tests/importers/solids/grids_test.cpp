@@ -9,7 +9,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/importers/solids/solid_checks.h"
 
-namespace vitrail::solids {
+namespace vitrail::solids::grids_test {
 namespace {
 
 HeightField waves(int columns, int rows) {
@@ -108,4 +108,4 @@ TEST(Parametric, SphereHasItsAreaAndIsCut) {
 }
 
 }  // namespace
-}  // namespace vitrail::solids
+}  // namespace vitrail::solids::grids_test

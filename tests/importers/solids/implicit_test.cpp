@@ -12,7 +12,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/importers/solids/solid_checks.h"
 
-namespace vitrail::solids {
+namespace vitrail::solids::implicit_test {
 namespace {
 
 double from_origin(Point3d p) { return length(p - Point3d{}); }
@@ -184,4 +184,4 @@ TEST(JuliaFractal, HypercomplexNumbersTakeOneStepLess) {
 }
 
 }  // namespace
-}  // namespace vitrail::solids
+}  // namespace vitrail::solids::implicit_test

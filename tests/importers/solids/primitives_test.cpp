@@ -9,7 +9,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/importers/solids/solid_checks.h"
 
-namespace vitrail::solids {
+namespace vitrail::solids::primitives_test {
 namespace {
 
 TEST(Primitives, BoxHasItsCornersAndVolume) {
@@ -120,4 +120,4 @@ TEST(Primitives, MirrorsKeepFrontsOutside) {
 }
 
 }  // namespace
-}  // namespace vitrail::solids
+}  // namespace vitrail::solids::primitives_test

@@ -10,7 +10,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/importers/solids/solid_checks.h"
 
-namespace vitrail::solids {
+namespace vitrail::solids::sweeps_test {
 namespace {
 
 std::vector<Point2d> square(double half) {
@@ -192,4 +192,4 @@ TEST(Text, LettersFollowEachOther) {
 }
 
 }  // namespace
-}  // namespace vitrail::solids
+}  // namespace vitrail::solids::sweeps_test

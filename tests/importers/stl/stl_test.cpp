@@ -8,7 +8,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/importers/temporary_folder.h"
 
-namespace vitrail {
+namespace vitrail::stl_test {
 namespace {
 
 std::string text_of(const std::string& facets) {
@@ -65,4 +65,4 @@ TEST(Stl, MistakesHaveTheirPlace) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::stl_test

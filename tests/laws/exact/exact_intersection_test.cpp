@@ -15,7 +15,7 @@
 #include "tracer/rays/domain_tree.h"
 #include "tracer/rays/walk.h"
 
-namespace vitrail::test {
+namespace vitrail::test::exact_intersection_test {
 namespace {
 
 // A bundle with all its domains mapped.
@@ -256,4 +256,4 @@ TEST(ExactIntersection, AgreesWithExactArithmetic) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::exact_intersection_test

@@ -15,7 +15,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"
 
-namespace vitrail::test {
+namespace vitrail::test::ghost_free_test {
 
 namespace {
 
@@ -161,4 +161,4 @@ TEST(GhostFreeBundle, Given) {
 
 }  // namespace
 
-}  // namespace vitrail::test
+}  // namespace vitrail::test::ghost_free_test

@@ -9,7 +9,7 @@
 
 #include "tests/laws/exact/awkward_rays.h"
 
-namespace vitrail::test {
+namespace vitrail::test::instances_test {
 namespace {
 
 // What becomes an object, or the scene: triangles of its own, then instances.
@@ -248,4 +248,4 @@ TEST(Instances, CoincidingOnesAreDecidedById) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::instances_test

@@ -17,7 +17,7 @@
 #include "tracer/quadrics/quadric_hits.h"
 #include "tracer/rays/walk.h"
 
-namespace vitrail::test {
+namespace vitrail::test::quadric_laws_test {
 namespace {
 
 Id<TriangleMesh> add(Scene& scene, const Quadric& quadric) {
@@ -387,4 +387,4 @@ TEST(Quadrics, VanishUnderAUniformSky) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::quadric_laws_test

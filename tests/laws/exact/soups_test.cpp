@@ -14,7 +14,7 @@
 
 #include "tests/laws/exact/soup_laws.h"
 
-namespace vitrail::test {
+namespace vitrail::test::soups_test {
 namespace {
 
 Findings judge_all(std::uint64_t begin, std::uint64_t end, const Effort& effort) {
@@ -71,4 +71,4 @@ TEST(Soups, One) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::soups_test

@@ -9,7 +9,7 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/support/render.h"
 
-namespace vitrail::test {
+namespace vitrail::test::attribute_lights_test {
 namespace {
 
 struct Seen {
@@ -87,4 +87,4 @@ TEST(AttributeLights, AreSampled) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::attribute_lights_test

@@ -16,7 +16,7 @@
 #include "scene/models/sensor_file.h"
 #include "tests/support/render.h"
 
-namespace vitrail::test {
+namespace vitrail::test::daylight_cases_test {
 namespace {
 
 Material diffuse(float reflectance) { return Material{DiffuseMaterial{ConstantSpectrum{reflectance}}}; }
@@ -316,4 +316,4 @@ TEST(DaylightCases, InterreflectionKeepsTheFlux) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::daylight_cases_test

@@ -11,7 +11,7 @@
 #include "scene/spectra/named_spectra.h"
 #include "tests/support/render.h"
 
-namespace vitrail::test {
+namespace vitrail::test::dispersion_test {
 namespace {
 
 constexpr double screen_distance = 500;
@@ -202,4 +202,4 @@ TEST(Dispersion, BallDeviatesByTwiceTheBendOfOneRefraction) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::dispersion_test

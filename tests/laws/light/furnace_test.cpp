@@ -7,7 +7,7 @@
 #include "scene/spectra/named_spectra.h"
 #include "tests/support/render.h"
 
-namespace vitrail::test {
+namespace vitrail::test::furnace_test {
 namespace {
 
 // A box seen from inside whose walls all emit 1 and reflect ρ: radiance Σ ρᵏ for k = 0 … depth.
@@ -139,4 +139,4 @@ TEST(Pane, KeepsAllWavelengths) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::furnace_test

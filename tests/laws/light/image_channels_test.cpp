@@ -13,7 +13,7 @@
 #include "tests/support/png.h"
 #include "tests/support/render.h"
 
-namespace vitrail {
+namespace vitrail::image_channels_test {
 namespace {
 
 // The mean linear sRGB of one of the four quarters of a square picture: 0 the upper left, 1 the upper right …
@@ -179,4 +179,4 @@ TEST_F(MitsubaImageChannels, ImagesOfLightStandUpright) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::image_channels_test

@@ -10,7 +10,7 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/laws/light/flat_scenes.h"
 
-namespace vitrail::test {
+namespace vitrail::test::layers_test {
 namespace {
 
 // Of all pixels of a plane of a layer, with the standard error of that mean.
@@ -287,4 +287,4 @@ TEST(LayersAlbedo, OfMixturesIsTheirMean) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::layers_test

@@ -12,7 +12,7 @@
 #include "tests/laws/light/media_scenes.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::lights_in_media_test {
 namespace {
 
 const Material black{DiffuseMaterial{ConstantSpectrum{0}}};
@@ -243,4 +243,4 @@ TEST_F(LightsInMedia, WithinInstances) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::lights_in_media_test

@@ -14,7 +14,7 @@
 #include "tests/laws/light/flat_scenes.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail::test {
+namespace vitrail::test::local_illumination_test {
 namespace {
 
 constexpr float wide = 1e5f, above_the_camera = 25, albedo = 0.6f;
@@ -188,4 +188,4 @@ TEST_F(LocalIllumination, IsOnePicture) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::local_illumination_test

@@ -12,7 +12,7 @@
 #include "tests/support/double_gauss.h"
 #include "tests/support/render.h"
 
-namespace vitrail::test {
+namespace vitrail::test::means_of_cameras_test {
 namespace {
 
 const Material black{DiffuseMaterial{ConstantSpectrum{0}}};
@@ -312,4 +312,4 @@ TEST(MeansOfCameras, WholeSpheres) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::means_of_cameras_test

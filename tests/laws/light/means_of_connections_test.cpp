@@ -9,7 +9,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tests/support/render.h"
 
-namespace vitrail::test {
+namespace vitrail::test::means_of_connections_test {
 namespace {
 
 const Material black{DiffuseMaterial{ConstantSpectrum{0}}};
@@ -156,4 +156,4 @@ TEST(Connections, AsDeepAsPaths) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::means_of_connections_test

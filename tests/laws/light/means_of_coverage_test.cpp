@@ -11,7 +11,7 @@
 #include "tests/laws/light/flat_scenes.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail::test {
+namespace vitrail::test::means_of_coverage_test {
 namespace {
 
 const Material black{DiffuseMaterial{ConstantSpectrum{0}}}, white{DiffuseMaterial{ConstantSpectrum{1}}};
@@ -208,4 +208,4 @@ TEST(Coverage, OfStacks) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::means_of_coverage_test

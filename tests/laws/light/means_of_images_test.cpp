@@ -11,7 +11,7 @@
 #include "tests/laws/light/flat_scenes.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::means_of_images_test {
 namespace {
 
 constexpr int side = 48;
@@ -104,4 +104,4 @@ TEST(MeansOfImages, Lamps) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::means_of_images_test

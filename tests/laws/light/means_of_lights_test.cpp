@@ -12,7 +12,7 @@
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::means_of_lights_test {
 namespace {
 
 const Material black{DiffuseMaterial{ConstantSpectrum{0}}};
@@ -518,4 +518,4 @@ TEST(MeansOfLights, Projectors) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::means_of_lights_test

@@ -13,7 +13,7 @@
 #include "tracer/media/free_flight.h"
 #include "tracer/rays/ray_records.h"
 
-namespace vitrail::test {
+namespace vitrail::test::means_of_media_test {
 namespace {
 
 using Values = std::array<double, hero_count>;
@@ -366,4 +366,4 @@ TEST(InfiniteMedium, AtAlbedosNearOneAndGreatDepth) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::means_of_media_test

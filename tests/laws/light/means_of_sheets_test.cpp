@@ -12,7 +12,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail::test {
+namespace vitrail::test::means_of_sheets_test {
 namespace {
 
 // Fractions of light that one sheet reflects and lets through.
@@ -161,4 +161,4 @@ TEST(StackedSheets, LeaveTheWeightsOfLightAlone) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::means_of_sheets_test

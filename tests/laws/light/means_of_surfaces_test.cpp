@@ -20,7 +20,7 @@
 #include "tracer/bsdf/plastic.h"
 #include "tracer/bsdf/principled.h"
 
-namespace vitrail::test {
+namespace vitrail::test::means_of_surfaces_test {
 namespace {
 
 const Vector3d view = direction(40, 25), steep = direction(5, 100), grazing = direction(89, 200);
@@ -325,4 +325,4 @@ TEST(MeanOfPlane, TintsAreOfTheColour) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::means_of_surfaces_test

@@ -7,7 +7,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/laws/light/flat_scenes.h"
 
-namespace vitrail::test {
+namespace vitrail::test::motion_layer_test {
 namespace {
 
 constexpr int width = 12, height = 8;
@@ -97,4 +97,4 @@ TEST(MotionLayer, IsNoneWhereNothingMoves) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::motion_layer_test

@@ -8,7 +8,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tests/support/render.h"
 
-namespace vitrail::test {
+namespace vitrail::test::motion_test {
 namespace {
 
 const Material black{DiffuseMaterial{ConstantSpectrum{0}}};
@@ -203,4 +203,4 @@ TEST(Motion, MeanOfManyMoments) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::motion_test

@@ -19,7 +19,7 @@
 #include "tests/laws/light/flat_scenes.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::nanovdb_media_test {
 namespace {
 
 using Fog = nanovdb::GridHandle<>;
@@ -79,4 +79,4 @@ TEST(NanoVdbMedia, FogBallIsAsThickAsItsVoxels) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::nanovdb_media_test

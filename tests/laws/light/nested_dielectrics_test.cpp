@@ -10,7 +10,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tests/support/render.h"
 
-namespace vitrail::test {
+namespace vitrail::test::nested_dielectrics_test {
 namespace {
 
 constexpr float wide = 1000;
@@ -166,4 +166,4 @@ TEST(Interiors, AreKeptApartInAByte) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::nested_dielectrics_test

@@ -12,7 +12,7 @@
 #include "tests/laws/light/flat_scenes.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::pbrt_media_test {
 namespace {
 
 // Through the middle of the medium's unit cube, along z.
@@ -99,4 +99,4 @@ TEST(PbrtMedia, RgbGridEndsWithItsBounds) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::pbrt_media_test

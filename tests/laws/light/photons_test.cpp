@@ -11,7 +11,7 @@
 #include "tracer/bsdf/plastic.h"
 #include "tracer/photons/progressive.h"
 
-namespace vitrail::test {
+namespace vitrail::test::photons_test {
 namespace {
 
 constexpr int iterations = 64;
@@ -191,4 +191,4 @@ TEST(Photons, AsPathsBehindGlass) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::photons_test

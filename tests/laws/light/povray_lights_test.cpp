@@ -11,7 +11,7 @@
 #include "tests/laws/light/flat_scenes.h"
 #include "tracer/photons/progressive.h"
 
-namespace vitrail::test {
+namespace vitrail::test::povray_lights_test {
 namespace {
 
 const Material white{DiffuseMaterial{ConstantSpectrum{1}}}, black{DiffuseMaterial{ConstantSpectrum{0}}};
@@ -321,4 +321,4 @@ TEST(PovrayLights, ThinGridsShine) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::povray_lights_test

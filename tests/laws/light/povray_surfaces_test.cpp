@@ -11,7 +11,7 @@
 #include "tracer/bsdf/glazed.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail::test {
+namespace vitrail::test::povray_surfaces_test {
 namespace {
 
 const Material white{DiffuseMaterial{ConstantSpectrum{1}}};
@@ -198,4 +198,4 @@ TEST(PovraySurfaces, GlazedFromInside) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::povray_surfaces_test

@@ -19,7 +19,7 @@
 #include "tests/support/render.h"
 #include "tracer/view/pixel_filter.h"
 
-namespace vitrail::test {
+namespace vitrail::test::sample_choices_test {
 namespace {
 
 // A box of coloured walls with lamps of unlike power, one of them small and near, and a block that disperses:
@@ -385,4 +385,4 @@ TEST_F(OnePictureOfSamples, WaysDoNotMix) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::sample_choices_test

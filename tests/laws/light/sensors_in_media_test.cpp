@@ -12,7 +12,7 @@
 #include "tests/laws/light/media_scenes.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::sensors_in_media_test {
 namespace {
 
 const Material black{DiffuseMaterial{ConstantSpectrum{0}}};
@@ -157,4 +157,4 @@ TEST_F(SensorsInMedia, AreNotClamped) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::sensors_in_media_test

@@ -14,7 +14,7 @@
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::sensors_test {
 namespace {
 
 const Material black{DiffuseMaterial{ConstantSpectrum{0}}};
@@ -229,4 +229,4 @@ TEST(Sensors, AreTheSameWhateverTheDomains) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::sensors_test

@@ -10,7 +10,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tests/support/render.h"
 
-namespace vitrail::test {
+namespace vitrail::test::shadow_ends_test {
 namespace {
 
 const Material black{DiffuseMaterial{ConstantSpectrum{0}}};
@@ -250,4 +250,4 @@ TEST(ShadowEnds, BeforeALampInACeiling) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::shadow_ends_test

@@ -11,7 +11,7 @@
 #include "scene/spectra/named_spectra.h"
 #include "tests/laws/light/flat_scenes.h"
 
-namespace vitrail::test {
+namespace vitrail::test::sun_disc_test {
 namespace {
 
 constexpr double diameter_deg = 8, height = 1;
@@ -149,4 +149,4 @@ TEST(SunDisc, IsOneWhateverTheDomains) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::sun_disc_test

@@ -9,7 +9,7 @@
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::texture_filter_test {
 namespace {
 
 constexpr int size = 64, texels = 512;
@@ -65,4 +65,4 @@ TEST(TrilinearTextures, KeepTheContrastOfManySamples) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::texture_filter_test

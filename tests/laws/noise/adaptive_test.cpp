@@ -12,7 +12,7 @@
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::adaptive_test {
 namespace {
 
 class Films {
@@ -182,4 +182,4 @@ TEST(TargetError, IsKeptInABox) { expect_target_kept(lit_box(32), 1e-3); }
 TEST(TargetError, IsKeptAmongStars) { expect_target_kept(stars(), 0.002); }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::adaptive_test

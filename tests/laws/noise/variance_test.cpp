@@ -10,7 +10,7 @@
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::variance_test {
 namespace {
 
 constexpr int side = 24, seeds = 24, block = 6;
@@ -99,4 +99,4 @@ TEST(Variance, OfMergedFilms) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::variance_test

@@ -11,7 +11,7 @@
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::film_range_test {
 namespace {
 
 class FilmRange : public ::testing::Test {
@@ -157,4 +157,4 @@ TEST_F(FilmRange, SaturationFailsAlikeOnAnyNumberOfRanks) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::film_range_test

@@ -15,7 +15,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"
 
-namespace vitrail::test {
+namespace vitrail::test::kept_instances_test {
 namespace {
 
 constexpr std::uint64_t mib = 1 << 20;
@@ -248,4 +248,4 @@ TEST(KeptInstances, LightsOfInstancesShineTheSame) { expect_the_flattened_lights
 TEST(KeptInstances, LightsOfShapesThatShareAMeshShineTheSame) { expect_the_flattened_lights(crowd()); }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::kept_instances_test

@@ -16,7 +16,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::kill_and_resume_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -170,4 +170,4 @@ TEST_F(KillAndResume, RefusesAnotherJobsCheckpoint) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::kill_and_resume_test

@@ -11,7 +11,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::one_picture_of_alpha_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -104,4 +104,4 @@ Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "float alpha" .5 "point3 P"
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::one_picture_of_alpha_test

@@ -12,7 +12,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::one_picture_of_layers_test {
 namespace {
 
 constexpr const char* all_aovs =
@@ -156,4 +156,4 @@ TEST_F(OnePictureOfLayers, ThePictureDoesNotKnowOfThem) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::one_picture_of_layers_test

@@ -13,7 +13,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::one_picture_of_light_groups_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -178,4 +178,4 @@ TEST_F(LightGroupsOfPictures, ShineThroughGlassAndMedia) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::one_picture_of_light_groups_test

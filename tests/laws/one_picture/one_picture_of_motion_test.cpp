@@ -16,7 +16,7 @@
 #include "tests/support/test_scenes.h"
 #include "tracer/intersect/intersector.h"
 
-namespace vitrail::test {
+namespace vitrail::test::one_picture_of_motion_test {
 namespace {
 
 class Random {
@@ -213,4 +213,4 @@ TEST_F(OnePictureOfMotion, TheReferenceTraversalSeesTheSame) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::one_picture_of_motion_test

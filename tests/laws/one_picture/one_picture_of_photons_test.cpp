@@ -17,7 +17,7 @@
 #include "tests/support/png.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::one_picture_of_photons_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -146,4 +146,4 @@ TEST_F(OnePictureOfPhotons, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::one_picture_of_photons_test

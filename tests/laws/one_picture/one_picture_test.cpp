@@ -9,7 +9,7 @@
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::test {
+namespace vitrail::test::one_picture_test {
 namespace {
 
 constexpr std::uint64_t mib = 1 << 20;
@@ -166,4 +166,4 @@ TEST(OnePicture, Adversarial) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::one_picture_test

@@ -7,7 +7,7 @@
 #include "scene/spectra/named_spectra.h"
 #include "tests/support/render.h"
 
-namespace vitrail::test {
+namespace vitrail::test::picture_revision_test {
 namespace {
 
 constexpr std::uint32_t known_revision = 13;
@@ -92,4 +92,4 @@ TEST(PictureRevision, RisesWithEveryChangeOfAPicture) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::picture_revision_test

@@ -12,7 +12,7 @@
 #include "tests/laws/light/flat_scenes.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail::test {
+namespace vitrail::test::pane_depth_test {
 namespace {
 
 enum class Source { sun, sky, lamp };
@@ -132,4 +132,4 @@ TEST(ThinPanes, KeepTheirWavelengths) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::pane_depth_test

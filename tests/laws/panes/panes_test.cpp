@@ -13,7 +13,7 @@
 #include "tests/support/render.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail::test {
+namespace vitrail::test::panes_test {
 namespace {
 
 constexpr double irradiance = 3, albedo = 0.5;
@@ -367,4 +367,4 @@ TEST(SunThroughDispersiveGlass, EachWavelengthByItsOwnFresnel) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::panes_test

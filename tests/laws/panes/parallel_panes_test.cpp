@@ -12,7 +12,7 @@
 #include "tests/laws/light/flat_scenes.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail::test {
+namespace vitrail::test::parallel_panes_test {
 namespace {
 
 constexpr float lowest = 0.0078125f;
@@ -308,4 +308,4 @@ TEST(ParallelPanes, AreOneFilmWhateverTheDomains) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::parallel_panes_test

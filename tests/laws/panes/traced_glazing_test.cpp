@@ -12,7 +12,7 @@
 #include "tests/laws/light/flat_scenes.h"
 #include "tests/support/command.h"
 
-namespace vitrail::test {
+namespace vitrail::test::traced_glazing_test {
 namespace {
 
 Material material_of(Scene& scene, const std::string& file) {
@@ -90,4 +90,4 @@ TEST(TracedGlazing, EverySystemOfTheCorpus) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::traced_glazing_test

@@ -8,7 +8,7 @@
 #include "tests/laws/scattering/table_cases.h"
 #include "tracer/bsdf/conductor.h"
 
-namespace vitrail {
+namespace vitrail::adaptive_laws_test {
 namespace {
 
 using laws::subject;
@@ -97,4 +97,4 @@ TEST(AdaptiveLaws, WithoutNormalsTheSpectraAreAll) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::adaptive_laws_test

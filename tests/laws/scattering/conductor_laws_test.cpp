@@ -7,7 +7,7 @@
 #include "tests/laws/scattering/rough_cases.h"
 #include "tracer/bsdf/fresnel.h"
 
-namespace vitrail {
+namespace vitrail::conductor_laws_test {
 namespace {
 
 using laws::subject;
@@ -82,4 +82,4 @@ TEST(ConductorLaws, NarrowFacetsAreAMirror) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::conductor_laws_test

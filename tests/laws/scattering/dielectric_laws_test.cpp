@@ -9,7 +9,7 @@
 #include "tests/laws/scattering/rough_cases.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail {
+namespace vitrail::dielectric_laws_test {
 namespace {
 
 using laws::albedo;
@@ -124,4 +124,4 @@ TEST(DielectricLaws, ThinSheetSumsItsReflections) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::dielectric_laws_test

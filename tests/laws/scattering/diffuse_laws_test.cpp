@@ -6,7 +6,7 @@
 #include "tests/laws/scattering/bsdf_laws.h"
 #include "tracer/bsdf/diffuse.h"
 
-namespace vitrail {
+namespace vitrail::diffuse_laws_test {
 namespace {
 
 using laws::albedo;
@@ -55,4 +55,4 @@ TEST(DiffuseLaws, OrenNayarsAlbedoIsItsIntegral) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::diffuse_laws_test

@@ -10,7 +10,7 @@
 #include "tracer/bsdf/conductor.h"
 #include "tracer/bsdf/dielectric.h"
 
-namespace vitrail {
+namespace vitrail::fourier_laws_test {
 namespace {
 
 using laws::fourier_table;
@@ -95,4 +95,4 @@ TEST(FourierLaws, PrimariesAreWhiteTogether) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::fourier_laws_test

@@ -9,7 +9,7 @@
 #include "scene/spectra/named_spectra.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail {
+namespace vitrail::fresnel_test {
 namespace {
 
 // Fresnel's equations with complex numbers, as in Born & Wolf §14.2.
@@ -100,4 +100,4 @@ TEST(Fresnel, DiffuseReflectance) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::fresnel_test

@@ -11,7 +11,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tests/laws/scattering/bsdf_laws.h"
 
-namespace vitrail {
+namespace vitrail::hair_laws_test {
 namespace {
 
 using laws::subject;
@@ -155,4 +155,4 @@ TEST(HairLaws, BesselFunction) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::hair_laws_test

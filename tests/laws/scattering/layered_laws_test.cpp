@@ -12,7 +12,7 @@
 #include "tracer/bsdf/layered.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail {
+namespace vitrail::layered_laws_test {
 namespace {
 
 using laws::subject;
@@ -225,4 +225,4 @@ TEST(Layered, ValuesAreFunctionsOfTheDirections) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::layered_laws_test

@@ -10,7 +10,7 @@
 #include "tests/laws/scattering/rough_cases.h"
 #include "tests/laws/scattering/sphere_cells.h"
 
-namespace vitrail {
+namespace vitrail::microfacet_laws_test {
 namespace {
 
 std::vector<Vector3d> normals_seen(const Microfacets& mf, Vector3d v) {
@@ -91,4 +91,4 @@ TEST(MicrofacetLaws, InverseErf) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::microfacet_laws_test

@@ -14,7 +14,7 @@
 #include "tracer/bsdf/hair.h"
 #include "tracer/bsdf/plastic.h"
 
-namespace vitrail {
+namespace vitrail::mitsuba_bsdf_test {
 namespace {
 
 using laws::Subject;
@@ -250,4 +250,4 @@ TEST_F(MitsubaBsdf, Deltas) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mitsuba_bsdf_test

@@ -8,7 +8,7 @@
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/local.h"
 
-namespace vitrail {
+namespace vitrail::plastic_laws_test {
 namespace {
 
 using laws::albedo;
@@ -90,4 +90,4 @@ TEST(PlasticLaws, TablesOfAFlatCoat) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::plastic_laws_test

@@ -5,7 +5,7 @@
 #include "tests/laws/scattering/bsdf_laws.h"
 #include "tracer/bsdf/principled.h"
 
-namespace vitrail {
+namespace vitrail::principled_laws_test {
 namespace {
 
 using laws::subject;
@@ -89,4 +89,4 @@ TEST(PrincipledLaws, DiffuseSheetsObeyThem) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::principled_laws_test

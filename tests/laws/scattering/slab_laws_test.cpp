@@ -6,7 +6,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tests/laws/scattering/bsdf_laws.h"
 
-namespace vitrail {
+namespace vitrail::slab_laws_test {
 namespace {
 
 using laws::subject;
@@ -55,4 +55,4 @@ TEST(SlabLaws, AlbedoOfADeepSlab) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::slab_laws_test

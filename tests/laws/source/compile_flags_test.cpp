@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-namespace vitrail {
+namespace vitrail::compile_flags_test {
 namespace {
 
 TEST(CompileFlags, RoundingMathStaysWhereCgalIs) {
@@ -27,4 +27,4 @@ TEST(CompileFlags, RoundingMathStaysWhereCgalIs) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::compile_flags_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace vitrail {
+namespace vitrail::include_direction_test {
 namespace {
 
 const std::map<std::string, std::set<std::string>>& allowed() {
@@ -131,4 +131,4 @@ TEST(Sources, CarryTheirLicence) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::include_direction_test

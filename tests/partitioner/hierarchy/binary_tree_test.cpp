@@ -11,7 +11,7 @@
 
 #include "bundle/domain_file.h"
 
-namespace vitrail {
+namespace vitrail::binary_tree_test {
 namespace {
 
 using Boxes = std::vector<Bounds3f>;
@@ -177,4 +177,4 @@ TEST(BinaryTree, HugeAndTinyNumbers) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::binary_tree_test

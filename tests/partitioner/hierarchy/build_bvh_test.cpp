@@ -7,7 +7,7 @@
 
 #include "tests/partitioner/hierarchy/clustered_mesh.h"
 
-namespace vitrail::test {
+namespace vitrail::test::build_bvh_test {
 namespace {
 
 Triangles soup(int count, float size) {
@@ -157,4 +157,4 @@ TEST(BuildBvh, ThreadsDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::build_bvh_test

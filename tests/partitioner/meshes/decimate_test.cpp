@@ -9,7 +9,7 @@
 
 #include "tests/partitioner/meshes/shapes.h"
 
-namespace vitrail {
+namespace vitrail::decimate_test {
 namespace {
 
 void expect_about(std::size_t triangles, double asked) {
@@ -212,4 +212,4 @@ TEST(Decimate, Deterministic) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::decimate_test

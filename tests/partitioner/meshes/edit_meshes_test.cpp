@@ -11,7 +11,7 @@
 #include "tests/partitioner/meshes/shapes.h"
 #include "tests/support/command.h"
 
-namespace vitrail {
+namespace vitrail::edit_meshes_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -175,4 +175,4 @@ INSTANTIATE_TEST_SUITE_P(Files, CorpusMeshes,
                                            "pbrt/sphere-env/geometry/sphere.ply"));
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::edit_meshes_test

@@ -10,7 +10,7 @@
 #include "partitioner/meshes/exact.h"
 #include "tests/partitioner/meshes/shapes.h"
 
-namespace vitrail {
+namespace vitrail::orient_test {
 namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -132,4 +132,4 @@ TEST(Exact, VolumesOfAlmostNothingHaveASign) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::orient_test

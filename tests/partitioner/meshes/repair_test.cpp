@@ -9,7 +9,7 @@
 
 #include "tests/partitioner/meshes/shapes.h"
 
-namespace vitrail {
+namespace vitrail::repair_test {
 namespace {
 
 TEST(Repair, LeavesASoundMeshAsItIs) {
@@ -108,4 +108,4 @@ TEST(Repair, AgreesWithCgalOnRandomSoups) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::repair_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vitrail {
+namespace vitrail::photometry_test {
 namespace {
 
 TabulatedSpectrum daylight() {
@@ -41,4 +41,4 @@ TEST(Photometry, ColorTemperatureOfBlackbodies) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::photometry_test

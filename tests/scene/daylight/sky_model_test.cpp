@@ -9,7 +9,7 @@
 #include "scene/daylight/photometry.h"
 #include "scene/geometry/portable_math.h"
 
-namespace vitrail {
+namespace vitrail::sky_model_test {
 namespace {
 
 constexpr std::array<float, 6> lambdas_nm{380, 450, 550, 600, 650, 700};
@@ -143,4 +143,4 @@ TEST(SkyModel, GroundAndHazeBrightenTheSky) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::sky_model_test

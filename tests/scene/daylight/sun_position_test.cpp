@@ -7,7 +7,7 @@
 
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::sun_position_test {
 namespace {
 
 double apart(double a_deg, double b_deg) { return std::abs(std::remainder(a_deg - b_deg, 360)); }
@@ -54,4 +54,4 @@ TEST(LocalTime, ReadsIso8601) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::sun_position_test

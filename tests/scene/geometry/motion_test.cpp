@@ -8,7 +8,7 @@
 
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::motion_test {
 namespace {
 
 constexpr double degree = 0.017453292519943295;
@@ -138,4 +138,4 @@ TEST(Motion, StandsStillWhereTheShutterSeesNoChange) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::motion_test

@@ -4,7 +4,7 @@
 
 #include "scene/geometry/bounds.h"
 
-namespace vitrail {
+namespace vitrail::rounding_test {
 namespace {
 
 // As importers move meshes that lie far from the origin.
@@ -25,4 +25,4 @@ TEST(Rounding, OfDoublesToFloatsIsNotOptimisedAway) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::rounding_test

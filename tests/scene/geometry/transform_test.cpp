@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace vitrail {
+namespace vitrail::transform_test {
 namespace {
 
 void expect_near(const Transform& a, const Transform& b, double tolerance) {
@@ -55,4 +55,4 @@ TEST(LookAt, LooksAlongZWithUpUp) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::transform_test

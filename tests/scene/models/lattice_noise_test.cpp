@@ -13,7 +13,7 @@
 
 #include "scene/models/lattice_noise_lanes.h"
 
-namespace vitrail {
+namespace vitrail::lattice_noise_test {
 namespace {
 
 // Perlin's: between the eight corners, each with a value and a slope.
@@ -92,4 +92,4 @@ TEST(LatticeNoise, HasTheBitsOfItsDefinitionAtExtremes) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::lattice_noise_test

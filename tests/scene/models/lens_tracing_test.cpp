@@ -11,7 +11,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/double_gauss.h"
 
-namespace vitrail::test {
+namespace vitrail::test::lens_tracing_test {
 namespace {
 
 constexpr double focus = 1.5, film_radius = 0.0216;  // of 24 × 36 mm
@@ -140,4 +140,4 @@ TEST(LensTracing, AThinViewIsInFocusAtTheSamePlace) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::lens_tracing_test

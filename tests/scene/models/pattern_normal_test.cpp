@@ -9,7 +9,7 @@
 
 #include "scene/models/pattern.h"
 
-namespace vitrail {
+namespace vitrail::pattern_normal_test {
 namespace {
 
 using Kind = PatternTexture::Kind;
@@ -104,4 +104,4 @@ TEST(PatternNormals, RingsAreAsLongAsTheirFrequencySays) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pattern_normal_test

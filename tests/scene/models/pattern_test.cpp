@@ -10,7 +10,7 @@
 #include "scene/models/lattice_noise.h"
 #include "scene/models/pattern.h"
 
-namespace vitrail {
+namespace vitrail::pattern_test {
 namespace {
 
 using Kind = PatternTexture::Kind;
@@ -336,4 +336,4 @@ TEST(Patterns, WhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pattern_test

@@ -8,7 +8,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::sensor_file_test {
 namespace {
 
 class SensorFile : public ::testing::Test {
@@ -54,4 +54,4 @@ TEST(SensorFilm, HasAColumnASensor) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::sensor_file_test

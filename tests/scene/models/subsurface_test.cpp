@@ -9,7 +9,7 @@
 #include "scene/models/measured_media.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
-namespace vitrail {
+namespace vitrail::subsurface_test {
 namespace {
 
 double albedo(const ExtinctionAlbedo& medium, double lambda_nm = 550) {
@@ -101,4 +101,4 @@ TEST(Interiors, OfTexturesAndUnknownNamesAreNotKnown) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::subsurface_test

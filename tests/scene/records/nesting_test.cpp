@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-namespace vitrail {
+namespace vitrail::nesting_test {
 namespace {
 
 Instance at(std::uint32_t prototype, const Transform& t) { return {Id<Prototype>{prototype}, t, {}}; }
@@ -96,4 +96,4 @@ TEST(Nesting, LongChainsAndEmptyObjectsCostLittle) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::nesting_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace vitrail {
+namespace vitrail::mesh_parts_test {
 namespace {
 
 using testing::ElementsAre;
@@ -127,4 +127,4 @@ TEST(MeshParts, SomeTrianglesKeepTheirAttributes) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::mesh_parts_test

@@ -8,7 +8,7 @@
 #include "scene/spectra/named_spectra.h"
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::color_test {
 namespace {
 
 TEST(CieTables, ObserverIntegratesToTheConstant) {
@@ -79,4 +79,4 @@ TEST(SrgbTransfer, KnownValuesAndInverse) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::color_test

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <random>
 
-namespace vitrail {
+namespace vitrail::matrix_r_test {
 namespace {
 
 double error(RGB a, RGB b) {
@@ -72,4 +72,4 @@ TEST(MatrixR, GreysAreConstantAndTablesAgree) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::matrix_r_test

@@ -9,7 +9,7 @@
 #include "scene/spectra/color.h"
 #include "scene/spectra/metal_tables.h"
 
-namespace vitrail {
+namespace vitrail::named_spectra_test {
 namespace {
 
 struct Illuminant {
@@ -62,4 +62,4 @@ TEST(NamedSpectra, BrassIsThatOfQuerry) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::named_spectra_test

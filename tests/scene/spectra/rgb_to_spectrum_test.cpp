@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace vitrail {
+namespace vitrail::rgb_to_spectrum_test {
 namespace {
 
 // The colour of a reflectance under D65.
@@ -86,4 +86,4 @@ TEST(RgbToEmission, NothingBelowZero) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::rgb_to_spectrum_test

@@ -11,7 +11,7 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "scene/system/diagnostics.h"
 
-namespace vitrail {
+namespace vitrail::spectrum_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -171,4 +171,4 @@ TEST(Glass, HasTheIndexAndAbbeNumberOfTheCatalogue) {
 TEST(Named, UnknownNamesAreEmpty) { EXPECT_FALSE(named_spectrum("metal-Unobtainium").has_value()); }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::spectrum_test

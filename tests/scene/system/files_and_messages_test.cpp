@@ -26,7 +26,7 @@ extern "C" int syncfs(int descriptor) noexcept {
   return static_cast<int>(::syscall(SYS_syncfs, descriptor));
 }
 
-namespace vitrail {
+namespace vitrail::files_and_messages_test {
 namespace {
 
 std::string content(const std::filesystem::path& file) {
@@ -167,4 +167,4 @@ TEST(RegularFile, IsNoPipeAndNoDevice) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::files_and_messages_test

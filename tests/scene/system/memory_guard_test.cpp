@@ -15,7 +15,7 @@
 // A sanitizer keeps its own `new`.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
-namespace vitrail {
+namespace vitrail::memory_guard_test {
 namespace {
 
 constexpr std::uint64_t mib = 1 << 20;
@@ -190,6 +190,6 @@ TEST(MemoryGuard, AllowsAllWhereNothingIsPromised) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::memory_guard_test
 
 #endif

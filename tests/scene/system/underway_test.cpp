@@ -7,7 +7,7 @@
 #include <chrono>
 #include <thread>
 
-namespace vitrail {
+namespace vitrail::underway_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -64,4 +64,4 @@ TEST(Underway, WhoWorksBeginsOrHasEndedDoesNotStandStill) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::underway_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vitrail {
+namespace vitrail::measured_test {
 namespace {
 
 const MeasuredSheet pane{
@@ -62,4 +62,4 @@ TEST(MeasuredSheet, BlackAbsorbs) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::measured_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace vitrail {
+namespace vitrail::principled_test {
 namespace {
 
 struct Reference {
@@ -52,4 +52,4 @@ TEST(Principled, AgreesWithMitsuba) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::principled_test

@@ -10,7 +10,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/partitioner/hierarchy/clustered_mesh.h"
 
-namespace vitrail::test {
+namespace vitrail::test::intersect_test {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -397,4 +397,4 @@ TEST(Intersect, OfFacesInOnePlaneTheOneThatFacesTheRayIsSeen) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::intersect_test

@@ -9,7 +9,7 @@
 
 #include "tests/partitioner/hierarchy/clustered_mesh.h"
 
-namespace vitrail::test {
+namespace vitrail::test::many_rays_test {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -133,4 +133,4 @@ TEST(ManyRays, MeetEdgesAndVerticesAsEachDoes) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::many_rays_test

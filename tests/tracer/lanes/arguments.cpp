@@ -3,15 +3,9 @@
 
 #include <cmath>
 
-#include "scene/geometry/vec.h"
-
 namespace vitrail::lane_tests {
 
 namespace {
-
-double uniform(Random& random, double low = 0, double high = 1) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 std::vector<std::vector<double>> each_alone(const std::vector<double>& values) {
   std::vector<std::vector<double>> result;
@@ -25,8 +19,6 @@ Vector3d random_direction(Random& random) {
     if (const double l = dot(v, v); l > 1e-4 && l < 1) return normalize(v);
   }
 }
-
-void put(Vector3d v, double* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
 std::vector<std::vector<double>> corner_directions() {
   std::vector<std::vector<double>> result;

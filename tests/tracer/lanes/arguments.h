@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "scene/geometry/vec.h"
+
 namespace vitrail::lane_tests {
 
 using Random = std::mt19937_64;
@@ -18,6 +20,20 @@ struct Argument {
   std::vector<std::vector<double>> corners;
   std::function<void(Random&, double*)> random;
 };
+
+// A number in [low, high), of 53 bits.
+inline double uniform(Random& random, double low = 0, double high = 1) {
+  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+// The arguments' numbers as what they stand for, and back. `put` returns where the next result goes.
+inline Vector3d vector_of(const double* in) { return {in[0], in[1], in[2]}; }
+inline Point3d point_of(const double* in) { return {in[0], in[1], in[2]}; }
+template <class V>
+double* put(const V& v, double* out) {
+  out[0] = static_cast<double>(v.x), out[1] = static_cast<double>(v.y), out[2] = static_cast<double>(v.z);
+  return out + 3;
+}
 
 // In [low, high].
 Argument number(double low, double high, std::vector<double> corners);

@@ -12,9 +12,6 @@ namespace vitrail::lane_tests {
 
 namespace {
 
-double uniform(Random& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
 Point3f point(Random& random, double extent) {
   const auto x = [&] { return static_cast<float>(uniform(random, -extent, extent)); };
   return {x(), x(), x()};

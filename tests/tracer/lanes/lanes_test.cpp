@@ -10,7 +10,7 @@
 #include "tests/tracer/lanes/fixtures.h"
 #include "tests/tracer/lanes/scalar_functions.h"
 
-namespace vitrail::lane_tests {
+namespace vitrail::lane_tests::lanes_test {
 
 namespace {
 
@@ -98,4 +98,4 @@ TEST(LanesOfAll, AreComparedWithSomething) {
 }
 
 }  // namespace
-}  // namespace vitrail::lane_tests
+}  // namespace vitrail::lane_tests::lanes_test

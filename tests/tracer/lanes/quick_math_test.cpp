@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vitrail {
+namespace vitrail::quick_math_test {
 namespace {
 
 TEST(QuickMath, Exponential) {
@@ -35,4 +35,4 @@ TEST(QuickMath, Circle) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::quick_math_test

@@ -10,8 +10,6 @@ namespace vitrail::lane_tests {
 
 namespace {
 
-Vector3d vector_of(const double* in) { return {in[0], in[1], in[2]}; }
-
 // Zero, ends of the range, and where two multiples of ln 2 are as near.
 std::vector<double> exponents() {
   std::vector<double> all{0, -0.0, 1, -746, 710};

@@ -8,17 +8,6 @@
 
 namespace vitrail::lane_tests {
 
-namespace {
-
-Vector3d vector_of(const double* in) { return {in[0], in[1], in[2]}; }
-template <class V>
-double* put(const V& v, double* out) {
-  out[0] = static_cast<double>(v.x), out[1] = static_cast<double>(v.y), out[2] = static_cast<double>(v.z);
-  return out + 3;
-}
-
-}  // namespace
-
 std::vector<ScalarFunction> geometry_functions() {
   return {
       {"encode_direction",

@@ -14,7 +14,6 @@ namespace vitrail::lane_tests {
 
 namespace {
 
-Vector3d vector_of(const double* in) { return {in[0], in[1], in[2]}; }
 SampledSpectrum four_of(const double* in) {
   return {{static_cast<float>(in[0]), static_cast<float>(in[1]), static_cast<float>(in[2]),
            static_cast<float>(in[3])}};

@@ -7,9 +7,6 @@ namespace vitrail::lane_tests {
 
 namespace {
 
-Vector3d vector_of(const double* in) { return {in[0], in[1], in[2]}; }
-void put(Vector3d v, double* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
-
 Argument cosine() { return number(0, 1, {0, 1e-9, 0.5, 1 - 0x1p-53, 1}); }
 Argument index() { return number(0.3, 3, {1, 1.5, 1 / 1.5, 1 + 1e-9}); }
 

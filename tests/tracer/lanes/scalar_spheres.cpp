@@ -9,8 +9,6 @@ namespace vitrail::lane_tests {
 
 namespace {
 
-Vector3d vector_of(const double* in) { return {in[0], in[1], in[2]}; }
-Point3d point_of(const double* in) { return {in[0], in[1], in[2]}; }
 const EmissiveQuadric& sphere(const double* in) {
   return fixtures().spheres[static_cast<std::size_t>(in[0])];
 }

@@ -12,8 +12,6 @@ namespace vitrail::lane_tests {
 
 namespace {
 
-Vector3d vector_of(const double* in) { return {in[0], in[1], in[2]}; }
-Point3d point_of(const double* in) { return {in[0], in[1], in[2]}; }
 Point3f float_point_of(const double* in) { return cast<float>(point_of(in)); }
 
 Argument wavelength() { return float_number(350, 840, {360, 360.5, 829.5, 830, 400}); }

@@ -7,7 +7,7 @@
 #include "tests/tracer/lights/light_fixtures.h"
 #include "tracer/sampling/wavelengths.h"
 
-namespace vitrail {
+namespace vitrail::environment_test {
 
 namespace {
 
@@ -235,4 +235,4 @@ TEST(Environment, AgreesWithMitsuba) {
                 2e-4);
 }
 
-}  // namespace vitrail
+}  // namespace vitrail::environment_test

@@ -9,7 +9,7 @@
 #include "scene/models/fading.h"
 #include "tests/tracer/lights/light_fixtures.h"
 
-namespace vitrail::test {
+namespace vitrail::test::fading_lights_test {
 namespace {
 
 LightScene scene_of(const std::vector<Light>& lights, float half = 10) {
@@ -121,4 +121,4 @@ TEST(FadingLights, TightSpot) {
 }
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::fading_lights_test

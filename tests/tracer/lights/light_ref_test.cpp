@@ -8,7 +8,7 @@
 
 #include "tests/tracer/lights/light_fixtures.h"
 
-namespace vitrail {
+namespace vitrail::light_ref_test {
 namespace {
 
 // Kinds without lights stand first, last, alone and side by side.
@@ -69,4 +69,4 @@ TEST(LightNumbers, AreThoseOfTheSampler) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::light_ref_test

@@ -9,7 +9,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tests/tracer/lights/light_fixtures.h"
 
-namespace vitrail {
+namespace vitrail::light_sampler_test {
 
 namespace {
 
@@ -432,4 +432,4 @@ TEST(LightSampler, SaysHowMuchSamplesDiffer) {
   EXPECT_EQ(variety(make(sky), {0.5, 0.5, 1}), Variety::none);
 }
 
-}  // namespace vitrail
+}  // namespace vitrail::light_sampler_test

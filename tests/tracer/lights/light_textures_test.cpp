@@ -9,7 +9,7 @@
 #include "tracer/quadrics/quadric_surface.h"
 #include "tracer/sampling/luminance_of.h"
 
-namespace vitrail {
+namespace vitrail::light_textures_test {
 
 namespace {
 
@@ -247,4 +247,4 @@ TEST(LightTextures, ColouredEnvironmentsHaveTheirIlluminance) {
   EXPECT_NEAR(up, 100, 0.3);
 }
 
-}  // namespace vitrail
+}  // namespace vitrail::light_textures_test

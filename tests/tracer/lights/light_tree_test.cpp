@@ -6,7 +6,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tests/tracer/lights/light_fixtures.h"
 
-namespace vitrail {
+namespace vitrail::light_tree_test {
 
 namespace {
 
@@ -224,4 +224,4 @@ TEST(LightTree, TakesLightsOnTopOfEachOther) {
   EXPECT_TRUE(tree.choose({1e300, -1e300, 0}, 0.3));
 }
 
-}  // namespace vitrail
+}  // namespace vitrail::light_tree_test

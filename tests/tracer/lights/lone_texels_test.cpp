@@ -10,7 +10,7 @@
 #include "tracer/lights/emission.h"
 #include "tracer/lights/sphere_map.h"
 
-namespace vitrail {
+namespace vitrail::lone_texels_test {
 
 namespace {
 
@@ -366,4 +366,4 @@ TEST(LoneTexels, OfTexturesThatAreComputed) {
   }
 }
 
-}  // namespace vitrail
+}  // namespace vitrail::lone_texels_test

@@ -6,7 +6,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tests/tracer/lights/light_fixtures.h"
 
-namespace vitrail {
+namespace vitrail::point_emitter_test {
 
 namespace {
 
@@ -156,4 +156,4 @@ TEST(PointEmitter, GoniometricImageHasItsUpOnTheLightsY) {
   EXPECT_NEAR(flux_of(make_emitter(light, image)), 2 * 30, 0.6);
 }
 
-}  // namespace vitrail
+}  // namespace vitrail::point_emitter_test

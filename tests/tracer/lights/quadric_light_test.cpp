@@ -11,7 +11,7 @@
 #include "tracer/quadrics/quadric_surface.h"
 #include "tracer/rays/ray.h"
 
-namespace vitrail {
+namespace vitrail::quadric_light_test {
 
 namespace {
 
@@ -463,4 +463,4 @@ TEST(QuadricLight, FlattenedOnesGiveNothing) {
   }
 }
 
-}  // namespace vitrail
+}  // namespace vitrail::quadric_light_test

@@ -9,7 +9,7 @@
 #include "tracer/media/free_flight.h"
 #include "tracer/media/grid.h"
 
-namespace vitrail {
+namespace vitrail::colored_media_test {
 namespace {
 
 using Values = std::array<double, 4>;
@@ -110,4 +110,4 @@ TEST(ColoredMedia, AttenuateEachWavelengthByItself) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::colored_media_test

@@ -13,7 +13,7 @@
 #include "tracer/media/free_flight.h"
 #include "tracer/media/grid.h"
 
-namespace vitrail {
+namespace vitrail::majorants_test {
 namespace {
 
 constexpr SampledWavelengths wavelengths{{450, 500, 550, 620}, {1, 1, 1, 1}};
@@ -308,4 +308,4 @@ TEST(Flights, NeedNoChanceWhereNothingVaries) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::majorants_test

@@ -14,7 +14,7 @@
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail {
+namespace vitrail::film_exponent_test {
 namespace {
 
 TEST(FilmExponent, LeavesRoomOnBothSides) {
@@ -147,4 +147,4 @@ TEST(LightRange, SpansTheDimmestAndTheBrightest) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::film_exponent_test

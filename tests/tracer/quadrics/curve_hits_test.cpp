@@ -11,7 +11,7 @@
 
 #include "tracer/quadrics/curve_parts.h"
 
-namespace vitrail {
+namespace vitrail::curve_hits_test {
 namespace {
 
 using Real = long double;
@@ -326,4 +326,4 @@ TEST(Curves, APlaceIsTheirRecord) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::curve_hits_test

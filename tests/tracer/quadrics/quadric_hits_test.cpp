@@ -12,7 +12,7 @@
 #include "tracer/quadrics/quadric_surface.h"
 #include "tracer/rays/ray.h"
 
-namespace vitrail {
+namespace vitrail::quadric_hits_test {
 namespace {
 
 using Digits =
@@ -318,4 +318,4 @@ TEST(QuadricSurface, DerivativesAreThoseOfThePoint) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::quadric_hits_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace vitrail {
+namespace vitrail::domain_tree_test {
 namespace {
 
 bool holds(const Bounds3f& outer, const Bounds3f& inner) {
@@ -73,4 +73,4 @@ TEST(DomainTree, HasNoNodesOfOneDomainOrOfEmptyOnes) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::domain_tree_test

@@ -13,7 +13,7 @@
 #include "tracer/rays/connection_code.h"
 #include "tracer/sampling/wavelengths.h"
 
-namespace vitrail {
+namespace vitrail::ray_records_test {
 namespace {
 
 TEST(Direction, SurvivesItsCode) {
@@ -234,4 +234,4 @@ TEST(Hemisphere, IsCosineWeighted) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::ray_records_test

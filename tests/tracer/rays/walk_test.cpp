@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace vitrail {
+namespace vitrail::walk_test {
 namespace {
 
 // The cube [−1,1]³ cut in halves, round the axes, into 2^depth domains whose tight bounds are their boxes.
@@ -207,4 +207,4 @@ TEST(Walk, StopsBehindTheHit) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::walk_test

@@ -9,7 +9,7 @@
 
 #include "film/sample_groups.h"
 
-namespace vitrail {
+namespace vitrail::sampler_test {
 namespace {
 
 // Point i of a group's sequence.
@@ -125,4 +125,4 @@ TEST(Sampler, GroupsErrIndependently) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::sampler_test

@@ -8,7 +8,7 @@
 
 #include "tracer/sampling/sampler.h"
 
-namespace vitrail {
+namespace vitrail::albedo_test {
 namespace {
 
 Vector3d direction(double cosine) { return {std::sqrt(1 - cosine * cosine), 0, cosine}; }
@@ -76,4 +76,4 @@ TEST(Albedo, IsExactWhereItIsKnown) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::albedo_test

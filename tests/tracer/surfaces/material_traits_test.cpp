@@ -12,7 +12,7 @@
 #include "tracer/sampling/wavelengths.h"
 #include "tracer/surfaces/surface_materials.h"
 
-namespace vitrail {
+namespace vitrail::material_traits_test {
 namespace {
 
 MeasuredSheet clear_sheet() {
@@ -135,4 +135,4 @@ TEST(MaterialTraits, OfWhatIsMadeOfOthers) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::material_traits_test

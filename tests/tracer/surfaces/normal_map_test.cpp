@@ -7,7 +7,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tracer/surfaces/surface_materials.h"
 
-namespace vitrail {
+namespace vitrail::normal_map_test {
 
 namespace {
 
@@ -57,4 +57,4 @@ TEST(NormalMap, TurnsTheTangentOfTheSmoothFrame) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::normal_map_test

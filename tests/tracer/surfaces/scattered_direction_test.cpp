@@ -5,7 +5,7 @@
 
 #include "scene/geometry/portable_math.h"
 
-namespace vitrail {
+namespace vitrail::scattered_direction_test {
 namespace {
 
 // A surface seen along `out`, whose shading normal leans by 0.6 rad towards +x.
@@ -61,4 +61,4 @@ TEST(ScatteredDirection, GoesAnywhereThroughWhatTransmits) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::scattered_direction_test

@@ -13,7 +13,7 @@
 #include "tests/support/temporary_directory.h"
 #include "tracer/textures/tile_cache.h"
 
-namespace vitrail {
+namespace vitrail::baked_image_test {
 
 namespace {
 
@@ -227,4 +227,4 @@ TEST(BakedImage, DamagedTileIsAnErrorWhenItIsRead) {
 
 }  // namespace
 
-}  // namespace vitrail
+}  // namespace vitrail::baked_image_test

@@ -9,7 +9,7 @@
 
 #include "scene/spectra/rgb_to_spectrum.h"
 
-namespace vitrail {
+namespace vitrail::noise_test {
 namespace {
 
 constexpr int points = 20'000;
@@ -130,4 +130,4 @@ TEST(Dots, AreDiscsInTwoOfFiveCells) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::noise_test

@@ -18,7 +18,7 @@
 #include "tracer/transport/waves/lane_stages.h"
 #include "tracer/transport/waves/tracer.h"
 
-namespace vitrail::test {
+namespace vitrail::test::waves_test {
 namespace {
 
 struct Case {
@@ -553,4 +553,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Waves, ::testing::ValuesIn(cases()), [](const a
 });
 
 }  // namespace
-}  // namespace vitrail::test
+}  // namespace vitrail::test::waves_test

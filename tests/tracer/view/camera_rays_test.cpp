@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace vitrail {
+namespace vitrail::camera_rays_test {
 namespace {
 
 constexpr int grid = 64;
@@ -202,4 +202,4 @@ TEST(WideCamera, MovesAlongACylinder) {
 }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::camera_rays_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/render.h"
 
-namespace vitrail {
+namespace vitrail::pixel_filter_test {
 namespace {
 
 using Function = std::function<double(double)>;
@@ -161,4 +161,4 @@ TEST(PixelFilter, RingsBesideAnEdge) { expect_rings_beside_an_edge(false); }
 TEST(PixelFilter, RingsBesideAnEdgeWhereSamplesSplat) { expect_rings_beside_an_edge(true); }
 
 }  // namespace
-}  // namespace vitrail
+}  // namespace vitrail::pixel_filter_test
