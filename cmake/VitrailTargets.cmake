@@ -13,6 +13,8 @@ target_compile_options(vitrail_options INTERFACE
   # The picture has to have the same bits on every machine and in every build: a fused multiply-add rounds once where
   # a multiply and an add round twice, and the compiler would choose.
   -ffp-contract=off
+  # __FILE__ is the path in the project: the same program, and the same entry of a compiler cache, whichever folder it is built in.
+  $<BUILD_INTERFACE:-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=>
   # Nothing reads errno of mathematics: square roots and roundings are instructions, not calls.
   -fno-math-errno
   # GCC 12 loses the rounding of double → float → double where it vectorises straight-line code (a select between such a
@@ -115,9 +117,7 @@ set(vitrail_test_options $<$<CONFIG:Release>:-O1>)
 # vitrail_test_program(PROGRAM): a program of tests, as yet without any.
 function(vitrail_test_program program)
   add_executable(${program} ${PROJECT_SOURCE_DIR}/tests/support/main.cpp)
-  target_link_libraries(${program} PRIVATE vitrail::options GTest::gmock)
-  target_compile_definitions(${program} PRIVATE
-    VITRAIL_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VITRAIL_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  target_link_libraries(${program} PRIVATE vitrail::options vitrail::test_paths GTest::gmock)
   target_compile_options(${program} PRIVATE ${vitrail_test_options})
   target_precompile_headers(${program} REUSE_FROM vitrail_precompiled_tests)
   file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/written/tests/${program}/test_files.h

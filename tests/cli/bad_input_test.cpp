@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::bad_input_test {
@@ -42,7 +43,7 @@ class BadInput : public ::testing::Test {
     const auto bundle = directory_ / "good.vit";
     const CommandResult made =
         run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 4",
-                        vitrail("partition"), VITRAIL_SOURCE_DIR, bundle.string()));
+                        vitrail("partition"), source_dir(), bundle.string()));
     EXPECT_EQ(made.status, 0) << made.output;
     return bundle;
   }

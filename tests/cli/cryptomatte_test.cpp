@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::cryptomatte_test {
@@ -44,7 +45,7 @@ class CryptomatteTyped : public ::testing::Test {
   }
   Json masks(const std::string& picture) const {
     const CommandResult read = run(fmt::format("/usr/bin/python3 {}/tests/cli/read_cryptomatte.py {}",
-                                               VITRAIL_SOURCE_DIR, path(picture)));
+                                               source_dir(), path(picture)));
     EXPECT_EQ(read.status, 0) << read.output;
     return Json::parse(read.output);
   }

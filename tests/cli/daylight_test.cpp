@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::daylight_test {
@@ -40,7 +41,7 @@ class Daylight : public ::testing::Test {
 
 // docs/reference/sky.md lists each key of `sky --json`.
 TEST_F(Daylight, JsonIsAsDocumented) {
-  std::ifstream page(VITRAIL_SOURCE_DIR "/docs/reference/sky.md");
+  std::ifstream page(project_file("docs/reference/sky.md"));
   std::set<std::string> documented, found;
   static const std::regex key("`([a-z0-9_]+)`");
   for (std::string line; std::getline(page, line);) {

@@ -12,6 +12,7 @@
 #include "film/image_io.h"
 #include "film/picture_extent.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::develop_test {
@@ -26,7 +27,7 @@ class Develop : public ::testing::Test {
   CommandResult render(const std::string& out, const std::string& more) const {
     return run(
         fmt::format("{} {}/examples/cornell-box/cornell-box.pbrt --width 40 --height 20 --quiet -o {} {}",
-                    vitrail("render"), VITRAIL_SOURCE_DIR, path(out), more));
+                    vitrail("render"), source_dir(), path(out), more));
   }
   CommandResult develop(const std::string& in, const std::string& out, const std::string& more = "") const {
     return run(fmt::format("{} {} -o {} {}", vitrail("develop"), in, path(out), more));

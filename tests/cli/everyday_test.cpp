@@ -9,6 +9,7 @@
 
 #include "film/film_progress.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::everyday_test {
@@ -16,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string scene = VITRAIL_SOURCE_DIR "/examples/cornell-box/cornell-box.pbrt";
+const std::string scene = project_file("examples/cornell-box/cornell-box.pbrt");
 
 TEST(Everyday, SceneToPictureInOneStep) {
   const TemporaryDirectory directory;

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::frames_test {
@@ -20,7 +21,7 @@ class Frames : public ::testing::Test {
  protected:
   Frames() {
     const CommandResult made = run(fmt::format("{} {}/examples/cornell-box/cornell-box.pbrt -o {} --quiet",
-                                               vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit")));
+                                               vitrail("partition"), source_dir(), path("box.vit")));
     EXPECT_EQ(made.status, 0) << made.output;
   }
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
@@ -96,7 +97,7 @@ TEST_F(Frames, ThatAreThereHaveToBeWhatTheirLinesAskFor) {
   EXPECT_THAT(render_frames().output, HasSubstr("f002.png is there and stays"));
   const CommandResult other = run(fmt::format(
       "{} {}/examples/cornell-box/cornell-box.pbrt -o {} --quiet --force --sky 48,2,2026-06-21T12:00+02:00",
-      vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit")));
+      vitrail("partition"), source_dir(), path("box.vit")));
   ASSERT_EQ(other.status, 0) << other.output;
   expect_refused("", "lights: ");
   fs::remove(directory_ / "fframes.png.json");
@@ -152,7 +153,7 @@ TEST_F(Frames, WhatIsWrongIsSaidWithItsLine) {
   EXPECT_THAT(unnumbered.output, HasSubstr("%04d"));
   const CommandResult of_scene =
       run(fmt::format("{} {}/examples/cornell-box/cornell-box.pbrt --frames {} -o {}", vitrail("render"),
-                      VITRAIL_SOURCE_DIR, path("frames.txt"), path("f%d.png")));
+                      source_dir(), path("frames.txt"), path("f%d.png")));
   EXPECT_EQ(of_scene.status, 2);
   EXPECT_THAT(of_scene.output, HasSubstr("partition"));
 }
@@ -161,7 +162,7 @@ TEST_F(Frames, OfTheExamplesAreFrames) {
   const CommandResult turned =
       run(fmt::format("/usr/bin/python3 {}/examples/frames/turntable.py --around 0,1,0 --radius 0.9 "
                       "--up y --frames 3 > {}",
-                      VITRAIL_SOURCE_DIR, path("frames.txt")));
+                      source_dir(), path("frames.txt")));
   ASSERT_EQ(turned.status, 0) << turned.output;
   const CommandResult all = render_frames();
   EXPECT_EQ(all.status, 0) << all.output;

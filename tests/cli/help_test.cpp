@@ -11,6 +11,7 @@
 
 #include "cli/help/verbs.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::help_test {
@@ -108,7 +109,7 @@ TEST(Help, SaysWhereToStart) {
 
 TEST(Options, TheLastOfOneCounts) {
   const TemporaryDirectory directory;
-  const std::string scene = VITRAIL_SOURCE_DIR "/examples/cornell-box/cornell-box.pbrt";
+  const std::string scene = project_file("examples/cornell-box/cornell-box.pbrt");
   const std::string film = (directory / "a.film").string();
   const CommandResult made =
       run(fmt::format("{} '{}' -o '{}' --width 64 --spp 4 --height 9 --height 8 --spp 1 --width 8",

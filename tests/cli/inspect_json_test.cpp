@@ -9,6 +9,7 @@
 #include <regex>
 
 #include "tests/support/partitioned_box.h"
+#include "tests/support/paths.h"
 
 namespace vitrail::test::inspect_json_test {
 namespace {
@@ -20,7 +21,7 @@ using Types = std::map<std::string, std::string>;
 
 // By heading: rows of "| `key` `key` | type | what |".
 std::map<std::string, Types> documented() {
-  std::ifstream in(VITRAIL_SOURCE_DIR "/docs/reference/inspect.md");
+  std::ifstream in(project_file("docs/reference/inspect.md"));
   std::map<std::string, Types> sections;
   std::string heading;
   static const std::regex row(R"(\| ((?:`[^`]+` ?)+)\| ([a-z ]+) \|.*)"), key(R"(`([^`]+)`)");
@@ -64,7 +65,7 @@ void expect_documented(const nlohmann::json& value, const std::string& key, cons
 class InspectJson : public PartitionedBox {
  protected:
   InspectJson() : PartitionedBox(2) {}
-  const std::string scene_ = VITRAIL_SOURCE_DIR "/examples/cornell-box/cornell-box.pbrt";
+  const std::string scene_ = project_file("examples/cornell-box/cornell-box.pbrt");
   nlohmann::json json(const std::string& file) const {
     const CommandResult done = run(fmt::format("{} '{}' --json --missing=replace", vitrail("inspect"), file));
     EXPECT_EQ(done.status, 0) << done.output;

@@ -9,6 +9,7 @@
 
 #include "film/film_progress.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::pictures_test {
@@ -131,7 +132,7 @@ TEST_F(Pictures, ARenderWritesPngItself) {
   ASSERT_EQ(run(vitrail("partition") + " " + path("in.pbrt") + " -o " + path("in.vit") + " --quiet").status,
             0);
   std::filesystem::create_directory(directory_ / "alone");
-  std::filesystem::copy_file(std::filesystem::path(VITRAIL_BIN_DIR) / "vitrail-render",
+  std::filesystem::copy_file(std::filesystem::path(bin_dir()) / "vitrail-render",
                              directory_ / "alone/vitrail-render");
   const auto alone = [&](const std::string& out) {
     return run(fmt::format("{} {} -o {} --spp 2 --crop 5,30,2,20 --quiet", path("alone/vitrail-render"),

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::plan_test {
@@ -25,7 +26,7 @@ class Plan : public ::testing::Test {
   }
   int make(const std::string& bundle, int domains, const std::string& options = "") const {
     return run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains {} {}",
-                           vitrail("partition"), VITRAIL_SOURCE_DIR, path(bundle), domains, options))
+                           vitrail("partition"), source_dir(), path(bundle), domains, options))
         .status;
   }
   CommandResult render(const std::string& profile, const std::string& options, int ranks) const {

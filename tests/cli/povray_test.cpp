@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::povray_test {
@@ -108,7 +109,7 @@ class PovrayExamples : public Povray, public ::testing::WithParamInterface<const
 TEST_P(PovrayExamples, AreReadWhole) {
   const CommandResult read = run_verb(
       "inspect",
-      fmt::format("'{}/examples/povray/{}.pov' --json > report.json", VITRAIL_SOURCE_DIR, GetParam()));
+      fmt::format("'{}/examples/povray/{}.pov' --json > report.json", source_dir(), GetParam()));
   ASSERT_EQ(read.status, 0) << read.output;
   const nlohmann::json report = read_json(folder_ / "report.json");
   EXPECT_GT(report["triangles"], 0);
@@ -129,7 +130,7 @@ TEST_F(Povray, TheLampOfTheRoomShines) {
     EXPECT_EQ(seen.status, 0) << seen.output;
     return read_json(folder_ / "film.json")["mean_luminance"].get<double>();
   };
-  const std::string room = VITRAIL_SOURCE_DIR "/examples/povray/room.pov";
+  const std::string room = project_file("examples/povray/room.pov");
   std::ifstream in(room);
   std::string dark{std::istreambuf_iterator<char>(in), {}};
   const std::string lamp = "color rgb <2.2, 2.0, 1.7>";
@@ -140,7 +141,7 @@ TEST_F(Povray, TheLampOfTheRoomShines) {
 
 // The film of one domain, too, where two ranks hold an eighth of 64.
 TEST_F(Povray, TheFilmOfOneDomainInAnEighthOfTheMemory) {
-  const std::string scene = VITRAIL_SOURCE_DIR "/examples/povray/carved.pov";
+  const std::string scene = project_file("examples/povray/carved.pov");
   const auto render = [&](int domains, int ranks, const std::string& more) {
     const std::string bundle = fmt::format("{}.vit", domains);
     if (!fs::exists(folder_ / bundle)) {

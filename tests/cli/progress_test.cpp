@@ -9,6 +9,7 @@
 
 #include "scene/system/progress_line.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/support/terminal.h"
 
@@ -61,7 +62,7 @@ TEST(Progress, OnTerminalsOfThreeWidths) {
     const std::string output = run_on_terminal(
         fmt::format(
             "{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --spp 20000 --crop 0,64,0,64 --time 2",
-            vitrail("render"), VITRAIL_SOURCE_DIR, (directory / "x.png").string()),
+            vitrail("render"), source_dir(), (directory / "x.png").string()),
         columns);
     EXPECT_THAT(output,
                 AllOf(HasSubstr("render "), HasSubstr(" % "), HasSubstr("\033[32m"), HasSubstr("x.png: ")));
@@ -74,7 +75,7 @@ TEST(Progress, WithoutColorsWhereTheyAreNotWanted) {
   const std::string output = run_on_terminal(
       fmt::format(
           "NO_COLOR=1 {} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --crop 0,64,0,64 --time 1",
-          vitrail("render"), VITRAIL_SOURCE_DIR, (directory / "x.png").string()),
+          vitrail("render"), source_dir(), (directory / "x.png").string()),
       80);
   EXPECT_THAT(output, AllOf(HasSubstr("render "), Not(HasSubstr("\033[32m"))));
 }
@@ -83,7 +84,7 @@ TEST(Progress, TheReportOfPartitionBeginsALine) {
   const TemporaryDirectory directory;
   const std::string output =
       run_on_terminal(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 4",
-                                  vitrail("partition"), VITRAIL_SOURCE_DIR, (directory / "x.vit").string()),
+                                  vitrail("partition"), source_dir(), (directory / "x.vit").string()),
                       80);
   const std::size_t report = output.find("x.vit: ");
   ASSERT_NE(report, std::string::npos) << output;
@@ -97,7 +98,7 @@ TEST(Progress, TheLastEventSaysThatTheRenderWasStopped) {
       run(fmt::format("timeout --preserve-status -s INT 3 {} '{}/examples/cornell-box/cornell-box.pbrt' -o "
                       "'{}' --spp 1000000 "
                       "--progress json --quiet 2>&1 | tail -n 2",
-                      vitrail("render"), VITRAIL_SOURCE_DIR, (directory / "x.png").string()));
+                      vitrail("render"), source_dir(), (directory / "x.png").string()));
   EXPECT_THAT(stopped.output, AllOf(HasSubstr("\"event\":\"end\""), HasSubstr("\"ending\":\"interrupted\"")));
   EXPECT_THAT(stopped.output,
               AllOf(HasSubstr("x.png.partial holds the samples so far"), HasSubstr("x.png shows it")));
@@ -107,7 +108,7 @@ TEST(Progress, ALogHasALineSoon) {
   const TemporaryDirectory directory;
   const CommandResult done = run(fmt::format(
       "{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --spp 65536 --crop 0,64,0,64 --time 6",
-      vitrail("render"), VITRAIL_SOURCE_DIR, (directory / "x.png").string()));
+      vitrail("render"), source_dir(), (directory / "x.png").string()));
   EXPECT_EQ(done.status, 0) << done.output;
   EXPECT_THAT(done.output,
               AllOf(HasSubstr("vitrail: rendering "), HasSubstr("vitrail: render "), HasSubstr(" left, ")));

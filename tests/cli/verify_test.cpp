@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::verify_test {
@@ -20,7 +21,7 @@ class VerifyProgram : public ::testing::Test {
   void SetUp() override {
     const CommandResult made =
         run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 4 --quiet",
-                        vitrail("partition"), VITRAIL_SOURCE_DIR, bundle.string()));
+                        vitrail("partition"), source_dir(), bundle.string()));
     ASSERT_EQ(made.status, 0) << made.output;
   }
   CommandResult verify(const std::string& options = "") const {

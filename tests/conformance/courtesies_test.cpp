@@ -8,6 +8,7 @@
 
 #include "importers/import.h"
 #include "scene/system/diagnostics.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::courtesies_test {
@@ -139,7 +140,7 @@ TEST(Courtesies, EachRowWithEachReader) {
   write("smooth.obj", square + "s 1\nf 1 2 3\n");
   write("named.obj", square + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n");
   write("odd.spd", "400 1 500 2 600 3 700");
-  std::ifstream page(std::string(VITRAIL_SOURCE_DIR) + "/docs/reference/courtesies.md");
+  std::ifstream page(std::string(test::source_dir()) + "/docs/reference/courtesies.md");
   const std::string rows{std::istreambuf_iterator<char>(page), {}};
   for (const Case& c : cases()) {
     EXPECT_THAT(rows, testing::HasSubstr(c.row));

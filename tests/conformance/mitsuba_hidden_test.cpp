@@ -11,6 +11,7 @@
 #include "film/film_progress.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::mitsuba_hidden_test {
@@ -93,7 +94,7 @@ TEST_P(MitsubaHidden, IsHiddenAlike) {
   for (const char* variant : {"scalar_rgb", "scalar_spectral"}) {
     const CommandResult theirs = run(fmt::format(
         "{} '{}/tests/conformance/mitsuba_pixels.py' '{}' '{}' --spp 1024 --variant {}", mitsuba_python(),
-        VITRAIL_SOURCE_DIR, scene, (directory / "theirs.json").string(), variant));
+        source_dir(), scene, (directory / "theirs.json").string(), variant));
     ASSERT_EQ(theirs.status, 0) << theirs.output;
     const nlohmann::json expected = read_json(directory / "theirs.json");
     double sum = 0, sum_of_theirs = 0;

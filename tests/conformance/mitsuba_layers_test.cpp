@@ -14,6 +14,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::mitsuba_layers_test {
@@ -83,7 +84,7 @@ TEST(MitsubaLayers, AreOurs) {
   const std::string scene = (directory / "scene.xml").string();
   const CommandResult theirs =
       run(fmt::format("{} '{}/tests/conformance/mitsuba_layers.py' '{}' '{}' --spp 64 --seeds 16",
-                      mitsuba_python(), VITRAIL_SOURCE_DIR, scene, (directory / "mitsuba.json").string()));
+                      mitsuba_python(), source_dir(), scene, (directory / "mitsuba.json").string()));
   ASSERT_EQ(theirs.status, 0) << theirs.output;
   const nlohmann::json expected = read_json(directory / "mitsuba.json");
   const CommandResult ours = run(fmt::format("{} '{}' -o '{}' --spp 1024", vitrail("render"), scene,

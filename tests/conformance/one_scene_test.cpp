@@ -14,6 +14,7 @@
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
 #include "tests/support/command.h"
 #include "tests/support/equal_scenes.h"
+#include "tests/support/paths.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 
@@ -119,7 +120,7 @@ double mean_luminance_by_mitsuba(const fs::path& scene, const fs::path& folder, 
       "{0} {1}/tests/importers/render_mitsuba.py {2} {3} --spp {4} > /dev/null 2>&1 && {0} -c \"import "
       "numpy; "
       "print(float((numpy.load('{3}') @ [0.212639, 0.715169, 0.072192]).mean()))\"",
-      mitsuba_python(), VITRAIL_SOURCE_DIR, scene.string(), out, spp);
+      mitsuba_python(), test::source_dir(), scene.string(), out, spp);
   const test::CommandResult result = test::run(command);
   EXPECT_EQ(result.status, 0) << result.output;
   return std::atof(result.output.c_str());

@@ -10,6 +10,7 @@
 #include "denoise/denoise_picture.h"
 #include "denoise/oidn_library.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::denoise_test {
@@ -52,7 +53,7 @@ class WithoutDenoiser : public ::testing::Test {
     return run(
         fmt::format("VITRAIL_OIDN=/nowhere {} {}/examples/cornell-box/cornell-box.pbrt --width 8 "
                     "--height 8 --spp 2 --quiet {}",
-                    vitrail("render"), VITRAIL_SOURCE_DIR, more));
+                    vitrail("render"), source_dir(), more));
   }
   TemporaryDirectory directory_;
 };

@@ -14,6 +14,7 @@
 #include "film/film_progress.h"
 #include "film/image_io.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::denoised_box_test {
@@ -32,7 +33,7 @@ class DenoisedBox : public ::testing::Test {
     return run(
         fmt::format("{} {}/examples/cornell-box/cornell-box.pbrt --width 64 --height 64 --spp {} "
                     "--quiet -o {} {}",
-                    vitrail("render"), VITRAIL_SOURCE_DIR, samples, path(out), more));
+                    vitrail("render"), source_dir(), samples, path(out), more));
   }
   void develop(const std::string& film, const std::string& out, const std::string& more = "") const {
     const CommandResult done =

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::api_test {
@@ -20,7 +21,7 @@ TEST(Api, HasNothingUndocumented) {
   const CommandResult made = run(
       fmt::format("cd {} && (cat docs/api/Doxyfile; echo 'GENERATE_HTML = NO'; echo 'GENERATE_XML = YES'; "
                   "echo 'OUTPUT_DIRECTORY = {}') | doxygen -",
-                  VITRAIL_SOURCE_DIR, directory.path().string()));
+                  source_dir(), directory.path().string()));
   ASSERT_EQ(made.status, 0) << made.output;
   ASSERT_TRUE(std::filesystem::exists(directory / "xml" / "index.xml"));
   std::istringstream lines(made.output);

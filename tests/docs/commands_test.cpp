@@ -14,6 +14,7 @@
 #include "cli/help/verbs.h"
 #include "tests/docs/pages.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 
 namespace vitrail::test::commands_test {
 namespace {
@@ -29,7 +30,7 @@ std::string markdown_of(std::string_view verb) {
 class OptionPage : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(OptionPage, IsWhatTheProgramSays) {
-  const fs::path file = fmt::format("{}/docs/reference/options/{}.md", VITRAIL_SOURCE_DIR, GetParam());
+  const fs::path file = fmt::format("{}/docs/reference/options/{}.md", source_dir(), GetParam());
   const std::string made = markdown_of(GetParam());
   if (std::getenv("VITRAIL_WRITE_DOCS")) std::ofstream(file) << made;
   std::ifstream in(file);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tests/docs/pages.h"
+#include "tests/support/paths.h"
 
 namespace vitrail::test::links_test {
 namespace {
@@ -60,7 +61,7 @@ TEST(Links, LeadSomewhere) {
 }
 
 TEST(Links, LeadToEveryPageFromTheIndex) {
-  const fs::path index = fs::path(VITRAIL_SOURCE_DIR) / "docs/README.md";
+  const fs::path index = fs::path(source_dir()) / "docs/README.md";
   std::string text;
   for (const PageLine& line : lines_of(index)) text += line.text + "\n";
   for (const fs::path& page : pages())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/docs/pages.h"
+#include "tests/support/paths.h"
 
 #include <algorithm>
 #include <fstream>
@@ -10,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path root = VITRAIL_SOURCE_DIR;
+const fs::path root = source_dir();
 
 // What is built, packed or checked out beside the source is no part of it.
 bool is_foreign(const fs::path& folder) {

@@ -7,6 +7,7 @@
 
 #include "tests/docs/pages.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::statistics_test {
@@ -17,7 +18,7 @@ std::set<std::string> documented(const std::string& heading) {
   static const std::regex key("`([a-z_]+)`");
   std::set<std::string> keys;
   bool is_below = false;
-  for (const PageLine& line : lines_of(VITRAIL_SOURCE_DIR "/docs/reference/statistics.md")) {
+  for (const PageLine& line : lines_of(project_file("docs/reference/statistics.md"))) {
     if (line.text.starts_with("## ")) is_below = line.text == "## " + heading;
     if (!is_below || !line.text.starts_with("| `")) continue;
     const std::string cell = line.text.substr(0, line.text.find('|', 1));
@@ -34,7 +35,7 @@ std::set<std::string> keys_of(const nlohmann::json& stats) {
 
 TEST(Statistics, OfPartitionAndRenderAreDocumented) {
   const TemporaryDirectory folder;
-  const std::string scene = VITRAIL_SOURCE_DIR "/examples/cornell-box/cornell-box.pbrt";
+  const std::string scene = project_file("examples/cornell-box/cornell-box.pbrt");
   const std::string bundle = (folder / "box.vit").string(), p = (folder / "p.json").string(),
                     r = (folder / "r.json").string();
   ASSERT_EQ(run(vitrail("partition " + scene + " -o " + bundle + " --stats " + p)).status, 0);

@@ -7,6 +7,7 @@
 
 #include "tests/docs/pages.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::tutorial_test {
@@ -19,12 +20,12 @@ class Tutorial : public ::testing::TestWithParam<std::string> {};
 TEST_P(Tutorial, CanBeTyped) {
   const TemporaryDirectory folder;
   for (const char* name : {"examples", "scripts"})
-    fs::create_directory_symlink(fs::path(VITRAIL_SOURCE_DIR) / name, folder / name);
+    fs::create_directory_symlink(fs::path(source_dir()) / name, folder / name);
   {
     std::ofstream script(folder / "typed.sh");
-    script << "set -euo pipefail\nPATH=" VITRAIL_BIN_DIR ":/usr/bin:$PATH\n";
+    script << "set -euo pipefail\nPATH=" + bin_dir() + ":/usr/bin:$PATH\n";
     for (const PageLine& line :
-         lines_of(fmt::format("{}/docs/tutorial/{}.md", VITRAIL_SOURCE_DIR, GetParam())))
+         lines_of(fmt::format("{}/docs/tutorial/{}.md", source_dir(), GetParam())))
       if (line.is_typed) script << line.text << "\n";
   }
   const CommandResult typed = run(fmt::format("cd '{}' && bash -x typed.sh", folder.path().string()));

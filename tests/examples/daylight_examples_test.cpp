@@ -10,6 +10,7 @@
 
 #include "images/image_files.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::daylight_examples_test {
@@ -34,7 +35,7 @@ TEST(HotelRoom, OverADay) {
   const CommandResult made = run(
       fmt::format("/usr/bin/python3 '{}/examples/hotel-room/day.py' -o '{}' --vitrail {} --width 32 --spp 2 "
                   "--hours 8 13 --measured 13 --states 0 1 --sensor-spp 64",
-                  VITRAIL_SOURCE_DIR, day.string(), front.substr(0, front.find_last_not_of(' ') + 1)));
+                  source_dir(), day.string(), front.substr(0, front.find_last_not_of(' ') + 1)));
   ASSERT_EQ(made.status, 0) << made.output;
 
   std::map<std::string, double> light;
@@ -74,7 +75,7 @@ TEST(Year, InTheOpenIsTheWeatherFile) {
   const TemporaryDirectory directory;
   std::ofstream(directory / "open.obj") << "v -1 -1 1\nv 1 -1 1\nv 1 -1 -1\nv -1 -1 -1\nf 1 2 3 4\n";
   std::ofstream(directory / "up.txt") << "0 0 0  0 1 0\n0 -2 0  0 -1 0\n";
-  const std::string front = vitrail(""), python = "/usr/bin/python3 " VITRAIL_SOURCE_DIR "/examples/frames/";
+  const std::string front = vitrail(""), python = "/usr/bin/python3 " + project_file("examples/frames/");
   const CommandResult made = run(fmt::format(
       "cd '{}' && {}made_up_weather.py > w.epw && {}year.py open.obj w.epw --sensors up.txt -o year "
       "--every 91 --spp 64 --vitrail {}",
@@ -113,7 +114,7 @@ TEST(Caustic, IsOfPhotons) {
   const CommandResult made =
       run(fmt::format("/usr/bin/python3 '{}/examples/caustic/generate.py' -o '{}' --light lamp --detail 0.25 "
                       "--width 32",
-                      VITRAIL_SOURCE_DIR, directory.path().string()));
+                      source_dir(), directory.path().string()));
   ASSERT_EQ(made.status, 0) << made.output;
   const auto in_the_shadow = [&](const std::string& options) {
     const std::string scene = (directory / "caustic.pbrt").string(), picture = (directory / "c.exr").string();

@@ -12,6 +12,7 @@
 #include "importers/import.h"
 #include "scene/records/nesting.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::generators_test {
@@ -46,7 +47,7 @@ Generated generate(const std::filesystem::path& folder, const Case& c) {
                       "subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL); "
                       "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)' "
                       "/usr/bin/python3 '{}/examples/{}/generate.py' -o '{}' --triangles {} {}",
-                      VITRAIL_SOURCE_DIR, c.example, folder.string(), c.triangles, c.options));
+                      source_dir(), c.example, folder.string(), c.triangles, c.options));
   EXPECT_EQ(made.status, 0) << made.output;
   if (made.status != 0) return {};
   return {folder / (c.example + ".pbrt"), read_json(folder / (c.example + ".json")),

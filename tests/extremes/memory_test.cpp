@@ -15,6 +15,7 @@
 #include <iterator>
 
 #include "tests/extremes/memory_scenes.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::memory_test {
@@ -58,7 +59,7 @@ TEST_P(Memory, IsKeptOrRefused) {
   const std::uint64_t budget = run_whole() ? row.budget_bytes : program + row.budget_bytes / 16;
   const auto scene = row.write(directory.path(), share);
   const Done done =
-      run(fmt::format("'" VITRAIL_BIN_DIR "/vitrail-partition' '{}' -o '{}' --no-sync --quiet --memory {} {}",
+      run(fmt::format("'{}/vitrail-partition' '{}' -o '{}' --no-sync --quiet --memory {} {}", bin_dir(),
                       scene.string(), (directory / "out.vit").string(), budget, row.options),
           directory / "output");
   fmt::print("{:20} budget {:4} MiB, peak {:6.1f} MiB, {:5.1f} s, status {}: {}\n", row.what, budget >> 20,

@@ -17,6 +17,7 @@
 #include "tests/farm/machine_limits.h"
 #include "tests/support/background.h"
 #include "tests/support/partitioned_box.h"
+#include "tests/support/paths.h"
 
 namespace vitrail::test::changed_files_test {
 namespace {
@@ -127,7 +128,7 @@ class PackedFiles : public ChangedFiles {
     fs::rename(path("box.vit"), path("files.vit"));
     const CommandResult made =
         run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 4 --pack 1G --quiet",
-                        vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit")));
+                        vitrail("partition"), source_dir(), path("box.vit")));
     ASSERT_EQ(made.status, 0) << made.output;
   }
   CommandResult rendered(const std::string& bundle, const std::string& film) const {

@@ -6,6 +6,7 @@
 
 #include "film/film_progress.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::checkpoint_test {
@@ -18,7 +19,7 @@ class Checkpoint : public ::testing::Test {
   void SetUp() override {
     const CommandResult made =
         run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 1 --quiet",
-                        vitrail("partition"), VITRAIL_SOURCE_DIR, (directory_ / "box.vit").string()));
+                        vitrail("partition"), source_dir(), (directory_ / "box.vit").string()));
     ASSERT_EQ(made.status, 0) << made.output;
     ASSERT_EQ(render("").status, 0);
     std::filesystem::rename(film_, partial_);

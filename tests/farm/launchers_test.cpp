@@ -9,6 +9,7 @@
 #include "film/film_progress.h"
 #include "tests/support/background.h"
 #include "tests/support/partitioned_box.h"
+#include "tests/support/paths.h"
 
 namespace vitrail::test::launchers_test {
 namespace {
@@ -51,7 +52,7 @@ class Launchers : public PartitionedBox {
     std::vector<pid_t> ranks;
     for (pid_t pid; pids >> pid;)
       if (const std::string line = text_of_command(pid);
-          line.starts_with(VITRAIL_BIN_DIR) && line.find("--restarts") == std::string::npos)
+          line.starts_with(bin_dir()) && line.find("--restarts") == std::string::npos)
         ranks.push_back(pid);
     return ranks;
   }

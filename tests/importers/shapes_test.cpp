@@ -435,7 +435,7 @@ void expect_tiles(const std::vector<Point3d>& p, double expected_area) {
   EXPECT_NEAR(sum, expected_area, 1e-9 * expected_area);
 }
 
-TEST(Polygon, ConcaveOnesInEveryPlaneAndFromEveryCorner) {
+TEST(PolygonShape, ConcaveOnesInEveryPlaneAndFromEveryCorner) {
   const std::vector<Point2d> comb{{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1},
                                   {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
   const std::vector<Point2d> arrow{{0, 0}, {2, 1}, {0, 2}, {1, 1}};
@@ -460,7 +460,7 @@ TEST(Polygon, ConcaveOnesInEveryPlaneAndFromEveryCorner) {
 }
 
 // A square ring, cut open: the bridge is passed twice.
-TEST(Polygon, BridgeToAHole) {
+TEST(PolygonShape, BridgeToAHole) {
   expect_tiles({{0, 0, 0},
                 {4, 0, 0},
                 {4, 4, 0},
@@ -474,7 +474,7 @@ TEST(Polygon, BridgeToAHole) {
                12);
 }
 
-TEST(Polygon, DegenerateOnesEnd) {
+TEST(PolygonShape, DegenerateOnesEnd) {
   for (const std::vector<Point3d>& p : std::vector<std::vector<Point3d>>{
            {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}},
            {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 
 #include <sys/wait.h>
 
@@ -25,7 +26,7 @@ CommandResult run(const std::string& command) {
   return result;
 }
 
-std::string vitrail(const std::string& verb) { return std::string("'" VITRAIL_BIN_DIR "/vitrail' ") + verb; }
+std::string vitrail(const std::string& verb) { return "'" + bin_dir() + "/vitrail' " + verb; }
 
 std::string mpi_vitrail(const std::string& verb, int ranks) {
   return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
@@ -40,7 +41,7 @@ nlohmann::json read_json(const std::filesystem::path& file) {
 
 std::filesystem::path corpus() {
   const char* named = std::getenv("VITRAIL_CORPUS");
-  const std::filesystem::path path = named ? named : VITRAIL_SOURCE_DIR "/../shared/corpus";
+  const std::filesystem::path path = named ? named : project_file("../shared/corpus");
   return std::filesystem::exists(path / "INDEX.tsv") ? path : std::filesystem::path();
 }
 

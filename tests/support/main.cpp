@@ -28,43 +28,42 @@ std::vector<std::string_view> files_of(std::string_view program) {
   return files;
 }
 
-bool is_in(const testing::TestInfo& test, const std::vector<std::string_view>& files) {
-  const std::string_view file = test.file();
-  for (const std::string_view f : files)
-    if (file.ends_with(f)) return true;
-  return false;
+enum class Share { none, part, all };
+Share share_of(const testing::TestSuite& suite, const std::vector<std::string_view>& files) {
+  int inside = 0;
+  for (int i = 0; i < suite.total_test_count(); ++i) {
+    const std::string_view file = suite.GetTestInfo(i)->file();
+    for (const std::string_view f : files) inside += file.ends_with(f);
+  }
+  return inside == 0 ? Share::none : inside < suite.total_test_count() ? Share::part : Share::all;
 }
 
-// Adds to --gtest_filter that tests of other files do not run. Returns how many are left.
-int leave_out_other_files(const std::vector<std::string_view>& files) {
-  std::string filter = GTEST_FLAG_GET(filter);
-  char separator = filter.find('-') == std::string::npos ? '-' : ':';
-  int left = 0;
+// Narrows --gtest_filter to the suites of these files; false, with a message, where that cannot be done.
+bool choose_suites(const std::vector<std::string_view>& files) {
+  std::string own, others;
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();
-  for (int s = 0; s < all.total_test_suite_count(); ++s) {
-    const testing::TestSuite& suite = *all.GetTestSuite(s);
-    for (int i = 0; i < suite.total_test_count(); ++i) {
-      const testing::TestInfo& test = *suite.GetTestInfo(i);
-      if (is_in(test, files)) {
-        ++left;
-        continue;
-      }
-      filter += separator + std::string(suite.name()) + "." + test.name();
-      separator = ':';
+  for (int i = 0; i < all.total_test_suite_count(); ++i) {
+    const testing::TestSuite& suite = *all.GetTestSuite(i);
+    const Share share = share_of(suite, files);
+    if (share == Share::part) {
+      std::fprintf(stderr, "%s has tests in files of several programs\n", suite.name());
+      return false;
     }
+    std::string& list = share == Share::all ? own : others;
+    list += (list.empty() ? "" : ":") + std::string(suite.name()) + ".*";
   }
-  GTEST_FLAG_SET(filter, filter);
-  return left;
+  if (own.empty()) std::fprintf(stderr, "none of the files has tests\n");
+  const std::string asked = GTEST_FLAG_GET(filter);
+  const char* separator = others.empty() ? "" : asked.find('-') == std::string::npos ? "-" : ":";
+  GTEST_FLAG_SET(filter, asked == "*" ? own : asked + separator + others);
+  return !own.empty();
 }
 
 int run_tests(int count, char** arguments) {
   const std::string program = std::filesystem::path(arguments[0]).filename().string();
   testing::InitGoogleMock(&count, arguments);
   const std::vector<std::string_view> files = files_of(program);
-  if (!files.empty() && leave_out_other_files(files) == 0) {
-    std::fprintf(stderr, "%s: no test is in its files\n", program.c_str());
-    return 1;
-  }
+  if (!files.empty() && !choose_suites(files)) return 1;
   return RUN_ALL_TESTS();
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test {
@@ -18,7 +19,7 @@ class PartitionedBox : public ::testing::Test {
   void SetUp() override {
     const CommandResult made =
         run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains {} --quiet",
-                        vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit"), domains_));
+                        vitrail("partition"), source_dir(), path("box.vit"), domains_));
     ASSERT_EQ(made.status, 0) << made.output;
   }
   std::string path(const std::string& name) const { return (directory_ / name).string(); }

@@ -20,6 +20,7 @@
 #include "tests/conformance/formats/feature_cases.h"
 #include "tests/conformance/gate/scene_parts.h"
 #include "tests/support/equal_scenes.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::formats_table_test {
@@ -159,7 +160,7 @@ std::string table_of(SceneFormat format, const std::string& cases, Trials& trial
   std::string table =
       "| | read | rendered | → PBRT | → Mitsuba | → POV-Ray | → glTF |\n|---|---|---|---|---|---|---|\n";
   Notes notes;
-  for (const PluginCase& plugin : read_cases(VITRAIL_SOURCE_DIR "/tests/conformance/formats/" + cases)) {
+  for (const PluginCase& plugin : read_cases(project_file("tests/conformance/formats/") + cases)) {
     const Tried alone = trials.of(format, plugin, "");
     table += row("**" + plugin.name + "**", alone, host, nullptr, notes, counts);
     if (!alone.scene) continue;
@@ -207,7 +208,7 @@ Numbers are of the list below each table. What comes out exactly is held by pict
 }
 
 TEST(Formats, ThePageIsWhatTheProgramsSay) {
-  const fs::path file = VITRAIL_SOURCE_DIR "/docs/reference/formats.md";
+  const fs::path file = project_file("docs/reference/formats.md");
   const std::string made = page();
   if (std::getenv("VITRAIL_WRITE_DOCS")) std::ofstream(file) << made;
   std::ifstream in(file);

@@ -15,6 +15,7 @@
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/partition.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test {
@@ -59,7 +60,7 @@ std::vector<MitsubaAnswer> ask_mitsuba(std::span<const std::filesystem::path> sc
   std::ofstream(asked) << request;
   std::filesystem::remove(said);
   ended_with = run(fmt::format("{} {}/tests/conformance/gate/mitsuba_gate.py '{}' '{}'",
-                               python_with_mitsuba(), VITRAIL_SOURCE_DIR, asked, said))
+                               python_with_mitsuba(), source_dir(), asked, said))
                    .output;
   std::vector<MitsubaAnswer> answers;
   std::ifstream in(said);

@@ -11,6 +11,7 @@
 #include "importers/mitsuba/write/write_mitsuba.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
+#include "tests/support/paths.h"
 
 namespace vitrail {
 
@@ -44,7 +45,7 @@ class MitsubaOracle : public testing::Test {
         {"scene", (folder_ / "scene.xml").string()}, {"variant", variant}, {"queries", queries}};
     std::ofstream(folder_ / "request.json") << request;
     const std::string command =
-        mitsuba_python() + " " VITRAIL_SOURCE_DIR "/tests/importers/mitsuba_oracle.py " +
+        mitsuba_python() + " " + test::project_file("tests/importers/mitsuba_oracle.py ") +
         (folder_ / "request.json").string() + " " + (folder_ / "answer.json").string();
     if (std::system(command.c_str()) != 0) {
       ADD_FAILURE() << "the oracle failed: " << command;

@@ -12,6 +12,7 @@
 #include "scene/system/diagnostics.h"
 #include "tests/importers/bytes_of_numbers.h"
 #include "tests/importers/temporary_folder.h"
+#include "tests/support/paths.h"
 
 namespace vitrail::mitsuba::mitsuba_serialized_test {
 namespace {
@@ -113,7 +114,7 @@ TEST(MitsubaSerialized, RefusesWhatIsWrong) {
 TEST(MitsubaSerialized, ReadsMitsubasOwnFiles) {
   const char* corpus = std::getenv("VITRAIL_CORPUS");
   const std::filesystem::path folder =
-      corpus ? corpus : std::filesystem::path(VITRAIL_SOURCE_DIR) / "../shared/corpus";
+      corpus ? corpus : std::filesystem::path(test::source_dir()) / "../shared/corpus";
   const auto preview = folder / "mitsuba-data/common/meshes/matpreview.serialized";
   if (!std::filesystem::exists(preview)) GTEST_SKIP() << "no corpus at " << folder;
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(read_serialized(preview, i).triangles.empty());

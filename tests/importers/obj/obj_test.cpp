@@ -6,6 +6,7 @@
 #include "scene/spectra/color.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/obj/obj_fixture.h"
+#include "tests/support/paths.h"
 
 namespace vitrail::obj_test {
 namespace {
@@ -360,7 +361,7 @@ TEST_F(Obj, FilesThatAreNotThere) { EXPECT_THROW(read_obj(folder_.path() / "none
 
 TEST(ObjCorpus, AllAreReadOrRefusedWithTheirPlace) {
   const char* const named = std::getenv("VITRAIL_CORPUS");
-  const std::filesystem::path corpus = named ? named : VITRAIL_SOURCE_DIR "/../shared/corpus";
+  const std::filesystem::path corpus = named ? named : test::project_file("../shared/corpus");
   if (!std::filesystem::is_directory(corpus / "obj"))
     GTEST_SKIP() << "no corpus at " << corpus << " (set VITRAIL_CORPUS)";
   int read = 0, refused = 0;

@@ -12,6 +12,7 @@
 #include "scene/spectra/color.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/temporary_folder.h"
+#include "tests/support/paths.h"
 #include "tests/support/png.h"
 
 namespace vitrail::write_obj_test {
@@ -366,7 +367,7 @@ void expect_same_places(const Scene& a, const Scene& b, const std::string& what)
 
 TEST(WriteObjCorpus, MeshesAndMaterialsComeBack) {
   const char* const named = std::getenv("VITRAIL_CORPUS");
-  const std::filesystem::path corpus = named ? named : VITRAIL_SOURCE_DIR "/../shared/corpus";
+  const std::filesystem::path corpus = named ? named : test::project_file("../shared/corpus");
   if (!std::filesystem::is_directory(corpus / "obj"))
     GTEST_SKIP() << "no corpus at " << corpus << " (set VITRAIL_CORPUS)";
   const TemporaryFolder folder;

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "importers/pbrt/read/pbrt.h"
+#include "tests/support/paths.h"
 
 namespace vitrail::pbrt_corpus_test {
 namespace {
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 
 fs::path corpus() {
   const char* chosen = std::getenv("VITRAIL_CORPUS");
-  return chosen ? fs::path(chosen) : fs::path(VITRAIL_SOURCE_DIR) / ".." / "shared" / "corpus";
+  return chosen ? fs::path(chosen) : fs::path(test::source_dir()) / ".." / "shared" / "corpus";
 }
 
 std::vector<fs::path> pbrt_files() {

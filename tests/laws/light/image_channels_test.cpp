@@ -10,6 +10,7 @@
 #include "importers/pbrt/read/pbrt.h"
 #include "importers/pbrt/write/write_pbrt.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
+#include "tests/support/paths.h"
 #include "tests/support/png.h"
 #include "tests/support/render.h"
 
@@ -126,7 +127,7 @@ class MitsubaImageChannels : public ImageChannels {
                             int samples = 1024) {
     const std::string out = (folder_ / "mitsuba.exr").string();
     const std::string command =
-        mitsuba_python() + " " VITRAIL_SOURCE_DIR "/tests/importers/render_mitsuba.py " + scene.string() +
+        mitsuba_python() + " " + test::project_file("tests/importers/render_mitsuba.py ") + scene.string() +
         " " + out + " --spp " + std::to_string(samples) + " --variant " + variant;
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     const Image picture = read_linear_image(out);

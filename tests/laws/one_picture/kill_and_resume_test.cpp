@@ -14,6 +14,7 @@
 
 #include "tests/support/background.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::kill_and_resume_test {
@@ -27,7 +28,7 @@ class KillAndResume : public ::testing::Test {
     bundle_ = directory_ / "box.vit";
     const CommandResult made =
         run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 8",
-                        vitrail("partition"), VITRAIL_SOURCE_DIR, bundle_.string()));
+                        vitrail("partition"), source_dir(), bundle_.string()));
     ASSERT_EQ(made.status, 0) << made.output;
   }
   std::string command(const std::string& film, const std::string& more) const {
@@ -119,7 +120,7 @@ TEST_F(KillAndResume, ADiskMayTakeLongerThanRanksHavePatience) {
 TEST_F(KillAndResume, TermWritesACheckpointAndEndsByItself) {
   for (const bool alone : {true, false}) {
     std::string line = command("stopped.film", "");
-    if (alone) line = line.substr(line.find(" '" VITRAIL_BIN_DIR) + 1);
+    if (alone) line = line.substr(line.find(" '" + bin_dir()) + 1);
     Background job(line);
     wait_for_work(job);
     ASSERT_TRUE(job.running());

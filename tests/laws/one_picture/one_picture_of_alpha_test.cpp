@@ -9,6 +9,7 @@
 #include "bundle/manifest.h"
 #include "film/film_progress.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::one_picture_of_alpha_test {
@@ -44,7 +45,7 @@ class OnePictureOfAlpha : public testing::Test {
 // Materials, textures, lights and media of every kind.
 TEST_F(OnePictureOfAlpha, WhateverTheDomainsRanksThreadsAndMemory) {
   must(fmt::format("/usr/bin/python3 '{}/examples/appearance/generate.py' -o '{}' --width 48 --height 32",
-                   VITRAIL_SOURCE_DIR, (directory_ / "appearance").string()));
+                   source_dir(), (directory_ / "appearance").string()));
   std::string hash;
   for (const int domains : {1, 3, 8}) {
     const fs::path cut = bundle(directory_ / "appearance/appearance.pbrt", domains);

@@ -10,6 +10,7 @@
 #include "bundle/manifest.h"
 #include "film/film_progress.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::one_picture_of_layers_test {
@@ -24,7 +25,7 @@ class OnePictureOfLayers : public testing::Test {
  protected:
   void SetUp() override {
     must(fmt::format("/usr/bin/python3 '{}/examples/appearance/generate.py' -o '{}' --width 48 --height 32",
-                     VITRAIL_SOURCE_DIR, (directory_ / "appearance").string()));
+                     source_dir(), (directory_ / "appearance").string()));
   }
   std::filesystem::path bundle(int domains, const std::string& name = "appearance.pbrt") {
     const auto bundle = directory_ / fmt::format("{}{}.vit", name, domains);

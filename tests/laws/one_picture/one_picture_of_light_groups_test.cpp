@@ -11,6 +11,7 @@
 #include "film/film_planes.h"
 #include "film/film_progress.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::one_picture_of_light_groups_test {
@@ -27,7 +28,7 @@ class LightGroupsOfPictures : public testing::Test {
   // Materials, textures, lights and media of every kind.
   fs::path appearance() {
     must(fmt::format("/usr/bin/python3 '{}/examples/appearance/generate.py' -o '{}' --width 48 --height 32",
-                     VITRAIL_SOURCE_DIR, (directory_ / "appearance").string()));
+                     source_dir(), (directory_ / "appearance").string()));
     return directory_ / "appearance/appearance.pbrt";
   }
   fs::path bundle(const fs::path& scene, int domains) {

@@ -14,6 +14,7 @@
 
 #include "tests/support/background.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/png.h"
 #include "tests/support/temporary_directory.h"
 
@@ -28,7 +29,7 @@ class OnePictureOfPhotons : public ::testing::Test {
   void SetUp() override {
     write_png(directory_ / "image.png", 4, 4, 1,
               {0, 90, 250, 40, 180, 20, 70, 255, 5, 130, 240, 60, 200, 15, 99, 30});
-    std::ifstream in(VITRAIL_SOURCE_DIR "/examples/cornell-box/cornell-box.pbrt");
+    std::ifstream in(project_file("examples/cornell-box/cornell-box.pbrt"));
     std::string text((std::istreambuf_iterator<char>(in)), {});
     const std::string block = "  NamedMaterial \"white\"\n  Translate -0.36";
     const std::size_t at = text.find(block);

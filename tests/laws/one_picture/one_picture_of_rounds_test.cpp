@@ -12,6 +12,7 @@
 #include "film/film_progress.h"
 #include "tests/support/background.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::one_picture_of_rounds_test {
@@ -26,7 +27,7 @@ class OnePictureOfRounds : public ::testing::Test {
     for (const int domains : {1, 8}) {
       const CommandResult made =
           run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains {} --quiet",
-                          vitrail("partition"), VITRAIL_SOURCE_DIR, bundle(domains), domains));
+                          vitrail("partition"), source_dir(), bundle(domains), domains));
       ASSERT_EQ(made.status, 0) << made.output;
     }
   }

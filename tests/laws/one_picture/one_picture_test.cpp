@@ -7,6 +7,7 @@
 #include "bundle/manifest.h"
 #include "bundle/reflectances/color_words.h"
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::one_picture_test {
@@ -120,7 +121,7 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
 std::filesystem::path generate(const TemporaryDirectory& directory, const std::string& example,
                                const std::string& arguments) {
   const CommandResult made =
-      run(fmt::format("/usr/bin/python3 '{}/examples/{}/generate.py' -o '{}' {}", VITRAIL_SOURCE_DIR, example,
+      run(fmt::format("/usr/bin/python3 '{}/examples/{}/generate.py' -o '{}' {}", source_dir(), example,
                       (directory / example).string(), arguments));
   EXPECT_EQ(made.status, 0) << made.output;
   return directory / example / (example + ".pbrt");
@@ -139,7 +140,7 @@ TEST(OnePicture, City) {
 
 TEST(OnePicture, CornellBox) {
   const TemporaryDirectory directory;
-  expect_one_picture(directory, VITRAIL_SOURCE_DIR "/examples/cornell-box/cornell-box.pbrt");
+  expect_one_picture(directory, project_file("examples/cornell-box/cornell-box.pbrt"));
 }
 
 // Every material, texture, light and medium, in a file of each format that has some alone.

@@ -6,6 +6,7 @@
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
 #include "tests/laws/scattering/bsdf_laws.h"
 #include "tests/laws/scattering/table_cases.h"
+#include "tests/support/paths.h"
 #include "tracer/bsdf/adaptive.h"
 #include "tracer/bsdf/conductor.h"
 #include "tracer/bsdf/dielectric.h"
@@ -71,7 +72,7 @@ class MitsubaBsdf : public testing::Test {
   Json answers() {
     std::ofstream(folder_ / "request.json") << request_;
     const std::string command =
-        mitsuba_python() + " " VITRAIL_SOURCE_DIR "/tests/laws/mitsuba_bsdf_oracle.py " +
+        mitsuba_python() + " " + test::project_file("tests/laws/mitsuba_bsdf_oracle.py ") +
         (folder_ / "request.json").string() + " " + (folder_ / "answer.json").string();
     if (std::system(command.c_str()) != 0) throw std::runtime_error("the oracle failed: " + command);
     return Json::parse(std::ifstream(folder_ / "answer.json"));

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/paths.h"
+
 namespace vitrail::include_direction_test {
 namespace {
 
@@ -41,7 +43,7 @@ bool is_source(const std::filesystem::path& file) {
 }
 
 TEST(IncludeDirection, FoldersDependOnlyOnThoseBelow) {
-  const std::filesystem::path root = VITRAIL_SOURCE_DIR;
+  const std::filesystem::path root = test::source_dir();
   const std::regex include(R"rx(^\s*#\s*include\s*"([a-z]+)/)rx");
   int seen = 0;
   for (const auto& [folder, may] : allowed())
@@ -79,7 +81,7 @@ const std::map<std::string, std::vector<std::string>>& floors() {
 }
 
 TEST(IncludeDirection, RoomsDependOnlyOnFloorsBelow) {
-  const std::filesystem::path root = VITRAIL_SOURCE_DIR;
+  const std::filesystem::path root = test::source_dir();
   for (const auto& [folder, rooms] : floors()) {
     const std::regex include("^#include \"" + folder + R"rx(/(?:(.*)/)?[^/"]+")rx");
     const auto floor_of = [&](const std::string& room) { return std::ranges::find(rooms, room); };
@@ -102,7 +104,7 @@ TEST(IncludeDirection, RoomsDependOnlyOnFloorsBelow) {
 }
 
 TEST(IncludeDirection, OnlyTheFarmSpeaksMpi) {
-  const std::filesystem::path root = VITRAIL_SOURCE_DIR;
+  const std::filesystem::path root = test::source_dir();
   for (const auto& [folder, may] : allowed())
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
       if (!is_source(entry.path()) || folder == "farm") continue;
@@ -113,7 +115,7 @@ TEST(IncludeDirection, OnlyTheFarmSpeaksMpi) {
 }
 
 TEST(Sources, CarryTheirLicence) {
-  const std::filesystem::path root = VITRAIL_SOURCE_DIR;
+  const std::filesystem::path root = test::source_dir();
   for (const char* folder :
        {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film", "denoise", "tracer",
         "farm", "compare", "measure", "cli", "python", "tests", "scripts", "examples", "cmake"})
