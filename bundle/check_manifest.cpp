@@ -32,16 +32,17 @@ namespace records {
 
 struct FieldChecker {
   static constexpr bool reads = false;
-  const vitrail::Checker& check;
+  const std::filesystem::path& file;
   std::size_t textures = 0, materials = 0;  // that may be referred to
+  void require(bool condition, const char* what) const { vitrail::Checker{file}.require(condition, what); }
   template <Number T>
   void operator()(T value) const {
-    if constexpr (std::floating_point<T>) check.require(std::isfinite(value), "a number is not finite");
+    if constexpr (std::floating_point<T>) require(std::isfinite(value), "a number is not finite");
   }
-  void operator()(Id<Texture> id) const { check.require(id.value < textures, "a texture is not there"); }
+  void operator()(Id<Texture> id) const { require(id.value < textures, "a texture is not there"); }
   void operator()(Id<ScatteringTable>) const {}  // check_tables
-  void operator()(Id<Material> id) const { check.require(id.value < materials, "a material is not there"); }
-  void may_be_infinite(float value) const { check.require(!std::isnan(value), "a number is not a number"); }
+  void operator()(Id<Material> id) const { require(id.value < materials, "a material is not there"); }
+  void may_be_infinite(float value) const { require(!std::isnan(value), "a number is not a number"); }
 };
 
 }  // namespace records
@@ -156,7 +157,7 @@ void check_objects(const Checker& c, const Manifest& m) {
 
 // Whatever the records hold, by their lists of fields: numbers are finite, ids refer to what is there.
 void check_records(const Checker& c, const Manifest& m) {
-  records::FieldChecker io{c};
+  records::FieldChecker io{c.file};
   for (const Texture& t : m.textures) records::fields(io, t), ++io.textures;
   for (const Material& material : m.materials) records::fields(io, material), ++io.materials;
   for (const Nesting& nesting : nesting_of(m.materials))

@@ -25,9 +25,9 @@ RayProfile from_json(const Json& json) {
     throw Error("not a ray profile of version 4");
   RayProfile p;
   for (int axis = 0; axis < 3; ++axis) p.offset[axis] = number<double>(json.at("offset"), axis);
-  for (const Json& n : json.at("kd_nodes"))
-    p.kd_nodes.push_back({number<float>(n, 1), number<std::uint32_t>(n, 0), number<std::uint32_t>(n, 2),
-                          number<std::uint32_t>(n, 3)});
+  for (const Json& node : json.at("kd_nodes"))
+    p.kd_nodes.push_back({number<float>(node, 1), number<std::uint32_t>(node, 0),
+                          number<std::uint32_t>(node, 2), number<std::uint32_t>(node, 3)});
   for (const Json& d : json.at("domains"))
     p.domains.push_back({number<std::uint64_t>(d, 0), number<std::uint64_t>(d, 1), number<double>(d, 2)});
   for (const Json& w : json.at("ways")) {

@@ -12,20 +12,20 @@
 
 namespace vitrail {
 
-namespace {
-
 // An array of the file.
-struct Stored {
+struct StoredRows {
   std::uint64_t place = 0, count = 0, checksum = 0;
 };
 
+namespace {
+
 template <class T, class Visit>
-Stored pass(FilmReader& in, std::uint64_t count, const char* what, Visit&& visit) {
+StoredRows pass(FilmReader& in, std::uint64_t count, const char* what, Visit&& visit) {
   const std::uint64_t place = in.place();
   return {place, count, in.pass_array<T>(count, what, visit)};
 }
 template <class T>
-Stored pass(FilmReader& in, std::uint64_t count, const char* what) {
+StoredRows pass(FilmReader& in, std::uint64_t count, const char* what) {
   return pass<T>(in, count, what, [](std::span<T>) {});
 }
 
@@ -35,7 +35,7 @@ struct FilmRows::Contents {
   explicit Contents(const std::filesystem::path& file) : in(file), head(read_head(in)) {}
   FilmReader in;
   FilmHead head;
-  Stored sums, counts, ids, mattes;
+  StoredRows sums, counts, ids, mattes;
   std::uint64_t samples = 0;
 };
 
@@ -80,7 +80,7 @@ Film FilmRows::rows(int y0, int y1, bool with_sums) const {
   const std::uint64_t width = static_cast<std::uint64_t>(film.width()), here = film.pixels(),
                       all = width * static_cast<std::uint64_t>(height());
   // Of all planes of an array, and of the `single` values behind them.
-  const auto fill = [&](auto to, const Stored& from, std::uint64_t single = 0) {
+  const auto fill = [&](auto to, const StoredRows& from, std::uint64_t single = 0) {
     using T = typename decltype(to)::value_type;
     const std::uint64_t planes = (from.count - single) / all;
     const auto read = [&](std::uint64_t at, std::span<T> values) {
@@ -134,8 +134,8 @@ std::uint64_t hash_of(std::span<const FilmRows> films) {
   const auto add = [](auto& sum, const auto& other) { sum += other; };
   std::vector<FilmReader*> in;
   for (const FilmRows& film : films) in.push_back(&film.contents_->in);
-  const auto of = [&]<class T>(Stored FilmRows::Contents::*array, T, auto merge) {
-    const auto stored = [&](std::size_t i) -> const Stored& { return films[i].contents_.get()->*array; };
+  const auto of = [&]<class T>(StoredRows FilmRows::Contents::*array, T, auto merge) {
+    const auto stored = [&](std::size_t i) -> const StoredRows& { return films[i].contents_.get()->*array; };
     return films.size() == 1 ? stored(0).checksum : merged_checksum<T>(in, stored, merge);
   };
   const std::array<std::uint64_t, 4> parts{

@@ -44,17 +44,17 @@ std::string spectra_csv(RGB c) {
 }
 
 Json to_json(const Row& row) {
-  Json patches = Json::array();
+  Json of_patches = Json::array();
   for (const PatchError& p : row.patches)
-    patches.push_back({{"name", p.name},
-                       {"rms", p.rms},
-                       {"max", p.max},
-                       {"color_error", p.color},
-                       {"in_gamut", p.in_gamut}});
+    of_patches.push_back({{"name", p.name},
+                          {"rms", p.rms},
+                          {"max", p.max},
+                          {"color_error", p.color},
+                          {"in_gamut", p.in_gamut}});
   return {{"method", name_of(row.method)},         {"colors", row.cube.colors},
           {"max_error", row.cube.max_error},       {"mean_error", row.cube.mean_error},
           {"min_reflectance", row.cube.min_value}, {"max_reflectance", row.cube.max_value},
-          {"roughness", row.cube.roughness},       {"color_checker", patches}};
+          {"roughness", row.cube.roughness},       {"color_checker", of_patches}};
 }
 
 void print_table(const std::vector<Row>& rows, const std::string& of) {

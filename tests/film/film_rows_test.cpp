@@ -27,7 +27,7 @@ class RowsOfAFilm : public testing::Test {
     Film film(settings, key);
     for (std::uint32_t p = 0; p < film.pixels(); ++p)
       for (std::uint32_t s = 0; s < 2 + p % 3; ++s) {
-        const double light = 0.1 * (p + 1) * (s + seed);
+        const double light = 0.1 * (p + 1) * static_cast<double>(s + seed);
         film.count_sample(p, s);
         film.deposit(p, s, {light, film.clamp(p, s, {light, light, light}) * light, 2 * light});
         film.deposit_bin(p, s, p % 3, light);

@@ -102,9 +102,10 @@ TEST_F(Baked, ImagesKeepTheirTexels) {
   const Image values = read_stored_image(baked->image.filename).image;
   EXPECT_EQ(values.width, 4);
   EXPECT_EQ(values.height, 2);
-  for (std::size_t k = 0; k < 8; ++k)
-    EXPECT_FLOAT_EQ(values.values[3 * k], 0.75f * (k < 4 ? 0.5f + 0.125f * k : 0.125f * (k - 4)) + 0.25f)
-        << k;
+  for (std::size_t k = 0; k < 8; ++k) {
+    const float step = 0.125f * static_cast<float>(k % 4);
+    EXPECT_FLOAT_EQ(values.values[3 * k], 0.75f * (k < 4 ? 0.5f + step : step) + 0.25f) << k;
+  }
   EXPECT_EQ(baked->image.filter, TextureFilter::bilinear);
   const BakedTexture* product = bake(ProductTexture{Id<Texture>{1}, i});
   ASSERT_TRUE(product);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <mutex>
 #include <span>
+#include <utility>
 
 #include "bundle/reflectances/reflectance_fitter.h"
 #include "bundle/texture_file.h"
@@ -94,8 +95,10 @@ class TileCache {
                    const Words& out) {
     for (std::size_t i = 0; i < N; ++i) {
       const std::atomic<std::uint32_t>* const texel = from + std::size_t{texels[i]} * WordsEach;
-#pragma GCC unroll 3
-      for (std::uint32_t w = WordsEach; w-- > 0;) out(i, w) = texel[w].load(std::memory_order_acquire);
+      [&]<std::uint32_t... W>(std::integer_sequence<std::uint32_t, W...>) {
+        ((out(i, WordsEach - 1 - W) = texel[WordsEach - 1 - W].load(std::memory_order_acquire)), ...);
+      }
+      (std::make_integer_sequence<std::uint32_t, WordsEach>());
     }
   }
   void read_and_store(const Tile& tile, std::span<const std::uint32_t> texels, const Words& out);

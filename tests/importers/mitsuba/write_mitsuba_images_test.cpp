@@ -134,7 +134,7 @@ TEST_F(MitsubaImages, KindsThatMitsubaReads) {
     EXPECT_FALSE(mitsuba_writer::is_read_by_mitsuba(name)) << name;
   std::ofstream(folder_ / "plain.tga") << std::string{0, 0, 2};
   std::ofstream(folder_ / "palette.tga") << std::string{0, 1, 1};
-  for (const char components : {1, 3, 4}) {
+  for (const char components : {'\1', '\3', '\4'}) {
     // A comment of two bytes, then the frame: 8 bits, 1 × 1.
     const std::string jpeg = "\xff\xd8\xff\xfe" + std::string{0, 4, 'h', 'i'} + "\xff\xc0" +
                              std::string{0, 8, 8, 0, 1, 0, 1, components};

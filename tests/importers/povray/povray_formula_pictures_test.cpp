@@ -72,10 +72,10 @@ TEST_F(PovrayFormulas, ImagesWithHoles) {
   for (int i = 0; i < 16; ++i)
     for (int c = 0; c < 4; ++c) rgba.push_back(c == 3 ? (i % 3 == 0 ? 0 : 255) : (c == i % 3 ? 200 : 50));
   test::write_png(folder_ / "holes.png", 4, 4, 4, rgba);
-  for (const char* map : {"png \"holes.png\"", "png \"holes.png\" once"})
+  for (const char* image : {"png \"holes.png\"", "png \"holes.png\" once"})
     expect_alike(
         linear + lamps + "plane { y, 0 pigment { checker rgb .2, rgb .8 } }\nbox { <-1, 0, -1>, <1, 1.5, 1>" +
-            fmt::format(" pigment {{ image_map {{ {} }} }} finish {{ ambient .4 diffuse .5 }} }}\n", map),
+            fmt::format(" pigment {{ image_map {{ {} }} }} finish {{ ambient .4 diffuse .5 }} }}\n", image),
         0.03);
 }
 

@@ -72,7 +72,7 @@ TEST_F(PovrayPictures, Insides) {
       "#version 3.7; global_settings { assumed_gamma 1 } camera { orthographic location -4*z look_at 0"
       " right 8*x up 6*y } light_source { <1, 2, -9> rgb 1 }\n";
   int place = 0;
-  for (const std::string shape :
+  for (const std::string& shape :
        {std::string("sphere { 0, .4"), std::string("cone { -.4*y, .4, .4*y, .3 open rotate 40*x"),
         std::string("disc { 0, z, .4"), std::string("disc { 0, -z, .4"), std::string("box { -.4, .4"),
         std::string("polygon { 5, <-.4,-.4>, <.4,-.4>, <.4,.4>, <-.4,.4>, <-.4,-.4>"), "mesh { " + flat,
@@ -334,7 +334,7 @@ TEST_F(PovrayPictures, CheckersOfAFloor) {
 // Mirror and highlights are the same however clear a surface is; glass bends by its ior, mirrors by its
 // finish.
 TEST_F(PovrayPictures, ClearSurfacesThatShine) {
-  for (const char* ball :
+  for (const char* looks :
        {"pigment { rgbf <1, .3, .3, .8> } finish { ambient 0 phong .9 phong_size 40 }",
         "pigment { rgbt <1, 1, .3, .7> } finish { ambient .1 specular .9 roughness .02 reflection .2 }",
         "pigment { rgbt <1, 1, .9, .8> } finish { specular .9 roughness .02 reflection .3 conserve_energy }"
@@ -349,7 +349,7 @@ TEST_F(PovrayPictures, ClearSurfacesThatShine) {
                      "plane { y, 0 pigment { checker rgb <.8, .7, .6>, rgb <.3, .4, .2> scale .7 } "
                      "finish { ambient .1 } }\n"
                      "sphere { <0, .9, .5>, .9 " +
-                     ball + " }",
+                     looks + " }",
                  0.03, 256);
 }
 

@@ -213,7 +213,7 @@ TEST_F(ReadPovray, WhatIsDefinedStandsBeforeTheScene) {
   const Scene scene =
       read_povray(file("camera { location -4*z } #ifndef (Wide) #error \"no\" #end #if (Name = \"2 m\") "
                        "sphere { <Wide, clock, 0>, 1 } #end"),
-                  {}, options)
+                  MeshMemory(), options)
           .scene;
   ASSERT_EQ(scene.shapes.size(), 1u);
   const Point3d center = transform_point(scene.shapes[0].object_to_world, Point3d{});
@@ -221,7 +221,7 @@ TEST_F(ReadPovray, WhatIsDefinedStandsBeforeTheScene) {
   EXPECT_DOUBLE_EQ(center.y, 0.25);
   for (const auto& [name, value] : {std::pair{"sphere", "1"}, {"clock", "noon"}, {"2x", "1"}, {"", "1"}}) {
     options.definitions = {{name, value}};
-    EXPECT_THROW(read_povray(file("sphere { 0, 1 }"), {}, options), UsageError) << name;
+    EXPECT_THROW(read_povray(file("sphere { 0, 1 }"), MeshMemory(), options), UsageError) << name;
   }
 }
 
