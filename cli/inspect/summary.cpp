@@ -13,7 +13,8 @@ namespace vitrail {
 
 namespace {
 
-// Processor time of a sample: the geometric mean of the scenes in docs/why/speed.md, which take 0.2 to 5.5 µs.
+// Processor time of a sample: the geometric mean of the scenes in docs/why/speed.md, which take 0.2 to 5.5
+// µs.
 constexpr double a_sample_s = 0.95e-6;
 constexpr std::uint64_t of_the_program = 12 << 20;
 

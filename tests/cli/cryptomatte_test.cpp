@@ -44,8 +44,8 @@ class CryptomatteTyped : public ::testing::Test {
                            path(picture), more));
   }
   Json masks(const std::string& picture) const {
-    const CommandResult read = run(fmt::format("/usr/bin/python3 {}/tests/cli/read_cryptomatte.py {}",
-                                               source_dir(), path(picture)));
+    const CommandResult read =
+        run(fmt::format("/usr/bin/python3 {}/tests/cli/read_cryptomatte.py {}", source_dir(), path(picture)));
     EXPECT_EQ(read.status, 0) << read.output;
     return Json::parse(read.output);
   }

@@ -108,8 +108,7 @@ class PovrayExamples : public Povray, public ::testing::WithParamInterface<const
 // Each is read, and nothing of it is dropped.
 TEST_P(PovrayExamples, AreReadWhole) {
   const CommandResult read = run_verb(
-      "inspect",
-      fmt::format("'{}/examples/povray/{}.pov' --json > report.json", source_dir(), GetParam()));
+      "inspect", fmt::format("'{}/examples/povray/{}.pov' --json > report.json", source_dir(), GetParam()));
   ASSERT_EQ(read.status, 0) << read.output;
   const nlohmann::json report = read_json(folder_ / "report.json");
   EXPECT_GT(report["triangles"], 0);

@@ -115,9 +115,9 @@ TEST_P(MitsubaClip, IsCutAlike) {
   const Picture picture = develop_colors(read_film(directory / "ours.film", nullptr));
   for (const char* variant : {"scalar_rgb", "scalar_spectral"})
     for (const std::string& file : {scene, again}) {
-      const CommandResult theirs = run(fmt::format(
-          "{} '{}/tests/conformance/mitsuba_pixels.py' '{}' '{}' --spp 1024 --variant {}", mitsuba_python(),
-          source_dir(), file, (directory / "theirs.json").string(), variant));
+      const CommandResult theirs = run(
+          fmt::format("{} '{}/tests/conformance/mitsuba_pixels.py' '{}' '{}' --spp 1024 --variant {}",
+                      mitsuba_python(), source_dir(), file, (directory / "theirs.json").string(), variant));
       ASSERT_EQ(theirs.status, 0) << theirs.output;
       const nlohmann::json expected = read_json(directory / "theirs.json");
       double sum = 0, sum_of_theirs = 0;

@@ -92,9 +92,9 @@ TEST_P(MitsubaHidden, IsHiddenAlike) {
   const Picture picture = develop_colors(read_film(directory / "ours.film", nullptr));
   ASSERT_TRUE(alpha_of(picture));
   for (const char* variant : {"scalar_rgb", "scalar_spectral"}) {
-    const CommandResult theirs = run(fmt::format(
-        "{} '{}/tests/conformance/mitsuba_pixels.py' '{}' '{}' --spp 1024 --variant {}", mitsuba_python(),
-        source_dir(), scene, (directory / "theirs.json").string(), variant));
+    const CommandResult theirs = run(
+        fmt::format("{} '{}/tests/conformance/mitsuba_pixels.py' '{}' '{}' --spp 1024 --variant {}",
+                    mitsuba_python(), source_dir(), scene, (directory / "theirs.json").string(), variant));
     ASSERT_EQ(theirs.status, 0) << theirs.output;
     const nlohmann::json expected = read_json(directory / "theirs.json");
     double sum = 0, sum_of_theirs = 0;

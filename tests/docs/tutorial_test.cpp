@@ -24,8 +24,7 @@ TEST_P(Tutorial, CanBeTyped) {
   {
     std::ofstream script(folder / "typed.sh");
     script << "set -euo pipefail\nPATH=" + bin_dir() + ":/usr/bin:$PATH\n";
-    for (const PageLine& line :
-         lines_of(fmt::format("{}/docs/tutorial/{}.md", source_dir(), GetParam())))
+    for (const PageLine& line : lines_of(fmt::format("{}/docs/tutorial/{}.md", source_dir(), GetParam())))
       if (line.is_typed) script << line.text << "\n";
   }
   const CommandResult typed = run(fmt::format("cd '{}' && bash -x typed.sh", folder.path().string()));

@@ -20,7 +20,7 @@ std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
 TEST(Simulation, NothingIsLostAndEveryJobEnds) {
   const std::uint64_t only = from_environment("VITRAIL_SIMULATION_SEED", 0);
   const std::uint64_t first = only > 0 ? only : 1,
-                      jobs = only > 0 ? 1 : from_environment("VITRAIL_SIMULATIONS", 2000);
+                      jobs = only > 0 ? 1 : from_environment("VITRAIL_SIMULATIONS", 600);
   std::uint64_t events = 0;
   for (std::uint64_t seed = first; seed < first + jobs; ++seed) {
     const RandomJob c(seed);

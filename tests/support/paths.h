@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the project and its programs are. Only paths.cpp is compiled with these folders: a compiler cache knows all other
-// files in another checkout.
+// Where the project and its programs are. Only paths.cpp is compiled with these folders: a compiler cache
+// knows all other files in another checkout.
 #pragma once
 
 #include <string>

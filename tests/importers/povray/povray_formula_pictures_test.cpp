@@ -10,9 +10,9 @@ class PovrayFormulas : public PovrayPictures {
  protected:
   void expect_shown(const std::string& look, double most = 0.02) {
     const std::string functions = "#include \"functions.inc\"\n";
-    expect_alike(
-        linear + functions + lamps + "plane { y, 0 " + look + " }\nsphere { <0, .9, 0>, .8 " + look + " }\n",
-        most);
+    expect_alike(linear_view + functions + two_lamps + "plane { y, 0 " + look +
+                     " }\nsphere { <0, .9, 0>, .8 " + look + " }\n",
+                 most);
   }
 };
 
@@ -58,11 +58,13 @@ TEST_F(PovrayFormulas, ImagesAroundThings) {
         type, more);
   };
   for (const char* more : {"", "interpolate 2", "once"}) {
-    expect_alike(linear + lamps + "sphere { 0, 1.4" + pigment(1, more), 0.03);
-    expect_alike(linear + lamps + "difference { sphere { 0, 1.4 } box { 0, <2, 2, -2> }" + pigment(1, more),
+    expect_alike(linear_view + two_lamps + "sphere { 0, 1.4" + pigment(1, more), 0.03);
+    expect_alike(
+        linear_view + two_lamps + "difference { sphere { 0, 1.4 } box { 0, <2, 2, -2> }" + pigment(1, more),
+        0.03);
+    expect_alike(linear_view + two_lamps + "cylinder { y*.1, y*1.3, 1.2 rotate y*50 " + pigment(2, more),
                  0.03);
-    expect_alike(linear + lamps + "cylinder { y*.1, y*1.3, 1.2 rotate y*50 " + pigment(2, more), 0.03);
-    expect_alike(linear + lamps + "box { <-1, 0, -1>, <1, 1.5, 1> " + pigment(2, more), 0.03);
+    expect_alike(linear_view + two_lamps + "box { <-1, 0, -1>, <1, 1.5, 1> " + pigment(2, more), 0.03);
   }
 }
 
@@ -74,7 +76,8 @@ TEST_F(PovrayFormulas, ImagesWithHoles) {
   test::write_png(folder_ / "holes.png", 4, 4, 4, rgba);
   for (const char* image : {"png \"holes.png\"", "png \"holes.png\" once"})
     expect_alike(
-        linear + lamps + "plane { y, 0 pigment { checker rgb .2, rgb .8 } }\nbox { <-1, 0, -1>, <1, 1.5, 1>" +
+        linear_view + two_lamps +
+            "plane { y, 0 pigment { checker rgb .2, rgb .8 } }\nbox { <-1, 0, -1>, <1, 1.5, 1>" +
             fmt::format(" pigment {{ image_map {{ {} }} }} finish {{ ambient .4 diffuse .5 }} }}\n", image),
         0.03);
 }

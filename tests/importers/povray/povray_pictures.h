@@ -70,9 +70,9 @@ class PovrayPictures : public testing::Test {
   TemporaryFolder folder_;
 };
 
-inline const std::string camera = "camera { location <0, 1.5, -4> look_at <0, 0.7, 0> }\n";
-inline const std::string linear = "#version 3.7; global_settings { assumed_gamma 1 }\n" + camera;
-inline const std::string lamps =
+inline const std::string raised_camera = "camera { location <0, 1.5, -4> look_at <0, 0.7, 0> }\n";
+inline const std::string linear_view = "#version 3.7; global_settings { assumed_gamma 1 }\n" + raised_camera;
+inline const std::string two_lamps =
     "light_source { <-3, 5, -4> rgb <.8, .7, .6> } light_source { <4, 3, -2> rgb <.2, .3, .4> }\n";
 
 }  // namespace vitrail

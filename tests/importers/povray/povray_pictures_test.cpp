@@ -7,7 +7,7 @@ namespace {
 
 // A ball on a floor in two lights, with ambient and a mirror.
 const std::string ball =
-    lamps +
+    two_lamps +
     "plane { y, 0 pigment { checker rgb <.8, .7, .6>, rgb <.3, .4, .2> } finish { ambient .15 diffuse .7 } "
     "}\n"
     "sphere { <-.6, .7, 0>, .7 pigment { rgb <.9, .4, .2> } finish { ambient .2 diffuse .6 } }\n"
@@ -20,7 +20,7 @@ TEST_F(PovrayPictures, SumsOfColorsOfAScreen) {
                            "#version 3.7; global_settings { assumed_gamma 1.5 }",
                            "#version 3.7; global_settings { assumed_gamma srgb }", "#version 3.7;",
                            "#version 3.6;", "#version 3.6; global_settings { assumed_gamma 2.2 }"})
-    expect_alike(std::string(head) + "\n" + camera + ball, 0.02);
+    expect_alike(std::string(head) + "\n" + raised_camera + ball, 0.02);
 }
 
 TEST_F(PovrayPictures, ImagesInEachGamma) {
@@ -37,14 +37,14 @@ TEST_F(PovrayPictures, ImagesInEachGamma) {
                            "#version 3.6; global_settings { assumed_gamma 1 }", "#version 3.6;",
                            "#version 3.6; global_settings { assumed_gamma 2.2 }"})
     for (const char* more : {"", " gamma 1.0"})
-      expect_alike(std::string(head) + "\n" + camera + lamps + with(more), 0.03);
+      expect_alike(std::string(head) + "\n" + raised_camera + two_lamps + with(more), 0.03);
 }
 
 TEST_F(PovrayPictures, Highlights) {
   const auto shown = [&](const std::string& finish, const std::string& normal) {
-    return linear + lamps + "plane { y, 0 pigment { rgb .5 } " + normal + " finish { ambient .1 " + finish +
-           " } }\nsphere { <0, .9, 0>, .8 pigment { rgb <.9, .4, .2> } " + normal + " finish { ambient .1 " +
-           finish + " } }\n";
+    return linear_view + two_lamps + "plane { y, 0 pigment { rgb .5 } " + normal + " finish { ambient .1 " +
+           finish + " } }\nsphere { <0, .9, 0>, .8 pigment { rgb <.9, .4, .2> } " + normal +
+           " finish { ambient .1 " + finish + " } }\n";
   };
   for (const char* finish :
        {"phong .8 phong_size 20", "specular .7 roughness .03", "specular .6 roughness .2",
@@ -55,8 +55,8 @@ TEST_F(PovrayPictures, Highlights) {
 }
 
 TEST_F(PovrayPictures, Shadows) {
-  expect_alike(linear + ball + "light_source { <0, 6, 3> rgb .4 shadowless }", 0.02);
-  expect_alike(linear + ball +
+  expect_alike(linear_view + ball + "light_source { <0, 6, 3> rgb .4 shadowless }", 0.02);
+  expect_alike(linear_view + ball +
                    "box { <-1, 1.6, -1>, <1, 1.7, 0> no_shadow pigment { rgb .7 } finish { specular .5 } }",
                0.02);
 }
@@ -104,8 +104,8 @@ TEST_F(PovrayPictures, LampsThatAreRectangles) {
   const std::string glow =
       "polygon { 5, <0, 1.5, -.9>, <1, 1.5, -.9>, <1, 1.5, .1>, <0, 1.5, .1>, <0, 1.5, -.9> translate .5 * y"
       " pigment { rgb 1 } finish { ambient 0 diffuse 0 emission rgb <8, 6.8, 5.6> } no_shadow }\n";
-  expect_alike(linear + lamp + room, 0.02, 256);
-  expect_alike(linear + lamp + room + glow, 0.02, 256);
+  expect_alike(linear_view + lamp + room, 0.02, 256);
+  expect_alike(linear_view + lamp + room + glow, 0.02, 256);
 }
 
 // Each shape from both sides, red outside and blue inside. Of triangles the order of the corners decides.
@@ -121,13 +121,13 @@ TEST_F(PovrayPictures, TexturesOfTheInside) {
         "mesh { triangle { <1,0,0>, <-1,0,0>, <0,1.5,0> }",
         "mesh2 { vertex_vectors { 3, <-1,0,0>, <1,0,0>, <0,1.5,0> } face_indices { 1, <0,1,2> }",
         "difference { box { <-1,0,-1>, <1,1.4,1> } box { <-.8,.2,-2>, <.8,1.2,.8> }"})
-    expect_alike(linear + "background { rgb 1 } " + lamps + shape + sides, 0.02);
+    expect_alike(linear_view + "background { rgb 1 } " + two_lamps + shape + sides, 0.02);
 }
 
 // A triangle that glows outside alone.
 TEST_F(PovrayPictures, LightOfTheOutside) {
   for (const std::string corners : {"<-1,0,0>, <1,0,0>", "<1,0,0>, <-1,0,0>"})
-    expect_alike(linear + lamps + "mesh { triangle { " + corners +
+    expect_alike(linear_view + two_lamps + "mesh { triangle { " + corners +
                      ", <0,1.5,0> } texture { pigment { rgb .2 } finish { emission .6 diffuse 1 } }"
                      " interior_texture { pigment { rgb .2 } finish { ambient 0 diffuse 1 } } }",
                  0.02);
@@ -138,23 +138,25 @@ TEST_F(PovrayPictures, Atmospheres) {
   for (const char* media :
        {"media { absorption <.05, .1, .15> }", "media { emission .03 }",
         "fog { distance 8 rgb <.4, .5, .6> }", "media { scattering { 1, .05 extinction .2 } }"})
-    expect_alike(linear + walls + media, 0.03, 256);
+    expect_alike(linear_view + walls + media, 0.03, 256);
   for (const char* media :
        {"media { scattering { 1, .06 } }", "media { scattering { 5, .05 eccentricity .4 } }"})
-    expect_alike(linear + walls + media, 0.08, 256);
+    expect_alike(linear_view + walls + media, 0.08, 256);
   // What is not hollow keeps it out, from the eye as well.
   const std::string clear = " pigment { rgbt 1 } finish { ambient 0 diffuse 0 } no_shadow }\n";
-  expect_alike(linear + walls + "fog { distance 4 rgb <.4, .5, .6> } sphere { <0, 1, -1>, .9" + clear, 0.03);
-  expect_alike(linear + walls + "fog { distance 4 rgb <.4, .5, .6> } sphere { <0, 1, -1>, .9 hollow" + clear,
+  expect_alike(linear_view + walls + "fog { distance 4 rgb <.4, .5, .6> } sphere { <0, 1, -1>, .9" + clear,
                0.03);
   expect_alike(
-      linear + walls + "fog { distance 4 rgb <.4, .5, .6> } sphere { 0, 90 pigment { rgb 1 } no_shadow }",
+      linear_view + walls + "fog { distance 4 rgb <.4, .5, .6> } sphere { <0, 1, -1>, .9 hollow" + clear,
       0.03);
+  expect_alike(linear_view + walls +
+                   "fog { distance 4 rgb <.4, .5, .6> } sphere { 0, 90 pigment { rgb 1 } no_shadow }",
+               0.03);
 }
 
 TEST_F(PovrayPictures, AveragesOfPigmentsAndTextures) {
   const auto floor = [](const std::string& look) {
-    return linear + lamps + "plane { y, 0 " + look + " }\nsphere { <0, .9, 0>, .8 " + look + " }\n";
+    return linear_view + two_lamps + "plane { y, 0 " + look + " }\nsphere { <0, .9, 0>, .8 " + look + " }\n";
   };
   const std::string two =
       "[1 checker rgb <.9, .2, .1> rgb <.1, .3, .9>] [3 gradient x color_map { [0 rgb 0] [1 rgb 1] } scale "
@@ -178,16 +180,16 @@ TEST_F(PovrayPictures, TexturesOfAPatternEachWithItsGlowAndLayers) {
     const std::string look =
         kind == "checker" ? "texture { checker texture { " + dark + " } texture { Layers } }"
                           : "texture { gradient x texture_map { [0 " + dark + "] [1 Layers] } scale 3 }";
-    expect_alike(
-        linear + lamps + layers + "plane { y, 0 " + look + " }\nsphere { <0, .9, 0>, .8 " + look + " }",
-        0.02);
+    expect_alike(linear_view + two_lamps + layers + "plane { y, 0 " + look + " }\nsphere { <0, .9, 0>, .8 " +
+                     look + " }",
+                 0.02);
   }
 }
 
 TEST_F(PovrayPictures, Grain) {
   for (const char* finish : {"ambient .1 diffuse .6 crand .05", "ambient .1 diffuse .7 crand .15",
                              "ambient .2 diffuse .6 brilliance 2 crand .06 phong .4"})
-    expect_alike(linear + lamps + "plane { y, 0 pigment { rgb <.8, .7, .5> } finish { " + finish +
+    expect_alike(linear_view + two_lamps + "plane { y, 0 pigment { rgb <.8, .7, .5> } finish { " + finish +
                      " } }\nsphere { <0, .9, 0>, .8 pigment { gradient y } finish { " + finish + " } }\n",
                  0.025);
 }
@@ -196,20 +198,20 @@ const std::string walls = ball + "plane { -z, -6 pigment { rgb .6 } }\n";
 
 TEST_F(PovrayPictures, FogOnTheGround) {
   for (const char* fog : {"distance 4 rgb .6 fog_offset .2 fog_alt .6", "distance 2 rgb .1 fog_alt 1"})
-    expect_alike(linear + walls + "fog { fog_type 2 " + fog + " }", 0.03, 256);
+    expect_alike(linear_view + walls + "fog { fog_type 2 " + fog + " }", 0.03, 256);
 }
 
 // A map's colours below 0 show 0, and mixtures with them.
 TEST_F(PovrayPictures, ColorsBelowZero) {
   for (const char* map :
        {"[0 rgb -.5] [.4 rgb x] [.7 rgb <.2, .5, .9>] [1 rgb 1]", "[0 rgb <1, -1, .5>] [1 rgb <-.2, 1, 1>]"})
-    expect_alike(linear + lamps + "plane { z, 0 pigment { gradient x color_map { " + map +
+    expect_alike(linear_view + two_lamps + "plane { z, 0 pigment { gradient x color_map { " + map +
                      " } scale 2 translate x } finish { ambient .5 } }",
                  0.02);
 }
 
 TEST_F(PovrayPictures, DoubleIlluminate) {
-  const std::string behind = linear +
+  const std::string behind = linear_view +
                              "light_source { <-2, 4, 4> rgb .8 } light_source { <3, 2, -4> rgb .3 }"
                              " plane { y, 0 pigment { rgb .6 } finish { ambient .1 diffuse .6 } }\n";
   for (const char* shape :
@@ -227,8 +229,8 @@ TEST_F(PovrayPictures, FogThatTransmitsAndFilters) {
   for (const char* fog : {"distance 4 rgbt <.4, .5, .6, .3>", "distance 4 rgbf <.7, .5, .2, .8>",
                           "distance 2 fog_type 2 fog_offset 2 fog_alt 1 rgbt <.4, .5, .6, .3>",
                           "distance 4 fog_type 2 fog_offset .2 fog_alt .6 rgbft <.3, .5, .2, 1, .4>"}) {
-    expect_alike(linear + ball + around + "fog { " + fog + " }", 0.03, 128);
-    expect_alike(linear + walls + "fog { " + fog + " }", 0.03, 128);
+    expect_alike(linear_view + ball + around + "fog { " + fog + " }", 0.03, 128);
+    expect_alike(linear_view + walls + "fog { " + fog + " }", 0.03, 128);
   }
   // From above, as on a landscape.
   expect_alike(
@@ -242,13 +244,13 @@ TEST_F(PovrayPictures, FogWithTurbulence) {
   for (const char* fog :
        {"distance 8 rgb <.7, .8, .9> turbulence .5", "distance 3 rgb .9 turbulence 2 octaves 3",
         "distance 4 rgb .6 fog_type 2 fog_offset .2 fog_alt .6 turbulence .8"})
-    expect_alike(linear + walls + "fog { " + fog + " }", 0.06, 256);
-  expect_alike(linear + walls + "fog { distance 6 rgb .9 turbulence .5 turb_depth .9 }", 0.09, 256);
+    expect_alike(linear_view + walls + "fog { " + fog + " }", 0.06, 256);
+  expect_alike(linear_view + walls + "fog { distance 6 rgb .9 turbulence .5 turb_depth .9 }", 0.09, 256);
 }
 
 TEST_F(PovrayPictures, PatternsOfPigments) {
   const auto shown = [&](const std::string& look) {
-    return linear + lamps + "plane { y, 0 " + look + " }\nsphere { <0, .9, 0>, .8 " + look + " }\n";
+    return linear_view + two_lamps + "plane { y, 0 " + look + " }\nsphere { <0, .9, 0>, .8 " + look + " }\n";
   };
   const std::string rings =
       "pigment_pattern { onion color_map { [0 rgb 1] [.4 rgb .2] [.4 rgb <.9, .1, .5>] [1 rgb 0] } scale .7 "
@@ -274,7 +276,7 @@ TEST_F(PovrayPictures, FormulasOfColors) {
                        color);
   };
   expect_alike(
-      linear + lamps +
+      linear_view + two_lamps +
           "#declare P = function { pigment { onion color_map { [0 rgb <.9, .3, .1>] [.6 rgb <.2, .8, .4>]"
           " [1 rgb .1] } scale .8 rotate x*30 } }\n"
           "plane { y, 0 pigment { average pigment_map { " +
@@ -286,7 +288,7 @@ TEST_F(PovrayPictures, FormulasOfColors) {
 TEST_F(PovrayPictures, Quilts) {
   for (const char* normal : {"quilted 1 scale .5", "quilted .6 control0 0 control1 1 scale .7 rotate y*20",
                              "quilted 1.5 control0 .5 control1 .2 translate .3"})
-    expect_alike(linear + lamps + "plane { z, 0 pigment { rgb .7 } normal { " + normal +
+    expect_alike(linear_view + two_lamps + "plane { z, 0 pigment { rgb .7 } normal { " + normal +
                      " } finish { ambient .1 phong .5 phong_size 20 } }\n",
                  0.03);
 }
@@ -298,7 +300,7 @@ TEST_F(PovrayPictures, BumpMaps) {
       pixels += fmt::format("{} ", std::lround(127 + 90 * std::sin(x * 0.39) * std::cos(y * 0.2)));
   folder_.write("bumps.pgm", pixels);
   for (const char* more : {"", " scale 3 rotate x*90"})
-    expect_alike(linear + lamps +
+    expect_alike(linear_view + two_lamps +
                      "plane { z, 0 pigment { rgb .7 } normal { bump_map { pgm \"bumps.pgm\" bump_size 6"
                      " interpolate 2 }" +
                      more + " } finish { ambient .1 specular .4 roughness .05 } }\n",
@@ -308,7 +310,7 @@ TEST_F(PovrayPictures, BumpMaps) {
 TEST_F(PovrayPictures, ColorsAboveOne) {
   for (const char* pigment :
        {"rgb <1.6, 1.2, .4>", "checker rgb .9 rgb 1.5", "gradient x color_map { [0 rgb 0] [1 rgb 2] }"})
-    expect_alike(linear + "light_source { <-3, 5, -4> rgb .6 }\nplane { y, 0 pigment { " + pigment +
+    expect_alike(linear_view + "light_source { <-3, 5, -4> rgb .6 }\nplane { y, 0 pigment { " + pigment +
                      " } finish { ambient .05 diffuse .9 } }\n",
                  0.02);
 }
@@ -316,7 +318,7 @@ TEST_F(PovrayPictures, ColorsAboveOne) {
 // Without photons povray's light passes glass straight.
 TEST_F(PovrayPictures, ShadowsOfClearGlass) {
   expect_alike(
-      linear + lamps +
+      linear_view + two_lamps +
           "plane { y, 0 pigment { checker rgb <.8, .7, .6>, rgb <.3, .4, .2> } finish { ambient .15 } }\n"
           "sphere { <-.4, .8, 1>, .8 pigment { rgbt <1, 1, 1, .95> } finish { ambient 0 diffuse 0 }"
           " interior { ior 1.05 } }",
@@ -326,8 +328,9 @@ TEST_F(PovrayPictures, ShadowsOfClearGlass) {
 // The floor lies where two cells meet, whatever their size.
 TEST_F(PovrayPictures, CheckersOfAFloor) {
   for (const char* scale : {".3", ".7", "1.1"})
-    expect_alike(linear + lamps + "plane { y, 0 pigment { checker rgb <.9, .8, .7>, rgb <.2, .3, .1> scale " +
-                     scale + " } }",
+    expect_alike(linear_view + two_lamps +
+                     "plane { y, 0 pigment { checker rgb <.9, .8, .7>, rgb <.2, .3, .1> scale " + scale +
+                     " } }",
                  0.02);
 }
 
@@ -344,7 +347,7 @@ TEST_F(PovrayPictures, ClearSurfacesThatShine) {
         "pigment { rgb <1, .8, .6> } finish { specular .9 roughness .01 reflection { .1, 1 fresnel } }"
         " interior { ior 1.5 }",
         "pigment { rgb <1, .6, .3> } finish { ambient 0 reflection { .3, .9 falloff 2 metallic } }"})
-    expect_alike(linear + lamps +
+    expect_alike(linear_view + two_lamps +
                      "plane { z, 20 pigment { rgb <.2, .3, .5> } finish { ambient 1 diffuse 0 } }\n" +
                      "plane { y, 0 pigment { checker rgb <.8, .7, .6>, rgb <.3, .4, .2> scale .7 } "
                      "finish { ambient .1 } }\n"
@@ -356,7 +359,7 @@ TEST_F(PovrayPictures, ClearSurfacesThatShine) {
 // So they are of a layer above others.
 TEST_F(PovrayPictures, LayersThatShine) {
   for (const char* finish : {"phong .9 phong_size 20", "specular .7 roughness .03 reflection .2"})
-    expect_alike(linear + lamps +
+    expect_alike(linear_view + two_lamps +
                      "plane { y, 0 pigment { rgb .5 } }\n"
                      "sphere { <0, .9, .5>, .9 texture { pigment { rgb <.2, .4, .1> } }"
                      " texture { pigment { gradient y color_map { [0 rgbt <.9, .8, .2, 1>] [1 rgbt <.9, .8, "
@@ -374,25 +377,27 @@ TEST_F(PovrayPictures, PartsBehindTextures) {
   for (const char* more : {"finish { phong .9 phong_size 20 }",
                            "pigment { checker rgbt <.2, .1, .9, .4>, rgbt <.9, .1, .1, .4> }",
                            "normal { ripples .3 scale .5 }"}) {
-    expect_alike(linear + lamps + varnished + "sphere { <0, .9, .5>, .9 texture { T } " + more + " }", 0.02);
-    expect_alike(linear + lamps + varnished + "sphere { <0, .9, .5>, .9 texture { T " + more + " } }", 0.02);
     expect_alike(
-        linear + lamps + "sphere { <0, .9, .5>, .9 texture { pigment { rgb .7 } scale .3 } " + more + " }",
-        0.02);
+        linear_view + two_lamps + varnished + "sphere { <0, .9, .5>, .9 texture { T } " + more + " }", 0.02);
+    expect_alike(
+        linear_view + two_lamps + varnished + "sphere { <0, .9, .5>, .9 texture { T " + more + " } }", 0.02);
+    expect_alike(linear_view + two_lamps +
+                     "sphere { <0, .9, .5>, .9 texture { pigment { rgb .7 } scale .3 } " + more + " }",
+                 0.02);
   }
 }
 
 TEST_F(PovrayPictures, ColoredAmbientUponPatterns) {
   const std::string floor =
       "plane { y, 0 pigment { checker rgb <.8, .7, .6>, rgb <.3, .4, .9> } finish { ambient .6 diffuse .3 ";
-  expect_alike("#version 3.7; global_settings { assumed_gamma 1 ambient_light rgb <1, .5, .2> }\n" + camera +
-                   lamps + floor + "} }",
+  expect_alike("#version 3.7; global_settings { assumed_gamma 1 ambient_light rgb <1, .5, .2> }\n" +
+                   raised_camera + two_lamps + floor + "} }",
                0.02);
-  expect_alike(linear + lamps + floor + "emission rgb <.1, .2, .7> } }", 0.02);
+  expect_alike(linear_view + two_lamps + floor + "emission rgb <.1, .2, .7> } }", 0.02);
 }
 
 TEST_F(PovrayPictures, NormalsBeginAsTheDefaultOne) {
-  expect_alike(linear + lamps +
+  expect_alike(linear_view + two_lamps +
                    "#default { pigment { rgb .7 } normal { onion .8 scale .4 } finish { phong .5 } }\n"
                    "plane { y, 0 normal { slope_map { [0 <0, 1>] [.5 <1, 1>] [.5 <1, -1>] [1 <0, -1>] } } }",
                0.03);
@@ -400,7 +405,7 @@ TEST_F(PovrayPictures, NormalsBeginAsTheDefaultOne) {
 
 TEST_F(PovrayPictures, OrthographicCameras) {
   const std::string around =
-      lamps +
+      two_lamps +
       "plane { z, 1 inverse pigment { checker rgb <.9, .3, .2>, rgb <.2, .4, .9> scale .7 } }\n"
       "box { -.4, .4 rotate y*30 pigment { rgb <.2, .9, .3> } }\n";
   for (const char* view :

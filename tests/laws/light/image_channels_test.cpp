@@ -126,9 +126,9 @@ class MitsubaImageChannels : public ImageChannels {
   Quarters shown_by_mitsuba(const std::filesystem::path& scene, const char* variant = "scalar_spectral",
                             int samples = 1024) {
     const std::string out = (folder_ / "mitsuba.exr").string();
-    const std::string command =
-        mitsuba_python() + " " + test::project_file("tests/importers/render_mitsuba.py ") + scene.string() +
-        " " + out + " --spp " + std::to_string(samples) + " --variant " + variant;
+    const std::string command = mitsuba_python() + " " +
+                                test::project_file("tests/importers/render_mitsuba.py ") + scene.string() +
+                                " " + out + " --spp " + std::to_string(samples) + " --variant " + variant;
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     const Image picture = read_linear_image(out);
     return quarters(picture.width, [&](int x, int y) {
