@@ -131,10 +131,10 @@ endfunction()
 
 # vitrail_lanes(FILE FLAG …): how a file of tracer/lanes is compiled, for an instruction set: no comparison traps, so
 # that lanes need no branches, and the C++ ABI of wider vectors does not matter, as all functions are inlined. & of plain
-# bools is meant. GCC 12 takes registers of its own header for uninitialized.
+# bools is meant. GCC 12 takes registers of its own header for uninitialized. Tests of them are optimised as they are.
 function(vitrail_lanes file)
   set_source_files_properties(${file} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
-    COMPILE_OPTIONS "-fno-trapping-math;-Wno-psabi;-Wno-uninitialized;$<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>;${ARGN}")
+    COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>;-fno-trapping-math;-Wno-psabi;-Wno-uninitialized;$<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>;${ARGN}")
 endfunction()
 
 # vitrail_stays_inside(TARGET): a test that the TARGET's objects named *_avx* define no weak function. The linker keeps
