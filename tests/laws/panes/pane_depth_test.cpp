@@ -52,11 +52,12 @@ double by_photons(const Scene& scene) {
 
 TEST(DepthBehindPanes, IsThatOfTheOpen) {
   for (const Source light : {Source::sun, Source::sky, Source::lamp})
-    for (const int panes : {1, 4})
+    for (const int panes : {1, 4}) {
+      const int samples = light == Source::sun ? 16 : 256;
+      const double deep = by_paths(below_panes(light, panes, 60), samples);
       for (const int depth : {1, 3, 8}) {
         const Scene scene = below_panes(light, panes, depth);
-        const double paths = by_paths(scene, light == Source::sun ? 16 : 256),
-                     deep = by_paths(below_panes(light, panes, 60), light == Source::sun ? 16 : 256);
+        const double paths = by_paths(scene, samples);
         const double photons = by_photons(scene);
         fmt::print("light {}, {} panes, depth {}: {:.4f} of what a depth of 60 has, photons ÷ paths {:.4f}\n",
                    static_cast<int>(light), panes, depth, paths / deep, photons / paths);
@@ -64,6 +65,7 @@ TEST(DepthBehindPanes, IsThatOfTheOpen) {
         EXPECT_GT(paths / deep, 0.5) << panes << ' ' << depth;
         EXPECT_NEAR(photons / paths, 1, 0.03) << panes << ' ' << depth;
       }
+    }
 }
 
 // ---- Thick slabs
