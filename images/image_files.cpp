@@ -54,7 +54,9 @@ bool is_large_gif(const std::filesystem::path& file) {
   if (!in.read(reinterpret_cast<char*>(head.data()), head.size()) || head[0] != 'G' || head[1] != 'I' ||
       head[2] != 'F')
     return false;
-  const auto number = [&](std::size_t at) { return std::uint64_t{head[at]} + 256 * head[at + 1]; };
+  const auto number = [&](std::size_t at) {
+    return std::uint64_t{head[at]} + std::uint64_t{256} * head[at + 1];
+  };
   return number(6) * number(8) > most_pixels_of_gif;
 }
 

@@ -20,7 +20,7 @@ VoxelBox box_of(const StoredGrid& grid, const File& file) {
   const auto& upper = grid.meta.indexBBox.max();
   VoxelBox box;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto axis = static_cast<int>(k);
+    const auto axis = static_cast<nanovdb::Coord::IndexType>(k);
     if (lower[axis] > upper[axis]) file.fail("the grid has no active voxels");
     box.first[k] = std::int64_t{lower[axis]} - 1;
     box.last[k] = std::int64_t{upper[axis]} + 1;

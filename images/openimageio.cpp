@@ -36,7 +36,7 @@ std::string fault_of(const OIIO::ImageInput& in) {
 }
 
 // An empty text would mean that all is well.
-std::string reason(std::string said) { return said.empty() ? "OpenImageIO does not say why" : said; }
+std::string reason(const std::string& said) { return said.empty() ? "OpenImageIO does not say why" : said; }
 
 // −1 where there is none. The library's own search aborts where there are fewer names than channels (FITS).
 int channel_named(std::string_view name, const OIIO::ImageSpec& spec) {
@@ -116,7 +116,8 @@ bool is_decoded_whole(const OIIO::ImageInput& in) {
 void note_memory(const OIIO::ImageInput& in, ImageLayout& layout) {
   const OIIO::ImageSpec& spec = in.spec();
   const std::uint64_t stored = spec.image_bytes(true), pixels = spec.image_pixels();
-  const auto channels = static_cast<std::uint64_t>(spec.nchannels + layout.channels);
+  const std::uint64_t channels =
+      static_cast<std::uint64_t>(spec.nchannels) + static_cast<std::uint64_t>(layout.channels);
   const std::uint64_t floats = pixels * channels * sizeof(float);
   const std::uint64_t decoded = is_decoded_whole(in) ? 2 * stored : 0;
   const auto lines = static_cast<std::uint64_t>(std::max(spec.tile_height, 1));

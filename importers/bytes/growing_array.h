@@ -102,6 +102,7 @@ class GrowingArray {
     static const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
     const auto begin = (reinterpret_cast<std::uintptr_t>(values.data()) + page - 1) / page * page;
     const auto end = reinterpret_cast<std::uintptr_t>(values.data() + values.size()) / page * page;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the address of a page
     if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
   }
 

@@ -32,8 +32,8 @@ char lower_case(char letter) {
 
 std::string find_named_file(std::string name, const std::filesystem::path& folder) {
   const auto is_file = [](const std::filesystem::path& path) {
-    std::error_code none;  // names too long for the file system are no files either
-    return std::filesystem::is_regular_file(path, none);
+    std::error_code ignored;  // names too long for the file system are no files either
+    return std::filesystem::is_regular_file(path, ignored);
   };
   const std::string given = name;
   std::ranges::replace(name, '\\', '/');

@@ -145,7 +145,7 @@ TriangleMesh hyperboloid(const Vector3d& p1, const Vector3d& p2, double phimax_r
       mesh.normals.push_back(single<Normal3f>(normal));
       mesh.uvs.push_back({static_cast<float>(u), static_cast<float>(v)});
     }
-  mesh.triangles = grid_triangles(columns + 1, rows + 1);
+  mesh.triangles = grid_triangles(static_cast<std::uint32_t>(columns + 1), rows + 1);
   return mesh;
 }
 

@@ -138,9 +138,9 @@ class Evaluation {
     for (const Literal& literal : unbounded) {
       if (left.empty()) return {};
       const Solid part = literal.csg->within(bounds_of(left));
-      left = literal.negated ? without(std::move(left), {part}) : common(std::move(left), {part});
+      left = literal.negated ? without(std::move(left), {part}) : common(left, {part});
     }
-    for (const Bodies& other : positives) left = common(std::move(left), other);
+    for (const Bodies& other : positives) left = common(left, other);
     left = without(std::move(left), negatives);
     if (from_infinity) note_infinity(left);
     return {std::move(left)};
@@ -153,7 +153,7 @@ class Evaluation {
         result_.reaches_infinity = true;
   }
 
-  Bodies common(Bodies left, const Bodies& other) {
+  Bodies common(const Bodies& left, const Bodies& other) {
     Bodies made;
     for (const Solid& a : left)
       for (const Solid& b : other) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/writing/packed_files.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <fstream>
 #include <map>
@@ -55,7 +57,7 @@ class Packer {
     if (error) throw MachineError("cannot create " + folder_.string() + ": " + error.message());
     const std::string stem = file.stem().string(), extension = file.extension().string();
     std::string name = stem + extension;
-    for (int i = 2; !names_.insert(name).second; ++i) name = stem + "-" + std::to_string(i) + extension;
+    for (int i = 2; !names_.insert(name).second; ++i) name = fmt::format("{}-{}{}", stem, i, extension);
     copy_bytes(file, folder_ / name);
     return (folder_ / name).string();
   }

@@ -17,6 +17,7 @@ class Boxed {
   Boxed() = default;
   // The value is copied or moved into a box of its own.
   template <class U>
+  // NOLINTNEXTLINE(bugprone-forwarding-reference-overload): `requires` leaves Boxed out
   requires std::convertible_to<U&&, T> &&(!std::same_as<std::remove_cvref_t<U>, Boxed>)Boxed(U&& value)
       : value_(std::make_unique<T>(std::forward<U>(value))) {}
   Boxed(const Boxed& other) : value_(other.value_ ? std::make_unique<T>(*other.value_) : nullptr) {}

@@ -13,8 +13,8 @@ std::string to_string(const SourceLocation& where) {
   return fmt::format("{}:{}:{}", where.file, where.line, where.column);
 }
 
-Error::Error(std::string message, SourceLocation where, std::string text)
-    : std::runtime_error(std::move(message)), location(std::move(where)), excerpt(std::move(text)) {}
+Error::Error(const std::string& message, SourceLocation where, std::string text)
+    : std::runtime_error(message), location(std::move(where)), excerpt(std::move(text)) {}
 
 namespace {
 

@@ -23,7 +23,7 @@ std::string to_string(const SourceLocation& where);
 // `excerpt` is the offending text, shown under the message; it may be empty.
 struct Error : std::runtime_error {
   // What is wrong, where, and the text that is there.
-  Error(std::string message, SourceLocation where = {}, std::string excerpt = {});
+  Error(const std::string& message, SourceLocation where = {}, std::string excerpt = {});
   SourceLocation location;
   std::string excerpt;
 };

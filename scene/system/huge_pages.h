@@ -16,6 +16,7 @@ void prefer_huge_pages(T* data, std::size_t count) {
   constexpr std::uintptr_t huge = std::uintptr_t{2} << 20;
   const auto begin = (reinterpret_cast<std::uintptr_t>(data) + huge - 1) / huge * huge;
   const auto end = reinterpret_cast<std::uintptr_t>(data + count) / huge * huge;
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): the address of a page
   if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 

@@ -59,7 +59,7 @@ void add_colors(Geometry& geometry, std::vector<TriangleMesh>& meshes) {
   if (geometry.colors.empty()) return;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     std::vector<float> values;
-    for (const std::uint32_t p : geometry.groups[i].vertices.positions)
+    for (const std::size_t p : geometry.groups[i].vertices.positions)
       values.insert(values.end(), &geometry.colors[3 * p], &geometry.colors[3 * p] + 3);
     meshes[i].attributes.push_back(color_attribute(std::move(values)));
   }

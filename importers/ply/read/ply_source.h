@@ -127,7 +127,7 @@ class AsciiSource {
   std::uint64_t list_length(const Element& element, const Property& property) {
     const double length = number(element, property);
     // Every item takes a digit and a blank.
-    if (!(length >= 0) || length != std::floor(length) || length > static_cast<double>(left() / 2 + 1)) {
+    if (!(length >= 0) || length != std::floor(length) || length > static_cast<double>(left() + 2) / 2) {
       fail(element,
            fmt::format("list {} of {} items, but only {} bytes are left", property.name, length, left()));
     }

@@ -52,7 +52,8 @@ class Welded {
 std::uint32_t facets_of(const InputBytes& bytes) {
   std::array<unsigned char, 4> b{};
   std::memcpy(b.data(), bytes.begin() + header - 4, 4);
-  return b[0] | b[1] << 8 | b[2] << 16 | static_cast<std::uint32_t>(b[3]) << 24;
+  return std::uint32_t{b[0]} | std::uint32_t{b[1]} << 8 | std::uint32_t{b[2]} << 16 |
+         std::uint32_t{b[3]} << 24;
 }
 
 bool is_binary(const InputBytes& bytes) {
