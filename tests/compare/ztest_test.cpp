@@ -90,6 +90,20 @@ TEST(ZTest, ForgivesAHalfFloatsRoundingWithoutVariance) {
   EXPECT_FALSE(test(image, rounding).passed);
 }
 
+// All pixels 3 % too bright: 30 standard errors of independent pixels, 3 where all share an error of 1 %.
+TEST(ZTest, KnowsAnErrorThatPixelsShare) {
+  Image bright = grey;
+  for (float& v : bright.values) v *= 1.03f;
+  ZTestInput input{&bright, &grey, std::vector<double>(grey.pixels(), 0.05 * 0.05), {}};
+  EXPECT_NEAR(ztest(input).mean_sigmas, 30, 1);
+  EXPECT_TRUE(ztest(input).means_differ);
+  input.shared_error = 0.01;
+  EXPECT_NEAR(ztest(input).mean_sigmas, 3, 0.1);
+  EXPECT_FALSE(ztest(input).means_differ);
+  input.shared_error = 1e-5;
+  EXPECT_NEAR(ztest(input).mean_sigmas, 30, 1) << "the larger of both counts";
+}
+
 TEST(ZTest, CountsNotANumberAsFailed) {
   Image image = grey;
   image.values[0] = std::numeric_limits<float>::quiet_NaN();

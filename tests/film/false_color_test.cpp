@@ -55,6 +55,10 @@ TEST(FalseColor, FindsARoundEnd) {
   EXPECT_DOUBLE_EQ(round_above(20001), 50000);
   EXPECT_EQ(shown(false_colored(picture_of({190, 190, 190, 190}), {}), 0),
             shown(false_colored(picture_of({190}), {200, false}), 0));
+  // Of less than 1 cd/m², and of none: then the end is 1.
+  EXPECT_EQ(false_colored(picture_of({0.019, 0.019}), {}),
+            false_colored(picture_of({0.019, 0.019}), {0.02, false}));
+  EXPECT_EQ(false_colored(picture_of({0, 0}), {}), false_colored(picture_of({0, 0}), {1, false}));
 }
 
 }  // namespace

@@ -5,10 +5,13 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "importers/pbrt/read/pbrt.h"
 #include "importers/pbrt/write/write_pbrt.h"
 #include "importers/writing/export_colors.h"
+#include "scene/geometry/pi.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
@@ -61,6 +64,30 @@ TEST(CoatAlbedo, WhatPbrtGets) {
   EXPECT_NEAR(reflectance(plastic), 0.4, 1e-6) << "it goes back and forth already";
   PrincipledMaterial principled{.base_color = ConstantSpectrum{0.4f}};
   EXPECT_NEAR(reflectance(principled), base_below_coat(0.4, 1.5, DiffuseAlbedo::of_all), 1e-5);
+}
+
+// pbrt's marble: a curve of nine points, six segments of it, along which a sine goes; its colours are 1.5
+// times these.
+TEST(ExportColors, MarblesMeanIsThatOfItsCurve) {
+  constexpr std::array<std::array<double, 3>, 4> colors{
+      {{.58, .58, .6}, {.5, .5, .5}, {.6, .59, .58}, {.2, .2, .33}}};
+  constexpr std::array<std::size_t, 9> curve{0, 0, 0, 1, 2, 0, 0, 3, 0};
+  constexpr int steps = 20000;
+  std::array<double, 3> mean{};
+  for (int i = 0; i < steps; ++i) {
+    const double along = 3 + 3 * std::sin(2 * pi * (i + 0.5) / steps), t = along - std::floor(along),
+                 s = 1 - t;
+    const std::array<double, 4> weights{s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        mean[c] += 1.5 * weights[k] * colors[curve[static_cast<std::size_t>(along) + k]][c] / steps;
+  }
+  NoiseTexture marble;
+  marble.kind = NoiseTexture::Kind::marble;
+  const RGB found = mean_of_noise(marble);
+  EXPECT_NEAR(found.r, mean[0], 1e-3);
+  EXPECT_NEAR(found.g, mean[1], 1e-3);
+  EXPECT_NEAR(found.b, mean[2], 1e-3);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <sstream>
 
 #include "importers/ply/read/ply_scene.h"
 #include "tests/importers/temporary_folder.h"
@@ -390,6 +391,26 @@ TEST_F(Ply, AttributesThatAreNotFiniteAreLostAlone) {
     EXPECT_THAT(mesh.attributes.at(0).values, ElementsAre(1, 2, 3, 1, 0, 3, 1, 2, 3));
     ASSERT_EQ(diagnostics.size(), 1u);
     EXPECT_THAT(diagnostics[0].message, HasSubstr("3 numbers"));
+  }
+}
+
+TEST_F(Ply, AlphaOfColorsIsLeftOut) {
+  const std::vector<std::string> names{"r g b a", "red green blue alpha", "tint_r tint_g tint_b tint_a"};
+  for (const std::string& of : names) {
+    std::istringstream words(of);
+    std::string columns = "element vertex 3\n" + xyz;
+    for (std::string name; words >> name;) columns += "property float " + name + "\n";
+    const std::string rows = "0 0 0 1 2 3 4\n1 0 0 5 6 7 8\n0 1 0 9 10 11 12\n3 0 1 2\n";
+    const std::string content = header("ascii", columns + "element face 1\n" + corner_list) + rows;
+    const TriangleMesh mesh = read_ply(folder_.write("mesh.ply", content), nullptr, PlyAttributes::read);
+    if (of.starts_with("tint")) {
+      EXPECT_TRUE(mesh.attributes.empty()) << "four channels of another name are no colour";
+      continue;
+    }
+    ASSERT_EQ(mesh.attributes.size(), 1u) << of;
+    EXPECT_EQ(mesh.attributes[0].name, "vertex_color");
+    EXPECT_EQ(mesh.attributes[0].channels, 3);
+    EXPECT_THAT(mesh.attributes[0].values, ElementsAre(1, 2, 3, 5, 6, 7, 9, 10, 11));
   }
 }
 
