@@ -190,6 +190,8 @@ void add_nodes(const aiScene& scene, Asset& asset) {
 
 }  // namespace vitrail::assimp
 
+// Called from C++ alone: by its plain name, which dlsym finds.
+// NOLINTNEXTLINE(clang-diagnostic-return-type-c-linkage)
 extern "C" std::string vitrail_read_asset(const std::string& file, vitrail::assimp::Asset& asset) {
   using namespace vitrail::assimp;
   Assimp::Importer importer;

@@ -31,6 +31,7 @@ class GrowingArray {
   ~GrowingArray() { std::free(data_); }
   GrowingArray(const GrowingArray& other) { append({other.data_, other.size_}); }
   GrowingArray(GrowingArray&& other) noexcept { swap(other); }
+  // NOLINTNEXTLINE(bugprone-unhandled-self-assignment): the copy is made first
   GrowingArray& operator=(const GrowingArray& other) { return *this = GrowingArray(other); }
   GrowingArray& operator=(GrowingArray&& other) noexcept {
     GrowingArray gone(std::move(other));

@@ -186,7 +186,8 @@ std::filesystem::path ConvertedImages::write(const ImageTexture& texture, ImageU
   if (change.spot) values = under_spot(std::move(values), texture, *change.spot);
   if (change.cosine_power != 0) {
     const int finer = (511 + std::max(values.width, values.height)) / std::max(values.width, values.height);
-    if (finer > 1) values = resized(std::move(values), texture, finer * values.width, finer * values.height);
+    const int width = finer * values.width, height = finer * values.height;
+    if (finer > 1) values = resized(std::move(values), texture, width, height);
     multiply_by_cosine(values, change.cosine_power, change.half);
   }
   const std::filesystem::path file = new_file_();
@@ -206,7 +207,7 @@ std::filesystem::path ConvertedImages::write(const ImagePair& pair) {
   for (std::size_t i = 0; i < product.values.size(); ++i) product.values[i] *= factor.values[i];
   const RGB &a = pair.first.tint, &b = pair.second.tint;
   multiply(product, {a.r * b.r, a.g * b.g, a.b * b.b});
-  const std::filesystem::path file = new_file_();
+  std::filesystem::path file = new_file_();
   write_exr_image(file, product);
   return file;
 }

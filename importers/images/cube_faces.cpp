@@ -24,8 +24,9 @@ Image face_image(const Image& picture, EnvironmentProjection projection, const T
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x, to += picture.channels)
       for (int s = 0; s < samples * samples; ++s) {
-        const double px = 2 * (x + (s % samples + 0.5) / samples) / side - 1;
-        const double py = 1 - 2 * (y + (s / samples + 0.5) / samples) / side;
+        const int column = s % samples, row = s / samples;
+        const double px = 2 * (x + (column + 0.5) / samples) / side - 1;
+        const double py = 1 - 2 * (y + (row + 0.5) / samples) / side;
         const Point2d point = point_of(projection, normalize(transform_vector(to_picture, {px, py, 1})));
         const double share = std::pow(1 + px * px + py * py, -0.5 * cosine_power) / (samples * samples);
         for (int c = 0; c < picture.channels; ++c)

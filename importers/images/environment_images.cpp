@@ -128,9 +128,11 @@ Image reproject(const Image& image, EnvironmentProjection from, EnvironmentProje
     std::fill(sum.begin(), sum.end(), 0.0);
     double weights = 0;
     for (int s = 0; s < side * side; ++s) {
-      const double dx = (s % side + 0.5) / side - 0.5, dy = (s / side + 0.5) / side - 0.5;
-      const Point2d point = pixel_point(to, result.width, height, static_cast<double>(pixel % width) + dx,
-                                        static_cast<double>(pixel / width) + dy);
+      const int column = s % side, row = s / side;
+      const double dx = (column + 0.5) / side - 0.5, dy = (row + 0.5) / side - 0.5;
+      const auto x = pixel % width, y = pixel / width;
+      const Point2d point =
+          pixel_point(to, result.width, height, static_cast<double>(x) + dx, static_cast<double>(y) + dy);
       const double weight = density(to, point) + 1e-12;  // on a pole
       const Neighbours near = neighbours(image, from, point_of(from, direction_of(to, point)));
       weights += weight;

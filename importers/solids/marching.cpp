@@ -134,9 +134,10 @@ class Marching {
   }
 
   void cut(const Cell& low, const Cell& high) {
-    std::array<Corner, (leaf + 1) * (leaf + 1) * (leaf + 1)> corners;
+    std::array<Corner, std::size_t{leaf + 1} * (leaf + 1) * (leaf + 1)> corners;
     const auto index = [](int x, int y, int z) {
-      return static_cast<std::size_t>((z * (leaf + 1) + y) * (leaf + 1) + x);
+      const int place = (z * (leaf + 1) + y) * (leaf + 1) + x;
+      return static_cast<std::size_t>(place);
     };
     const Cell size{high[0] - low[0], high[1] - low[1], high[2] - low[2]};
     for (int z = 0; z <= size[2]; ++z)

@@ -40,7 +40,7 @@ struct LightMaker {
   // The image is lit by D65 already: v3 multiplies rgb.
   Spectrum factor_of_image(std::string_view name) const {
     const Parameter *color = parameters.find_spectrum(name), *scale = parameters.find_spectrum("scale");
-    const Spectrum factor = scale ? read_unbounded(*scale, scope) : Spectrum{ConstantSpectrum{1}};
+    Spectrum factor = scale ? read_unbounded(*scale, scope) : Spectrum{ConstantSpectrum{1}};
     if (!color) return factor;
     if (color->type == ParameterType::rgb || color->type == ParameterType::xyz)
       return product(read_unbounded(*color, scope), factor);

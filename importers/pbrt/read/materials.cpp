@@ -234,7 +234,7 @@ MaterialModel make_model(const Maker& m) {
   m.approximated(closest.empty()
                      ? "is not known and becomes diffuse"
                      : fmt::format("is not known and becomes diffuse; did you mean \"{}\"?", closest));
-  const MaterialModel model = DiffuseMaterial{m.reflectance({"reflectance", "color", "Kd", "diffuse"}, 0.5)};
+  MaterialModel model = DiffuseMaterial{m.reflectance({"reflectance", "color", "Kd", "diffuse"}, 0.5)};
   for (const Parameter& p : m.parameters.all()) m.parameters.ignore({p.name});
   return model;
 }

@@ -28,6 +28,8 @@ TriangleMesh used_vertices(const TriangleMesh& all, std::vector<std::array<std::
   return used;
 }
 
+// The vertices are freed with it.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 PlyMesh mesh_of_patches(TriangleMesh vertices, const std::vector<std::array<std::uint32_t, 4>>& patches,
                         bool uvs_show) {
   PlyMesh made{tessellate_bilinear(vertices.positions, patches, vertices.normals, vertices.uvs, uvs_show),

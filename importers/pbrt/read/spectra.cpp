@@ -177,7 +177,7 @@ Spectrum read_emission(const Parameter& parameter, double factor, SpectrumScope 
 Spectrum read_refraction(const Parameter& parameter, SpectrumScope scope) {
   if (parameter.type == ParameterType::number) return constant(parameter);
   if (parameter.type == ParameterType::spectrum) {
-    const Spectrum spectrum = read_spectrum(parameter, true, scope.context);
+    Spectrum spectrum = read_spectrum(parameter, true, scope.context);
     const std::vector<double>& numbers = parameter.numbers;
     if (scope.context.version == Version::v4 && !numbers.empty() &&
         (numbers.front() > lambda_min_nm || numbers[numbers.size() - 2] < lambda_max_nm))

@@ -338,7 +338,7 @@ SpectrumParameter make_spectrum_texture(const std::string& kind, const std::stri
                                         ParameterSet& parameters, const Transform& ctm, const Scope& scope) {
   const TextureMaker m{kind, name, false, parameters, ctm, scope};
   if (kind != "constant") return make_texture(m);
-  const SpectrumParameter value = m.input("value", 1);
+  SpectrumParameter value = m.input("value", 1);
   parameters.report_unused(scope.context.report);
   return value;
 }
