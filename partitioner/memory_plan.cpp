@@ -38,12 +38,13 @@ constexpr double planning_bytes = 72, most_sampled = 1 << 18;
 // Bytes a triangle: measured, docs/why/partitioning.md.
 struct Costs {
   double placed, built;
+  double alone;  // as built, of an object: it is not cut
 };
 
 Costs costs_of(const Manifest& m) {
   const double normals = m.requirements.shading_normals, uvs = m.requirements.uv, attributes = m.attributes;
   return {48 + 12 * normals + 24 * uvs + 36 * attributes,  // id, vertices, index in its leaf
-          230 + 16 * normals + 32 * uvs + 48 * attributes};
+          230 + 16 * normals + 32 * uvs + 48 * attributes, 180 + 16 * normals + 32 * uvs + 48 * attributes};
 }
 
 }  // namespace
@@ -84,7 +85,7 @@ double bytes_left(const MemoryNeeds& needs) {
 
 double bytes_to_build(const Manifest& m, double triangles, double built) {
   const Costs costs = costs_of(m);
-  return costs.placed * triangles + costs.built * built;
+  return costs.placed * triangles + costs.alone * built;
 }
 
 namespace {
@@ -115,9 +116,7 @@ std::string lack_of(const Manifest& m, const MemoryNeeds& needs) {
   const double left = bytes_left(needs);
   if (left < static_cast<double>(needs.baking_bytes))
     return needs.image_library ? "the scene and what reads its images" : "the scene";
-  // bytes_in_work is a little more than what an object takes.
-  constexpr double taken = 0.95;
-  if (left < taken * needs.object_bytes) return "the largest object that has instances";
+  if (left < needs.object_bytes) return "the largest object that has instances";
   const DomainNeeds domain = needs_of_domain(m, needs, number_of_domains(m, needs));
   if (left < domain.in_cell + domain.build)
     return fmt::format(
