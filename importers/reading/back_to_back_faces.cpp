@@ -39,10 +39,12 @@ class FacesOfSpace {
       : scene_(imported.scene), diagnostics_(imported.diagnostics), shapes_(shapes), traits_(traits) {}
 
   void run() {
-    std::uint64_t count = 0;
+    std::uint64_t count = 0, candidates = 0;
     for (const Shape& shape : shapes_)
-      if (is_candidate(shape)) count += triangles_of(scene_.meshes[shape.mesh.value]);
-    if (count > most_triangles) return;
+      if (is_candidate(shape)) ++candidates, count += triangles_of(scene_.meshes[shape.mesh.value]);
+    if (candidates < 2 || count > most_triangles) return;
+    flat_.reserve(count);
+    faces_.reserve(count);
     gather();
     keep_those_with_a_back();
     join(partners());

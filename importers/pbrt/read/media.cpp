@@ -30,7 +30,7 @@ struct MediumMaker {
     return spectrum_value(parameters, {name}, Quantity::unbounded, otherwise, scope);
   }
   bool has(std::string_view name) const {
-    return parameters.find_spectrum(name) || parameters.find_numbers(name);
+    return parameters.find_list(name) || parameters.find_spectrum(name);
   }
   Point3d point(std::string_view name, Point3d otherwise) const {
     const auto v = parameters.triple(name);
@@ -64,16 +64,19 @@ Grid grid(const MediumMaker& m, std::string_view name, int channels) {
   g.nz = m.parameters.integer("nz", 1);
   g.channels = channels;
   g.bounds = m.bounds();
-  const Parameter* values = m.parameters.find_numbers(name);
+  Parameter* values = m.parameters.find_list(name);
   if (!values) values = m.parameters.find_spectrum(name);
   if (!values)
     fail(fmt::format("{} needs a parameter \"{}\"", m.parameters.owner(), name), m.parameters.place());
   const double wanted = static_cast<double>(g.nx) * g.ny * g.nz * channels;
-  if (g.nx < 1 || g.ny < 1 || g.nz < 1 || wanted != static_cast<double>(values->numbers.size()))
+  if (g.nx < 1 || g.ny < 1 || g.nz < 1 || wanted != static_cast<double>(number_count(*values)))
     fail(fmt::format("a grid of {} × {} × {} needs {} values, but \"{}\" has {}", g.nx, g.ny, g.nz, wanted,
-                     name, values->numbers.size()),
+                     name, number_count(*values)),
          values->place);
-  for (const double v : values->numbers) g.values.push_back(static_cast<float>(v));
+  g.values.reserve(number_count(*values));
+  consume_numbers(*values, 1, [&](const auto& numbers) {
+    for (const auto v : numbers) g.values.push_back(static_cast<float>(v));
+  });
   if (channels == 3) to_linear_srgb(g.values, m.scope.color_space);
   return g;
 }
