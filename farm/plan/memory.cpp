@@ -74,12 +74,14 @@ MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t p
   if (budget == 0) return {all_domains, most_queue_bytes};
   const std::uint64_t fixed = fixed_bytes(base, threads);
   const std::uint64_t least = least_memory(base, peak, threads, largest_domain);
+  // The program itself takes a little more or less each time.
+  constexpr std::uint64_t next_time = 2 * mib;
   if (budget < least)
     throw MachineError(fmt::format(
         "--memory {:.0f}M is too little. Give at least {:.0f}M{}. The program and the film take {:.0f}M, the "
         "largest domain and its objects {:.0f}M; reading the scene and making "
         "the picture take {:.0f}M{}",
-        static_cast<double>(budget) / mib, static_cast<double>((least + mib - 1) / mib),
+        static_cast<double>(budget) / mib, static_cast<double>((least + next_time + mib - 1) / mib),
         about_smaller_domains(budget, fixed, peak), static_cast<double>(fixed) / mib,
         static_cast<double>(largest_domain) / mib, static_cast<double>(peak) / mib,
         peak < least ? "" : "; -o NAME.film needs less, and vitrail develop makes the picture elsewhere"));
