@@ -59,7 +59,7 @@ void TextureWriter::write_tiles(std::uint32_t level, std::uint32_t tile_y) {
   tiles.reserve(from.size());
   for (std::uint32_t tile_x = 0; tile_x < of.tiles_x; ++tile_x) {
     const TilePlace place = place_of(info_.format, of, tile_x, tile_y);
-    const std::size_t first = tiles.size(), left = tile_x * tile_width(info_.format) * each;
+    const std::size_t first = tiles.size(), left = std::size_t{tile_x} * tile_width(info_.format) * each;
     for (std::size_t y = height; y-- > 0;) {
       const auto begin = from.begin() + static_cast<std::ptrdiff_t>(y * row + left);
       tiles.insert(tiles.end(), begin, begin + static_cast<std::ptrdiff_t>(place.width * each));

@@ -184,7 +184,8 @@ class Verifier {
       if (stored.bytes) packs[stored.file].push_back(stored);
     }
     for (const auto& [file, domains] : packs)
-      jobs_.push_back([this, file, domains] { attempt(file, [&] { check_pack(file, domains); }); });
+      jobs_.push_back(
+          [this, file = file, domains = domains] { attempt(file, [&] { check_pack(file, domains); }); });
   }
 
   void plan_objects() {
