@@ -102,7 +102,7 @@ function(vitrail_test name)
   endif()
   get_target_property(known ${program} SOURCES)
   foreach(source ${arg_SOURCES})
-    file(REAL_PATH ${source} source)
+    cmake_path(ABSOLUTE_PATH source NORMALIZE)
     if(NOT source IN_LIST known)
       target_sources(${program} PRIVATE ${source})
     endif()
@@ -119,14 +119,15 @@ set(vitrail_test_options $<$<CONFIG:Release>:-O1>)
 
 # vitrail_test_program(PROGRAM): a program of tests, as yet without any.
 function(vitrail_test_program program)
-  add_executable(${program} ${PROJECT_SOURCE_DIR}/tests/support/main.cpp)
-  target_link_libraries(${program} PRIVATE vitrail::options vitrail::test_paths GTest::gmock)
+  set(files ${CMAKE_BINARY_DIR}/written/tests/${program}.cpp)
+  file(GENERATE OUTPUT ${files} CONTENT "#include \"tests/support/test_files.h\"\n
+namespace vitrail::test {\nnamespace {\nconstexpr TestFile files[] = {\n$<JOIN:$<TARGET_PROPERTY:${program},VITRAIL_TEST_FILES>,\n>};\n}
+const std::span<const TestFile> test_files(files);\n}\n")
+  add_executable(${program} ${files})
+  set_source_files_properties(${files} PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
+  target_link_libraries(${program} PRIVATE vitrail::options vitrail::test_main vitrail::test_paths GTest::gmock)
   target_compile_options(${program} PRIVATE ${vitrail_test_options})
   target_precompile_headers(${program} REUSE_FROM vitrail_precompiled_tests)
-  file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/written/tests/${program}/test_files.h
-    CONTENT "$<JOIN:$<TARGET_PROPERTY:${program},VITRAIL_TEST_FILES>,\n>\n")
-  set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/support/main.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  target_include_directories(${program} PRIVATE ${CMAKE_BINARY_DIR}/written/tests/${program})
 endfunction()
 
 # vitrail_lanes(FILE FLAG …): how a file of tracer/lanes is compiled, for an instruction set: no comparison traps, so

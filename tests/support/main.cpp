@@ -10,16 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/support/test_files.h"
+
 namespace vitrail::test {
 namespace {
-
-struct TestFile {
-  std::string_view program, file;  // file: below the project's folder
-};
-// From vitrail_test's of this folder.
-constexpr TestFile test_files[] = {
-#include "test_files.h"
-};
 
 std::vector<std::string_view> files_of(std::string_view program) {
   std::vector<std::string_view> files;
