@@ -23,7 +23,7 @@ target_compile_options(vitrail_options INTERFACE
   # GCC 12 warns of what std::string does in its own headers (its bug 105651) where these are precompiled; clang and
   # sanitizers still look.
   # It also takes what an empty std::optional or another alternative of a std::variant holds for a value that is read, where it has inlined
-  # their moves (its bug 80635): all that it found was so. -Wuninitialized stays; scripts/tidy and valgrind look for the true ones.
+  # their moves (its bug 80635): what was looked at was so. -Wuninitialized stays; scripts/tidy and valgrind look for the true ones.
   $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>>
   $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread>>)
 target_link_libraries(vitrail_options INTERFACE fmt::fmt)
