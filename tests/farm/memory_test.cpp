@@ -34,7 +34,8 @@ std::string refusal_of(std::uint64_t budget, std::uint64_t peak, std::uint64_t l
   return {};
 }
 
-// The advice helps: that budget, also where the program takes 2 MiB more the next time, or domains of that size.
+// The advice helps: that budget, also where the program takes 2 MiB more the next time, or domains of that
+// size.
 TEST(Memory, ARefusalNamesWhatIsEnough) {
   const std::string said = refusal_of(100 * mib, 30 * mib, 299 * mib);
   std::uint64_t least = 0, room_kib = 0;
