@@ -21,6 +21,8 @@ import sys
 import tempfile
 import time
 
+from growth import put_into
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CORPUS = pathlib.Path(os.environ.get("VITRAIL_CORPUS", ROOT.parent / "shared/corpus"))
 WIDTH, HEIGHT = 64, 36
@@ -113,14 +115,6 @@ def row(options, name, folder):
                 refused[column] = str(why)
                 print(f"{name}, {column}: {why}", file=sys.stderr)
     return {c: tuple(statistics.median(x) for x in zip(*t)) for c, t in taken.items() if c not in refused}
-
-
-def put_into(page, table):
-    """In place of the table with the same head."""
-    lines = page.read_text().splitlines()
-    begin = lines.index(table[0])
-    end = next((i for i in range(begin, len(lines)) if not lines[i].startswith("|")), len(lines))
-    page.write_text("\n".join(lines[:begin] + table + lines[end:]) + "\n")
 
 
 def main():
