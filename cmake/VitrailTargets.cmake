@@ -114,7 +114,7 @@ function(vitrail_test name)
   set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
 endfunction()
 
-# Release tests release's libraries; the tests' own lines take two thirds of the time to compile without the dearest passes.
+# Release tests release's libraries; the tests' own lines compile in five sixths of the time without the dearest passes.
 set(vitrail_test_options $<$<CONFIG:Release>:-O1>)
 
 # vitrail_test_program(PROGRAM): a program of tests, as yet without any.

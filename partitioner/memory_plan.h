@@ -41,7 +41,7 @@ double bytes_of_a_triangle(const Manifest& manifest);
 
 // Of the budget, for triangles; less than 0 where nothing is.
 double bytes_left(const MemoryNeeds& needs);
-// Of `triangles` in memory while an object's file of `built` of them is made: measured.
+// Returns what `triangles` in memory take while an object's file of `built` of them is made.
 double bytes_to_build(const Manifest& manifest, double triangles, double built);
 
 // Meshes that stay in memory within a budget; the others stay in their files.
