@@ -79,10 +79,8 @@ void add_needs(Requirements& r, const Material& material, const Manifest& m) {
   const MaterialTraits traits = traits_of(material.model);
   const auto* glass = std::get_if<DielectricMaterial>(&material.model);
   const auto* mask = std::get_if<MaskMaterial>(&material.model);
-  const auto* tabulated = std::get_if<TabulatedMaterial>(&material.model);
-  const auto* table = tabulated ? std::get_if<AdaptiveTable>(&m.tables.at(tabulated->table.value)) : nullptr;
-  r.uv |= (traits.along_surface && !(table && is_isotropic(*table))) || material.normal_map ||
-          is_bumped_by_uv(material, m.textures);
+  r.uv |=
+      has_direction(material.model, m.tables) || material.normal_map || is_bumped_by_uv(material, m.textures);
   r.refraction |= is_smooth_glass(material);
   r.dispersion |= glass && traits.disperses;
   const bool is_full_mask = mask && mask->opacity == FloatParameter{1.0f};

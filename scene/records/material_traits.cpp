@@ -121,6 +121,12 @@ bool is_smooth(const Roughness& r) {
 
 std::vector<Id<Material>> parts_of(const MaterialModel& model) { return std::visit(Parts{}, model); }
 
+bool has_direction(const MaterialModel& model, const std::vector<ScatteringTable>& tables) {
+  const auto* tabulated = std::get_if<TabulatedMaterial>(&model);
+  const auto* table = tabulated ? std::get_if<AdaptiveTable>(&tables.at(tabulated->table.value)) : nullptr;
+  return traits_of(model).along_surface && !(table && is_isotropic(*table));
+}
+
 MaterialTraits traits_of(const MaterialModel& model) { return std::visit(Traits{}, model); }
 
 MaterialTraits traits_of(const Material& material, const std::vector<MaterialTraits>& others) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/records/material.h"
+#include "scene/records/scattering_table.h"
 
 namespace vitrail {
 
@@ -28,6 +29,10 @@ struct MaterialTraits {
   bool along_surface = false;  // it has a direction along the surface: (u,v) show
   Lobes lobes;
 };
+
+// Whether a model, without the materials that it refers to, has a direction along the surface: as its traits
+// say, but for tables that turn out to have none. `tables`: those of its scene.
+bool has_direction(const MaterialModel& model, const std::vector<ScatteringTable>& tables);
 
 // Of a model without the materials that it refers to.
 MaterialTraits traits_of(const MaterialModel& model);

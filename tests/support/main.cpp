@@ -57,6 +57,10 @@ int run_tests(int count, char** arguments) {
   const std::string program = std::filesystem::path(arguments[0]).filename().string();
   testing::InitGoogleMock(&count, arguments);
   const std::vector<std::string_view> files = files_of(program);
+  if (files.empty() && !test_files.empty() && !program.starts_with("test_in_")) {
+    std::fprintf(stderr, "%s: no tests are called so; is the program built?\n", program.c_str());
+    return 1;
+  }
   if (!files.empty() && !choose_suites(files)) return 1;
   return RUN_ALL_TESTS();
 }

@@ -108,6 +108,7 @@ LaneTexture lane_texture(const Manifest& manifest, const Textures& images,
 LaneMaterial lane_material(const Manifest& manifest, const Textures& images, const Material& material) {
   LaneMaterial s;
   s.two_sided = material.two_sided;
+  s.along_surface = has_direction(material.model, manifest.tables);
   if (material.bump_shadowing) return s;
   if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model)) {
     set(*diffuse, s);

@@ -61,6 +61,7 @@ struct LaneMaterial {
   bool is_textured = false;                      // its parameters depend on the point
   bool is_tilted = false;                        // a map or a height turns its normal
   bool is_raised = false;                        // a height does
+  bool along_surface = false;                    // as MaterialKind
   bool has_parameters = true;                    // a LaneBsdf a path; else they are these, at all points:
   FlatSpectrum spectra[LaneBsdf::most_spectra];  // those of `constants`
   LaneBsdf constants;

@@ -160,7 +160,8 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
         .dispersive = traits_of(manifest.materials[i].model).disperses,
         .diffuse = traits[i].gathers,
         .opaque = stops_light(manifest.materials, i) && manifest.materials[i].casts_shadow,
-        .sheet = straights.back().passes && straights.back().mirrors};
+        .sheet = straights.back().passes && straights.back().mirrors,
+        .along_surface = has_direction(manifest.materials[i].model, manifest.tables)};
     have_panes_ = have_panes_ || kind.sheet || kind.smooth_dielectric;
     kinds_.push_back(kind);
     if (const auto* principled = std::get_if<PrincipledMaterial>(&manifest.materials[i].model))
@@ -280,7 +281,8 @@ Vector3d Materials::shading_normal(const Material& material, const Interaction& 
   return usable() ? n : at.shading;
 }
 
-Vector3d Materials::tangent(const Material& material, const Interaction& at) {
+Vector3d Materials::tangent(const Material& material, const Interaction& at) const {
+  if (!kind(index_of(material)).along_surface) return {};
   const auto* hair = std::get_if<HairMaterial>(&material.model);
   const Vector3d along = hair && hair->along_v ? at.dpdv : at.dpdu;
   return material.normal_map ? along - at.shading * dot(at.shading, along) : along;

@@ -23,6 +23,7 @@ struct MaterialKind {
   bool diffuse = false;            // it, or a part of it, may be one that gathers photons
   bool opaque = false;             // stops all connections
   bool sheet = false;              // lets light straight through, and mirrors some
+  bool along_surface = false;      // has a direction along the surface: frames follow (u,v)
 
   bool is_nothing(const Interaction& at) const { return is_interface || (is_fibre && !at.front); }
 };
@@ -65,7 +66,7 @@ class Materials {
   Vector3d shading_normal(const Material& material, const Interaction& at, bool any_normal = false) const;
   // What the tangent of the frame around it follows. A map turns the frame of the smooth normal, whose
   // tangent is perpendicular to that, as in pbrt and Mitsuba.
-  static Vector3d tangent(const Material& material, const Interaction& at);
+  Vector3d tangent(const Material& material, const Interaction& at) const;
 
  private:
   std::uint32_t index_of(const Material& material) const {

@@ -77,10 +77,10 @@ XYZ albedo_at(const Tracing& tracing, const CameraPath& path, const Interaction&
   return sense(path.film.sensor, share * evaluate(white_light(), path.wavelengths));
 }
 
-// Something is in the pixel, of whatever kind.
-void record_coverage(Tracing& tracing, const CameraPath& path, const Footprint* spread) {
+// Something covers so much of the sample's part of the pixel, of whatever kind.
+void record_coverage(Tracing& tracing, const CameraPath& path, const Footprint* spread, double share = 1) {
   if (!tracing.film.layers().has(Layer::alpha)) return;
-  const double weight = tracing.scene.filter.weight(path.film.camera[0], path.film.camera[1]);
+  const double weight = share * tracing.scene.filter.weight(path.film.camera[0], path.film.camera[1]);
   tracing.film.deposit_layer(path.film.pixel, path.film.sample, Layer::alpha, std::array{weight}, spread);
 }
 
@@ -89,6 +89,17 @@ void record_coverage(Tracing& tracing, const CameraPath& path, const Footprint* 
 void record_first_medium(Tracing& tracing, CameraPath& path) {
   path.unrecorded = false;
   record_coverage(tracing, path, footprint_of(tracing, path.film.pixel, path.film.sample));
+}
+
+void record_leaving(Tracing& tracing, const CameraPath& path) {
+  if (path.has_scattered() || !tracing.film.layers().has(Layer::alpha)) return;
+  const double begun =
+      camera_ray(tracing, path, column_of(tracing, path.film), row_of(tracing, path.film)).weight;
+  double left = 0;
+  for (const float t : path.throughput.v) left += static_cast<double>(t) / (hero_count * begun);
+  const double covered = (path.unrecorded ? 1 : 0) - left;
+  if (covered != 0)
+    record_coverage(tracing, path, footprint_of(tracing, path.film.pixel, path.film.sample), covered);
 }
 
 void record_first_surface(Tracing& tracing, CameraPath& path, const Event& event) {

@@ -11,5 +11,8 @@ namespace vitrail {
 void record_first_surface(Tracing& tracing, CameraPath& path, const Event& event);
 // Where it is scattered before it has met one.
 void record_first_medium(Tracing& tracing, CameraPath& path);
+// Where it leaves the scene. What has come there straight from the camera, through holes, sheets and media,
+// has covered as much of its pixel as they have taken of it.
+void record_leaving(Tracing& tracing, const CameraPath& path);
 
 }  // namespace vitrail

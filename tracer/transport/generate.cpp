@@ -51,6 +51,7 @@ bool begin(Tracing& tracing, CameraPath& path, Given given) {
     path.random = hash_of_ray(path);
   }
   path.unrecorded = film.layers().any();
+  path.pdf = CameraPath::unscattered;
   path.throughput = filled(static_cast<float>(weight));
   if (tracing.scene.sampling.one_wavelength) path.disperse();
   path.inside = tracing.scene.interiors.state_in(tracing.manifest().camera_medium);

@@ -32,7 +32,7 @@ struct PaneState {
 };
 
 struct Scatterer : Traveller {
-  float pdf = 0;          // of the last scattering, solid angle, as density_beside says; 0: specular or first
+  float pdf = 0;          // of the last scattering, solid angle, as density_beside says; 0: specular
   bool passed = false;    // went straight on at an event that had the random numbers of its depth
   std::uint8_t cone = 0;  // cone_code of its width where it starts
   PaneState pane;
@@ -45,6 +45,10 @@ struct CameraPath : Scatterer {
   bool unrecorded = false;  // the film keeps layers of the first surface, and it is yet to be met
   bool connected = false;   // it was scattered where connections to lights are made from
   mutable LastLamp lamp;
+
+  // A path that nothing has turned from its way yet has this as its density.
+  static constexpr float unscattered = -1;
+  bool has_scattered() const { return pdf >= 0; }
 
   // About the point of the last scattering.
   Point3d scattered_from() const {

@@ -171,7 +171,7 @@ bool shade_surface(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
 }  // namespace
 
 bool is_hidden(const Tracing& tracing, const CameraPath& path) {
-  return tracing.settings().hides_emitters && path.depth == 0;
+  return tracing.settings().hides_emitters && !path.has_scattered();
 }
 
 // Of mirrors and glass before what is lit by lamps alone (FilmKey::threshold).
@@ -225,6 +225,7 @@ std::optional<Arrived> fly(Tracing& tracing, CameraPath& path) {
 bool shade(Tracing& tracing, CameraPath& path, const Arrived& arrived, ShadowRays& shadows) {
   if (arrived.scatters_in)
     return scatter_in_medium(tracing, path, arrived.scatters_in->g, arrived.p, shadows);
+  if (!path.meets_surface()) record_leaving(tracing, path);
   if (!path.meets_surface() && !tracing.scene.lights.has_background()) return false;
   find_wavelengths(tracing, path, path.film);
   if (!arrived.has_flown && is_too_dark(tracing, path)) return false;

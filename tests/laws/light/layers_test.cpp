@@ -286,5 +286,53 @@ TEST(LayersAlbedo, OfMixturesIsTheirMean) {
   expect_grey(plane_of(one_sided, 150), 0, 0, "the back of a one-sided surface");
 }
 
+// What is kept beside a picture does not change it: not even where a bundle holds (u,v) for it that no
+// material asks for.
+TEST(Layers, LeaveThePictureAsItIs) {
+  ConductorMaterial metal, brushed;
+  metal.roughness.alpha_u = metal.roughness.alpha_v = brushed.roughness.alpha_u = 0.3f;
+  DielectricMaterial frosted;
+  frosted.roughness.alpha_u = frosted.roughness.alpha_v = 0.3f;
+  PrincipledMaterial principled;
+  principled.roughness = 0.4f;
+  const std::vector<MaterialModel> models{DiffuseMaterial{ConstantSpectrum{0.5f}},
+                                          metal,
+                                          brushed,
+                                          frosted,
+                                          DielectricMaterial{},
+                                          ThinDielectricMaterial{},
+                                          PlasticMaterial{},
+                                          principled,
+                                          CoatedDiffuseMaterial{},
+                                          DiffuseTransmissionMaterial{}};
+  const auto picture = [&](FilmLayers layers) {
+    Scene scene;
+    float x = -5;
+    for (const MaterialModel& model : models) {
+      const Id<TriangleMesh> tile =
+          add_quads(scene, {{{{x, -2, 0}, {x + 1, -2, 0.1f}, {x + 1, 2, 0.3f}, {x, 2, 0}}}});
+      scene.meshes[tile.value].uvs = {{0, 0}, {0.3f, 1}, {1, 1}, {1, 0}};
+      add_shape(scene, tile, Material{model});
+      x += 1;
+    }
+    const Id<TriangleMesh> lamp = add_quads(scene, {{{{-3, -1, 4}, {-3, 1, 4}, {3, 1, 4}, {3, -1, 4}}}});
+    scene.meshes[lamp.value].uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    add_shape(scene, lamp, grey(0.2f), AreaLight{ConstantSpectrum{9}});
+    scene.lights.push_back({InfiniteLight{ConstantSpectrum{0.3f}}, {}});
+    look_along(scene, {0, -0.3, 1}, {}, 5);
+    scene.film.layers = layers;
+    const Film film = render(scene, 16).film;
+    std::vector<XYZ> pixels;
+    for (std::uint32_t i = 0; i < film.pixels(); ++i) pixels.push_back(film.mean(i));
+    return pixels;
+  };
+  const std::vector<XYZ> alone = picture({});
+  for (std::size_t i = 0; i < layer_count; ++i) {
+    FilmLayers one;
+    one.add(static_cast<Layer>(i));
+    EXPECT_EQ(picture(one), alone) << kind_of(static_cast<Layer>(i)).name;
+  }
+}
+
 }  // namespace
 }  // namespace vitrail::test::layers_test

@@ -10,8 +10,8 @@
 namespace vitrail::test::picture_revision_test {
 namespace {
 
-constexpr std::uint32_t known_revision = 13;
-constexpr const char* known_pictures = "6a4f4153bef0b5a0";
+constexpr std::uint32_t known_revision = 14;
+constexpr const char* known_pictures = "448eee9ecbbbc869";
 
 std::array<Point3f, 4> tile(float x, float z) {
   return {{{x, 0, z}, {x + 1, 0, z}, {x + 1, 1, z + 0.2f}, {x, 1, z + 0.2f}}};

@@ -23,7 +23,7 @@ PlacedHit placed_hit(const Materials& materials, const Material& material, const
                      const Interaction& at) {
   const Vector3d shading =
       of.is_tilted ? materials.shading_normal(material, at, of.is_diffuse()) : at.shading;
-  const Vector3d along = of.is_tilted ? Materials::tangent(material, at) : at.dpdu;
+  const Vector3d along = of.is_tilted ? materials.tangent(material, at) : at.dpdu;
   return {at.p, at.geometric, shading, along, at.rounding, at.uv};
 }
 
@@ -68,6 +68,7 @@ bool LaneLists::take_leaving(Tracing& tracing, CameraPath& path, std::uint32_t p
   const LightSampler& lights = tracing.scene.lights;
   if (!lights.has_background() || (lights.has_discs() && !path.connected)) return false;
   if (is_hidden(tracing, path)) return false;
+  record_leaving(tracing, path);
   find_wavelengths(tracing, path, path.film);
   leaving_.push_back(place);
   ++taken_;

@@ -24,7 +24,9 @@ void scatter(LaneWork& work, const LaneList& list) {
     Mask<D> transmits{};
     if constexpr (Read::may_transmit) transmits = gather_mask<D>(VITRAIL_EACH(g.material[j]->transmits));
     const Mask<D> on = at.front | transmits | gather_mask<D>(VITRAIL_EACH(g.material[j]->two_sided));
-    const Frame<D> frame = frame_around(at.shading, at.dpdu, select<D>(transmits, fill<D>(1), at.side()));
+    const Vector<D> along =
+        select<D>(gather_mask<D>(VITRAIL_EACH(g.material[j]->along_surface)), at.dpdu, fill<D>(Vector3d{}));
+    const Frame<D> frame = frame_around(at.shading, along, select<D>(transmits, fill<D>(1), at.side()));
     Vector<D> out = frame.to_local(at.out);
     // As local_out (shading.cpp) has it.
     if constexpr (Read::takes_any_normal)
@@ -137,7 +139,7 @@ void scatter_sheet(LaneWork& work, const LaneList& list) {
     const Group g = group_at_surfaces(work, list, first);
     const Interaction<D> at = interaction_of(work, g, list.is_placed);
     const Carried carried(g);
-    const Frame<D> frame = frame_around(at.shading, at.dpdu, fill<D>(1));
+    const Frame<D> frame = frame_around(at.shading, fill<D>(Vector3d{}), fill<D>(1));
     const Vector<D> out = frame.to_local(at.out);
     const D eta = to_doubles(gather<F>(VITRAIL_EACH(g.material[j]->eta_behind)));
     const F reflectance = sheet_reflectance(abs(out.z), eta);
