@@ -54,16 +54,15 @@ struct TraceCounters {
   // Of photon mapping: sent from lights, questions answered, and photons found for them.
   std::uint64_t photons_emitted = 0, gathers = 0, photons_gathered = 0;
   // Connections to distant lights at faces where they leave glass, those that end there as the faces are not
-  // quite parallel, and the widest wedge of these in 10⁻⁹ rad.
+  // parallel, and the widest wedge of these in 10⁻⁹ rad: of panes that taper, of prisms, of lenses.
   std::uint64_t connections_in_glass = 0, connections_in_wedges = 0, widest_wedge_nrad = 0;
 
-  // What is further from parallel than this is no pane, but a prism or a lens.
-  static constexpr double widest_told_rad = 0.02;
-  void count_leaving(bool leaves, double wedge_rad) {
+  // `wedge`: as wedge_of; > 1: no light of that direction comes in there.
+  void count_leaving(bool leaves, double wedge) {
     ++connections_in_glass;
-    if (leaves || wedge_rad > widest_told_rad) return;
+    if (leaves || wedge > 1) return;
     ++connections_in_wedges;
-    widest_wedge_nrad = std::max(widest_wedge_nrad, static_cast<std::uint64_t>(1e9 * wedge_rad));
+    widest_wedge_nrad = std::max(widest_wedge_nrad, static_cast<std::uint64_t>(1e9 * wedge));
   }
 };
 TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b);

@@ -37,7 +37,9 @@ struct Site {
     look_from(0.5);
     scene.settings.max_depth = 1;
   }
-  void look_from(double height) { set_camera(scene, {x, 0, height}, {x, 0, 0}, {0, 1, 0}, 0.01, 4, 4); }
+  void look_from(double height, double fov_rad = 0.01) {
+    set_camera(scene, {x, 0, height}, {x, 0, 0}, {0, 1, 0}, fov_rad, 4, 4);
+  }
   Point3d point(double distance) const { return Point3d{x, 0, 0} + to_sun * distance; }
   void add_sun() {
     scene.lights.push_back(Light{DistantLight{-to_sun, ConstantSpectrum{static_cast<float>(irradiance)}}});
@@ -58,7 +60,7 @@ struct Site {
     sky.lights.push_back(Light{InfiniteLight{ConstantSpectrum{1}}});
     RenderOptions options;
     options.picture.samples_per_pixel = 64;
-    options.picture.integrator = Integrator::photon, options.picture.photons = {20000, 0.1, 0.8};
+    options.picture.integrator = Integrator::photon, options.picture.photons = {5000, 0.1, 0.8};
     return brightness(render(scene, options).film).mean /
            brightness(render(sky, std::move(options)).film).mean;
   }
@@ -241,7 +243,8 @@ void add_wedge(Site& site, double wedge_rad) {
   Scene& scene = site.scene;
   const auto mesh = cube(scene, false);
   const float steep = static_cast<float>(wedge_rad / 2);
-  for (Point3f& p : scene.meshes[mesh.value].positions) p.z = std::copysign(0.05f + p.x * steep, p.z);
+  const float half = std::max(0.05f, 0.6f * steep);
+  for (Point3f& p : scene.meshes[mesh.value].positions) p.z = std::copysign(half + p.x * steep, p.z);
   add_shape(scene, mesh, Material{DielectricMaterial{ConstantSpectrum{1.5f}}});
   scene.shapes.back().object_to_world = translate(site.point(2) - Point3d{}) * Pane{.tilt_rad = 0.4}.turned();
 }
@@ -257,6 +260,7 @@ double through_wedge(double x, double wedge_rad) {
 TEST(SunThroughAWedge, IsFoundOnce) {
   for (const double wedge : {0.0, 3e-5, 1.2e-4, 1.3e-4, 3e-4, 2e-3}) {
     Site site(0);
+    site.look_from(0.5, 0.5);  // so that many photons count
     add_wedge(site, wedge);
     site.add_sun();
     const double expected = through(std::abs(dot(site.to_sun, Pane{.tilt_rad = 0.4}.normal())), 1.5);
@@ -281,6 +285,23 @@ TEST(SunThroughAWedge, IsDark) {
       if (wedge >= limits[i]) {
         EXPECT_EQ(seen[i], 0) << wedge;
       }
+  }
+}
+
+// What connections lose is counted, whatever the wedge: of panes that taper, and of prisms.
+TEST(SunThroughAWedge, IsToldAtEveryAngle) {
+  for (const double wedge : {0.0, 3e-4, 2e-3, 0.02, 0.05, 0.15, 0.2, 0.3, 0.4, 0.6}) {
+    Site site(0);
+    add_wedge(site, wedge);
+    site.add_sun();
+    const TraceCounters traced = render(site.scene, 16).stats.traced;
+    const double lost =
+        static_cast<double>(traced.connections_in_wedges) / static_cast<double>(traced.connections_in_glass);
+    const double widest_rad = 1e-9 * static_cast<double>(traced.widest_wedge_nrad);
+    fmt::print("a wedge of {:g} rad: {:.3f} of {} are lost, the widest {:.4g}\n", wedge, lost,
+               traced.connections_in_glass, widest_rad);
+    EXPECT_EQ(lost, wedge > 0 ? 1 : 0) << wedge;
+    EXPECT_NEAR(widest_rad, std::sin(2 * std::atan(wedge / 2)), 0.01 * wedge) << wedge;
   }
 }
 
