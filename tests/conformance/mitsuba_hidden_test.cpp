@@ -56,10 +56,22 @@ std::vector<Case> cases() {
                  "<bsdf type='conductor'><string name='material' value='none'/></bsdf>") +
            rectangle("<scale value='2'/><rotate y='1' angle='180'/><translate x='2' z='5'/>", grey_lamp) +
            surroundings},
-      {"AThinSheetBeforeALamp", "path", pane("<bsdf type='thindielectric'/>") + lamps + wall + surroundings},
-      {"AMaskBeforeALamp", "path",
+      // path shows lamps where anything is before them, a hole or a sheet; volpath hides what is seen
+      // straight.
+      {"AThinSheetBeforeALamp", "volpath",
+       pane("<bsdf type='thindielectric'/>") + lamps + wall + surroundings},
+      {"AMaskBeforeALamp", "volpath",
        pane("<bsdf type='mask'><float name='opacity' value='.5'/><bsdf type='diffuse'/></bsdf>") + lamps +
            wall},
+      {"AMaskBeforeSurroundings", "volpath",
+       pane("<bsdf type='mask'><float name='opacity' value='.5'/><bsdf type='diffuse'/></bsdf>") +
+           surroundings},
+      {"ABlendWithNothingBeforeSurroundings", "volpath",
+       pane(
+           "<bsdf type='blendbsdf'><float name='weight' value='.4'/><bsdf type='null'/><bsdf type='diffuse'/>"
+           "</bsdf>") +
+           surroundings},
+      {"AThinSheetBeforeSurroundings", "path", pane("<bsdf type='thindielectric'/>") + surroundings},
       {"ABallOfGlassBeforeALamp", "path",
        "<shape type='sphere'><float name='radius' value='.8'/><point name='center' x='0' y='0' z='1.5'/>"
        "<bsdf type='dielectric'/></shape>" +
