@@ -30,22 +30,29 @@ std::vector<double> block_luminances(const std::filesystem::path& picture, Small
   return means;
 }
 
-nlohmann::ordered_json compare_luminances(const std::vector<double>& a, const std::vector<double>& b,
-                                          double tolerance) {
+nlohmann::ordered_json compare_luminances(const Luminances& a, const Luminances& b, double tolerance) {
   const auto mean = [](const std::vector<double>& v) {
     return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
   };
-  const double mean_a = mean(a), mean_b = mean(b);
+  const double mean_a = mean(a.means), mean_b = mean(b.means);
   if (!std::isfinite(mean_a)) return {{"passed", false}, {"said", "some of its pixels are no numbers"}};
   if (!(mean_b > 0)) return {{"passed", !(mean_a > 0)}};
-  double worst = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    worst = std::max(worst, std::abs(a[i] - b[i]) / std::max(b[i], 0.05 * mean_b));
-  const double ratio = mean_a / mean_b;
-  return {{"luminance_ratio", ratio},
-          {"worst_pixel", worst},
-          {"tolerance", tolerance},
-          {"passed", std::abs(ratio - 1) <= tolerance && worst <= 5 * tolerance}};
+  const std::size_t count = a.means.size();
+  double worst = 0, worst_noise = 0, squares = 0;
+  bool passed = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double pixel = std::max(b.means[i], 0.05 * mean_b), off = std::abs(a.means[i] - b.means[i]);
+    const double noise = std::hypot(a.noise.empty() ? 0 : a.noise[i], b.noise.empty() ? 0 : b.noise[i]);
+    worst = std::max(worst, off / pixel), worst_noise = std::max(worst_noise, noise / pixel);
+    squares += noise * noise;
+    passed = passed && off - 5 * noise <= 5 * tolerance * pixel;
+  }
+  const double ratio = mean_a / mean_b, mean_noise = std::sqrt(squares) / static_cast<double>(count) / mean_b;
+  passed = passed && std::abs(ratio - 1) <= tolerance + 4 * mean_noise;
+  nlohmann::ordered_json found{
+      {"luminance_ratio", ratio}, {"worst_pixel", worst}, {"tolerance", tolerance}, {"passed", passed}};
+  if (squares > 0) found["mean_noise"] = mean_noise, found["pixel_noise"] = worst_noise;
+  return found;
 }
 
 }  // namespace vitrail

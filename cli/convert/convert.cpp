@@ -31,7 +31,7 @@ namespace {
 struct Arguments {
   std::vector<std::filesystem::path> files;
   std::filesystem::path input, output, report;
-  std::string format, check, peer;
+  std::string format, check, peer, input_peer;
   int at_once = 0;
   bool strict = false, quiet = false, again = false, pack = false;
   ImportArguments imports;
@@ -59,6 +59,8 @@ void declare(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"ours", "peer"}));
   app.add_option("--peer", a.peer,
                  "of --check=peer: a Python with Mitsuba, or povray, or pbrt; default: the one on the path");
+  app.add_option("--peer-of-input", a.input_peer,
+                 "likewise, the program of the input's format; default: the one on the path, if it is there");
   app.add_option("--report", a.report,
                  "write a report with a line for each item: exact, approximated or dropped; as a page "
                  "(.html), else as JSON");
@@ -127,7 +129,7 @@ int run(const Arguments& a) {
   if (!a.check.empty() && !refused)
     pictures = compare_pictures(a.input, reading_options(a), a.output, imported.scene.film);
   if (a.check == "peer" && !refused)
-    peer = check_in_peer({a.input, a.output, reading_options(a), a.peer}, imported.scene.film);
+    peer = check_in_peer({a.input, a.output, reading_options(a), a.peer, a.input_peer}, imported.scene.film);
   if (a.report.extension() == ".html")
     write_report_page(a.report, a.input, a.output, {pictures, peer}, diagnostics, items);
   else if (!a.report.empty())
@@ -150,8 +152,8 @@ int run_many(const Arguments& a) {
   if (!a.check.empty()) require_checkable("scene." + a.format);
   if (a.pack) throw UsageError("--pack takes one scene, not --to");
   if (!a.report.empty()) throw UsageError("--to gives every scene its report: leave --report out");
-  ManyConversions many{a.files, a.output, a.format, a.at_once, a.again,
-                       a.check, a.peer,   a.strict, a.quiet,   reading_options(a)};
+  ManyConversions many{a.files, a.output,     a.format, a.at_once, a.again,           a.check,
+                       a.peer,  a.input_peer, a.strict, a.quiet,   reading_options(a)};
   if (many.at_once == 0) many.at_once = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   return convert_many(many);
 }
@@ -162,7 +164,8 @@ int run_one(Arguments a) {
   if (a.files.size() > most)
     throw UsageError(fmt::format("'{}' is one argument too many; many scenes take --to FORMAT and -o FOLDER",
                                  a.files[most].string()));
-  if (!a.peer.empty() && a.check != "peer") throw UsageError("--peer belongs to --check=peer");
+  if (!(a.peer + a.input_peer).empty() && a.check != "peer")
+    throw UsageError("--peer and --peer-of-input belong to --check=peer");
   if (a.output.empty() && a.files.size() == 1) throw UsageError("takes a scene and the file to write");
   if (a.output.empty()) a.output = a.files.back();
   a.input = a.files.front();

@@ -101,6 +101,7 @@ void convert(const Conversion& c, const ManyConversions& many, Outcomes& outcome
   words.insert(words.end(), many.options.begin(), many.options.end());
   if (!many.check.empty()) words.push_back("--check=" + many.check);
   if (!many.peer.empty()) words.insert(words.end(), {"--peer", many.peer});
+  if (!many.input_peer.empty()) words.insert(words.end(), {"--peer-of-input", many.input_peer});
   if (many.strict) words.push_back("--strict");
   try {
     std::optional<Json> report;

@@ -13,8 +13,8 @@ struct ManyConversions {
   std::filesystem::path folder;               // below it what is below a folder of `inputs`
   std::string format;                         // "xml": the extension
   int at_once = 1;
-  bool again = false;       // also what is converted already
-  std::string check, peer;  // of --check and --peer; empty: none
+  bool again = false;                   // also what is converted already
+  std::string check, peer, input_peer;  // of --check, --peer and --peer-of-input; empty: none
   bool strict = false, quiet = false;
   std::vector<std::string> options;  // of reading each
 };

@@ -9,10 +9,9 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "cli/common/run_program.h"
-#include "cli/convert/block_luminances.h"
+#include "cli/convert/own_picture.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/temporary_folder.h"
 
@@ -23,20 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* mitsuba_script =
-#include "cli/convert/mitsuba_peer.inc"
-    ;
-
-struct Peer {
-  const char *extension, *name, *program;
-};
-constexpr std::array peers{Peer{".xml", "Mitsuba", "python3"}, Peer{".pov", "POV-Ray", "povray"},
-                           Peer{".pbrt", "pbrt", "pbrt"}};
-
-const Peer& peer_of(const fs::path& out) {
-  const auto found = std::ranges::find(peers, out.extension().string(), &Peer::extension);
-  if (found == peers.end())
-    throw UsageError("--check=peer has no program that renders " + out.extension().string());
+const OwnProgram& peer_of(const fs::path& out) {
+  const OwnProgram* found = own_program(out);
+  if (!found) throw UsageError("--check=peer has no program that renders " + out.extension().string());
   return *found;
 }
 
@@ -52,25 +40,6 @@ SmallPicture small(const FilmSettings& film) {
       if (off < least) best = {width, height}, least = off;
     }
   return best;
-}
-
-std::string text_of(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-// The line that says what is wrong: the last that has the word, else the last.
-std::string last_words(const std::string& text) {
-  std::istringstream lines(text);
-  std::string last, wrong;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.find_first_not_of(' ') == std::string::npos) continue;
-    last = line;
-    if (line.find("Error") != std::string::npos) wrong = line;
-  }
-  if (!wrong.empty()) return wrong;
-  return last.empty() ? "nothing was said" : last;
 }
 
 // The input as vitrail shows it, for a peer that does not read it. Pixels of so small a picture are compared
@@ -89,36 +58,95 @@ std::string picture_of_input(const PeerCheck& check, SmallPicture size, int samp
   return picture;
 }
 
+// The picture of the input that the written one is to be compared with: that of its own program, else ours.
+struct Reference {
+  // "itself", where that is the peer; "POV-Ray" …, "vitrail". Of one that shows nothing: who says why.
+  std::string shown_by;
+  Luminances luminances;
+  std::string not_shown;  // the words of its own program, where that is there and shows nothing
+};
+
+Reference by_vitrail(const PeerCheck& check, SmallPicture size, const TemporaryFolder& folder) {
+  const SmallPicture all{size.width * SmallPicture::block, size.height * SmallPicture::block};
+  return {"vitrail", {block_luminances(picture_of_input(check, all, 64, folder), size), {}}, {}};
+}
+
+// Programs of others know nothing of the options of reading.
+Reference by_its_program(const PeerCheck& check, SmallPicture size, const TemporaryFolder& folder) {
+  const OwnProgram* own = check.options.empty() ? own_program(check.in) : nullptr;
+  if (!own) return {};
+  const bool is_peer = own == own_program(check.out);
+  OwnPicture shown = own_picture(check.in, is_peer ? check.program : check.program_of_input, size, folder);
+  if (shown.is_missing && !is_peer && !check.program_of_input.empty())
+    throw UsageError("--peer-of-input: " + shown.said);
+  if (!shown.luminances.means.empty())
+    return {is_peer ? "itself" : own->name, std::move(shown.luminances), {}};
+  return {is_peer ? "it" : own->name, {}, shown.is_missing ? "" : shown.said};
+}
+
+void note_refusal(const Reference& input, Json& variant) {
+  variant["not_compared"] = input.not_shown;
+  variant["not_compared_by"] = input.shown_by;
+}
+
+// Where the pictures differ: whose side ours is on, which tells reading from writing.
+void ask_vitrail(const PeerCheck& check, SmallPicture size, const Luminances& written, const Reference& input,
+                 const TemporaryFolder& folder, Json& variant) {
+  constexpr double tolerance = 0.02;
+  if (variant.at("passed").get<bool>() || input.shown_by == "vitrail") return;
+  const Luminances ours = by_vitrail(check, size, folder).luminances;
+  const bool as_written = compare_luminances(written, ours, tolerance).at("passed"),
+             as_input = compare_luminances(ours, input.luminances, tolerance).at("passed");
+  variant["vitrail_shows"] = as_written ? "that of what was written"
+                             : as_input ? "that of the input"
+                                        : "neither";
+}
+
 // Mitsuba's words on what was written and a reference: a scene of its own, or a picture.
 Json asked(const PeerCheck& check, const std::string& python, SmallPicture size, int samples,
            const std::string& reference, const TemporaryFolder& folder) {
-  const std::string script = folder.file("peer.py"), said = folder.file("said.json"),
-                    errors = folder.file("errors");
-  std::ofstream(script) << mitsuba_script;
-  const ForeignEnd end =
-      run_foreign({python, script, fs::absolute(check.out).string(), reference, std::to_string(size.width),
-                   std::to_string(size.height), std::to_string(samples)},
-                  said, errors);
-  if (!end.found) return {{"missing", python + " is not there"}};
-  const Json result = Json::parse(text_of(said), nullptr, false);
-  if (end.status == 0 && result.is_object()) return result;
-  return {
-      {"variants",
-       {{{"variant", "any"}, {"loads", false}, {"passed", false}, {"said", last_words(text_of(errors))}}}}};
+  const Answer answer = ask_mitsuba(python,
+                                    {fs::absolute(check.out).string(), reference, std::to_string(size.width),
+                                     std::to_string(size.height), std::to_string(samples)},
+                                    folder);
+  if (answer.is_missing) return {{"missing", answer.said}};
+  if (!answer.json.empty()) return Json::parse(answer.json);
+  return {{"variants", {{{"variant", "any"}, {"loads", false}, {"passed", false}, {"said", answer.said}}}}};
 }
 
 bool is_not_compared(const Json& variant) { return variant.contains("not_compared"); }
 
-// Of `samples` for each of eight seeds.
+// Beside the picture of the input's own program.
+Json beside(const PeerCheck& check, const std::string& python, SmallPicture size, int samples,
+            const Reference& input, const TemporaryFolder& folder) {
+  const std::string pixels = folder.file("input.json");
+  std::ofstream(pixels) << nlohmann::json{input.luminances.means, input.luminances.noise};
+  Json found = asked(check, python, size, samples, pixels, folder);
+  if (found.contains("missing")) return found;
+  for (Json& variant : found.at("variants"))
+    if (variant.contains("compared_with")) {
+      variant["compared_with"] = input.shown_by;
+      ask_vitrail(check, size, {variant.at("luminances"), variant.at("noise")}, input, folder, variant);
+    }
+  return found;
+}
+
+// Of `samples` for each of eight seeds. `input`: as its own program shows it, where that is another.
 Json once_in_mitsuba(const PeerCheck& check, const std::string& python, SmallPicture size, int samples,
-                     const TemporaryFolder& folder) {
-  const auto by_vitrail = [&] {
+                     const Reference& input, const TemporaryFolder& folder) {
+  const auto by_ours = [&] {
     return asked(check, python, size, samples, picture_of_input(check, size, 16 * samples, folder), folder);
   };
-  if (check.in.extension() != ".xml" || !check.options.empty()) return by_vitrail();
+  if (!input.luminances.means.empty()) return beside(check, python, size, samples, input, folder);
+  if (check.in.extension() != ".xml" || !check.options.empty()) {
+    Json found = by_ours();
+    if (!input.not_shown.empty() && !found.contains("missing"))
+      for (Json& variant : found.at("variants")) note_refusal(input, variant);
+    return found;
+  }
   Json found = asked(check, python, size, samples, fs::absolute(check.in).string(), folder);
   if (found.contains("missing") || std::ranges::none_of(found["variants"], is_not_compared)) return found;
-  const Json others = by_vitrail();  // where Mitsuba shows nothing of the input
+  const Json others = by_ours();  // where Mitsuba shows nothing of the input
   for (const Json& variant : others.at("variants"))
     for (Json& refused : found["variants"])
       if (is_not_compared(refused) && refused["variant"] == variant["variant"]) {
@@ -141,60 +169,41 @@ Json in_mitsuba(const PeerCheck& check, const std::string& python, const FilmSet
                 const TemporaryFolder& folder) {
   constexpr std::array samples{64, 256, 1024};
   constexpr std::chrono::seconds most{10};  // of a round: the next takes up to four times as long
+  const Reference input =
+      check.in.extension() == ".xml" ? Reference{} : by_its_program(check, small(film), folder);
   Json found;
   for (const int count : samples) {
     const auto start = std::chrono::steady_clock::now();
-    found = once_in_mitsuba(check, python, small(film), count, folder);
+    found = once_in_mitsuba(check, python, small(film), count, input, folder);
     if (found.contains("missing") || std::ranges::all_of(found["variants"], is_decided) ||
         std::chrono::steady_clock::now() - start > most)
       break;
   }
+  if (found.contains("variants"))
+    for (Json& variant : found["variants"]) variant.erase("luminances"), variant.erase("noise");
   return found;
 }
 
-// Programs whose exit status says whether they take a scene.
-Json in_program(const std::vector<std::string>& words, const TemporaryFolder& folder) {
-  const std::string said = folder.file("said"), errors = folder.file("errors");
-  const ForeignEnd end = run_foreign(words, said, errors);
-  if (!end.found) return {{"missing", words.front() + " is not there"}};
-  Json variant{{"variant", "any"}, {"loads", end.status == 0}, {"passed", end.status == 0}};
-  if (end.status != 0) variant["said"] = last_words(text_of(errors));
-  return {{"variants", {variant}}};
-}
-
-// POV-Ray's picture of a scene, in linear colours. It looks for images in its working directory and in those
-// of +L, not beside the scene.
-Json picture_by_povray(const std::string& program, const fs::path& scene, SmallPicture size,
-                       const std::string& picture, const TemporaryFolder& folder) {
-  return in_program(
-      {program, "+I" + scene.string(), "+L" + scene.parent_path().string(), fmt::format("+W{}", size.width),
-       fmt::format("+H{}", size.height), "-D", "+A0.0", "+AM1", "+R4", "-J", "+FE", "+O" + picture},
-      folder);
-}
-
-// Blocks of a larger picture are compared: POV-Ray filters no pixel beyond its edges.
-Json in_povray(const PeerCheck& check, const std::string& program, const FilmSettings& film,
-               const TemporaryFolder& folder) {
+// POV-Ray and pbrt: blocks of a larger picture are compared, as POV-Ray filters no pixel beyond its edges.
+Json in_program(const PeerCheck& check, const std::string& program, const FilmSettings& film,
+                const TemporaryFolder& folder) {
   constexpr double tolerance = 0.02;
-  const SmallPicture size = small(film),
-                     all{size.width * SmallPicture::block, size.height * SmallPicture::block};
-  const std::string after = folder.file("after.exr"), before = folder.file("itself.exr");
-  Json found = picture_by_povray(program, fs::absolute(check.out), all, after, folder);
-  if (found.contains("missing") || !found["variants"][0]["passed"].get<bool>()) return found;
-  Json& variant = found["variants"][0];
-  bool reads_input = check.in.extension() == ".pov" && check.options.empty();
-  if (reads_input) {
-    const Json input = picture_by_povray(program, fs::absolute(check.in), all, before, folder)["variants"][0];
-    if (!input["passed"].get<bool>()) {
-      variant["not_compared"] = input["said"];
-      reads_input = false;
-    }
+  const SmallPicture size = small(film);
+  const OwnPicture written = own_picture(check.out, program, size, folder);
+  if (written.is_missing) return {{"missing", written.said}};
+  const bool loads = !written.luminances.means.empty();
+  Json variant{{"variant", "any"}, {"loads", loads}, {"passed", loads}};
+  if (!loads) {
+    variant["said"] = written.said;
+    return {{"variants", {variant}}};
   }
-  const std::string reference = reads_input ? before : picture_of_input(check, all, 64, folder);
-  variant["compared_with"] = reads_input ? "itself" : "vitrail";
-  variant.update(
-      compare_luminances(block_luminances(after, size), block_luminances(reference, size), tolerance));
-  return found;
+  Reference input = by_its_program(check, size, folder);
+  if (!input.not_shown.empty()) note_refusal(input, variant);
+  if (input.luminances.means.empty()) input = by_vitrail(check, size, folder);
+  variant["compared_with"] = input.shown_by;
+  variant.update(compare_luminances(written.luminances, input.luminances, tolerance));
+  ask_vitrail(check, size, written.luminances, input, folder, variant);
+  return {{"variants", {variant}}};
 }
 
 // Programs go on to print all that they were given.
@@ -210,34 +219,34 @@ std::string noise_in_words(const Json& v, const char* key, int digits) {
 std::string variant_in_words(const std::string& name, const Json& v) {
   if (!v.at("loads").get<bool>()) return fmt::format("{} refuses it: {}", name, first_line(v, "said"));
   if (v.contains("said")) return fmt::format("{} ruins it: {}", name, first_line(v, "said"));
-  const std::string refused =
-      v.contains("not_compared") ? "; of the input it says: " + first_line(v, "not_compared") : "";
+  std::string refused;
+  if (v.contains("not_compared"))
+    refused = fmt::format("; of the input {} says: {}", v.value("not_compared_by", "it"),
+                          first_line(v, "not_compared"));
+  if (v.contains("vitrail_shows"))
+    refused += "; vitrail's picture is " + v.at("vitrail_shows").get<std::string>();
   if (!v.contains("luminance_ratio"))
     return name + (v.at("passed").get<bool>() ? " renders it" : " shows light where the input has none") +
            refused;
   return fmt::format(
       "{} shows it {} {} shows the input: luminance {:+.2f} %{}, a pixel of 64 by up to {:.1f} %{}{}", name,
       v.at("passed").get<bool>() ? "as" : "otherwise than",
-      v.at("compared_with") == "itself" ? "it" : "vitrail", 100 * (v.at("luminance_ratio").get<double>() - 1),
-      noise_in_words(v, "mean_noise", 2), 100 * v.at("worst_pixel").get<double>(),
-      noise_in_words(v, "pixel_noise", 1), refused);
+      v.at("compared_with") == "itself" ? "it" : v.at("compared_with").get<std::string>(),
+      100 * (v.at("luminance_ratio").get<double>() - 1), noise_in_words(v, "mean_noise", 2),
+      100 * v.at("worst_pixel").get<double>(), noise_in_words(v, "pixel_noise", 1), refused);
 }
 
 }  // namespace
 
 Json check_in_peer(const PeerCheck& check, const FilmSettings& film) {
-  const Peer& peer = peer_of(check.out);
-  const std::string program = check.program.empty() ? peer.program : check.program;
+  const OwnProgram& peer = peer_of(check.out);
+  const std::string program = check.program.empty() ? peer.usual : check.program;
   const TemporaryFolder folder;
   Json found{{"name", peer.name}};
   if (std::string_view(peer.name) == "Mitsuba")
     found.update(in_mitsuba(check, program, film, folder));
-  else if (std::string_view(peer.name) == "POV-Ray")
-    found.update(in_povray(check, program, film, folder));
   else
-    found.update(in_program(
-        {program, "--spp", "1", "--outfile", folder.file("picture.exr"), fs::absolute(check.out).string()},
-        folder));
+    found.update(in_program(check, program, film, folder));
   if (found.contains("missing")) {
     if (!check.program.empty()) throw UsageError("--peer: " + found.at("missing").get<std::string>());
     return found;

@@ -14,12 +14,15 @@ namespace vitrail {
 struct PeerCheck {
   std::filesystem::path in, out;
   std::vector<std::string> options;  // of reading `in`
-  std::string program;               // Python with Mitsuba, povray or pbrt; empty: the usual one on the path
+  // Of what was written and, of another format, of the input: Python with Mitsuba, povray or pbrt; empty: the
+  // usual one on the path.
+  std::string program, program_of_input;
 };
 
-// Loads `out` there: Mitsuba in each common variant, which renders 64 pixels and compares them with those of
-// `in`, with 512, 2048 or 8192 samples each, until noise hides nothing that is beyond the tolerance; by
-// itself where it shows that too, else by vitrail; POV-Ray likewise; pbrt renders without a comparison.
+// Loads `out` there: Mitsuba in each common variant, which renders 64 pixels, with 512, 2048 or 8192 samples
+// each, until noise hides nothing that is beyond the tolerance; POV-Ray and pbrt likewise. They are compared
+// with those of `in` by its own program, where it has one that is there and shows it, else by vitrail. Where
+// the two programs differ, vitrail's picture of the input says which of them it sees alike.
 //
 //   {"name": "Mitsuba", "version": "3.9.1", "passed": true, "variants": [{"variant": "scalar_rgb", "loads":
 //    true, "compared_with": "itself", "luminance_ratio": 1.0003, "mean_noise": 0.0007, "worst_pixel": 0.004,

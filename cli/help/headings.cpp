@@ -49,7 +49,7 @@ const std::vector<Heading> of_partition{
 
 const std::vector<Heading> of_convert{
     {"What to convert", "files=FILE to jobs again"},
-    {"What to write", "output=FILE pack report=FILE check peer=PROGRAM quiet"},
+    {"What to write", "output=FILE pack report=FILE check peer=PROGRAM peer-of-input=PROGRAM quiet"},
     scene,
     meshes,
 };

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "tests/support/command.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::peer_test {
@@ -83,6 +84,43 @@ TEST_F(Peer, AsksVitrailWhereItRefusesTheInput) {
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_THAT(result.output, HasSubstr("POV-Ray shows it as vitrail shows the input"));
   EXPECT_THAT(result.output, HasSubstr("of the input it says: Parse Error: too old"));
+}
+
+const char* grey_plane =
+    "#version 3.7; global_settings { assumed_gamma 1 } camera { location -4*z look_at 0 }\n"
+    "light_source { <2, 3, -4> rgb 1 } plane { z, 0 pigment { rgb .5 } finish { ambient 0 } }\n";
+
+// Half as bright again as the input's own program shows it, and as we do.
+TEST_F(Peer, ComparesWithTheProgramOfTheInput) {
+  if (std::system("povray --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no povray on the path";
+  const auto result = ask(write("in.pov", grey_plane), R"(exec /usr/bin/python3 -c '
+import json, sys
+means, noise = json.load(open(sys.argv[2]))
+print(json.dumps({"variants": [{"variant": "scalar_rgb", "loads": True, "passed": False, "compared_with": "vitrail",
+  "luminance_ratio": 1.5, "worst_pixel": 0.9, "luminances": [1.5 * m for m in means], "noise": [0.0] * len(means)}]}))
+' "$2" "$3"
+)");
+  EXPECT_EQ(result.status, 1) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("Mitsuba scalar_rgb shows it otherwise than POV-Ray shows the input"));
+  EXPECT_THAT(result.output, HasSubstr("vitrail's picture is that of the input"));
+}
+
+// We stand in for pbrt: $7 is the picture, $8 the scene with another film, beside the scene.
+TEST_F(Peer, ComparesPicturesOfPbrt) {
+  const std::string in = write("in.pbrt", R"(LookAt 0 0 4 0 0 0 0 1 0 Camera "perspective" PixelFilter "box"
+      Film "rgb" "integer xresolution" [ 16 ] "integer yresolution" 8 WorldBegin LightSource "infinite" "rgb L" [2 2 2]
+      Material "diffuse" Shape "sphere")");
+  const std::string run =
+      fmt::format("exec '{}/vitrail-render' \"$8\" -o \"$7\" --spp 16 --quiet\n", test::bin_dir());
+  const std::string more = "case $8 in *.out-*) sed -i 's/\\[ *2 2 2 *\\]/[2.2 2.2 2.2]/' \"$8\";; esac\n";
+  const auto same = ask(in, run, "out.pbrt"), other = ask(in, more + run, "out.pbrt");
+  EXPECT_EQ(same.status, 0) << same.output;
+  EXPECT_THAT(same.output, HasSubstr("pbrt shows it as it shows the input: luminance"));
+  EXPECT_EQ(other.status, 1) << other.output;
+  EXPECT_THAT(other.output, HasSubstr("pbrt shows it otherwise than it shows the input: luminance +10"));
+  EXPECT_THAT(other.output, HasSubstr("vitrail's picture is that of the input"));
+  for (const auto& file : std::filesystem::directory_iterator(folder_ / ""))
+    EXPECT_THAT(file.path().filename().string(), ::testing::Not(HasSubstr("compared")));
 }
 
 class PeerMitsuba : public Peer {

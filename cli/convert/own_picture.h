@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene as the program of its own format shows it, small.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/convert/block_luminances.h"
+#include "scene/system/temporary_folder.h"
+
+namespace vitrail {
+
+// A program that others wrote, and the format that is its own.
+struct OwnProgram {
+  const char *extension, *name, *usual;  // ".pov", "POV-Ray", "povray"
+};
+// Null for formats without one.
+const OwnProgram* own_program(const std::filesystem::path& scene);
+
+struct OwnPicture {
+  Luminances luminances;    // empty: it shows nothing
+  std::string said;         // its words then
+  bool is_missing = false;  // the program is not there: `said` names it
+};
+
+// Asks Mitsuba (`program`: a Python that has it) for 1024 samples of each pixel of `size`, pbrt for as many
+// or more, POV-Ray for 8 × 8 antialiased pixels of each. pbrt's scene is copied beside itself meanwhile, with
+// another size of its film. Formats without a program show nothing.
+OwnPicture own_picture(const std::filesystem::path& scene, const std::string& program, SmallPicture size,
+                       const TemporaryFolder& folder);
+
+// What mitsuba_peer.inc answers as JSON, or the words of a program that fails. `words` follow the script.
+struct Answer {
+  std::string json, said;
+  bool is_missing = false;
+};
+Answer ask_mitsuba(const std::string& python, const std::vector<std::string>& words,
+                   const TemporaryFolder& folder);
+
+// The line of a program's words that says what is wrong: the last that has the word, else the last.
+std::string last_words(const std::string& file);
+
+}  // namespace vitrail
