@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "scene/system/resource_usage.h"
+#include "scene/system/unfilled_blocks.h"
 
 namespace vitrail {
 
@@ -24,7 +25,7 @@ constexpr std::uint64_t large = 1 << 20;
 std::atomic<std::uint64_t> limit{~std::uint64_t{0}};  // of what is resident
 std::atomic<bool> guarding{false};
 std::atomic<bool (*)()> is_own_thread{nullptr};
-std::atomic<std::uint64_t> promised{0};  // to all threads, of large blocks that are not filled yet
+std::atomic<std::uint64_t> promised{0};  // to all threads that asked, and not taken yet
 std::atomic<bool> refused{false};
 std::atomic<std::uint64_t> resident_then{0}, asked_then{0};
 
@@ -33,7 +34,7 @@ std::atomic<int> attempt{0};  // at the work: promises of an earlier one are voi
 // Of this thread.
 thread_local int own_attempt = 0;
 thread_local std::uint64_t taken = 0;        // since it looked
-thread_local std::uint64_t own_promise = 0;  // of its last large block
+thread_local std::uint64_t own_promise = 0;  // of what it asked for, until its next large block
 thread_local std::uint64_t promised_at = 0;  // resident then
 thread_local int granted = 0;                // lives of GrantedMemory
 thread_local bool is_guarded = false;        // it called guard_memory
@@ -48,14 +49,14 @@ void fulfil(std::uint64_t resident) {
 }
 
 bool allows(std::uint64_t bytes) {
-  std::uint64_t now = resident_bytes();
-  fulfil(now);
-  // Freed blocks that malloc keeps can be given back.
-  if (now + promised + bytes > limit) {
-    ::malloc_trim(0);
-    now = resident_bytes();
-  }
-  return now + promised + bytes <= limit;
+  fulfil(resident_bytes());
+  // What is filled meanwhile may count twice, but is not left out.
+  const auto allow = [bytes](std::uint64_t unfilled) {
+    return unfilled + promised + bytes + resident_bytes() <= limit;
+  };
+  if (allow(most_unfilled_bytes()) || allow(unfilled_bytes())) return true;
+  ::malloc_trim(0);  // freed blocks that malloc keeps
+  return allow(unfilled_bytes());
 }
 
 // An exception may pass: not while another one does, and not through a thread that is not ours.
@@ -68,7 +69,7 @@ bool can_refuse() {
 void require(std::uint64_t bytes) {
   if (allows(bytes) || !can_refuse()) return;
   if (!refused.exchange(true))
-    resident_then = resident_bytes() + promised, asked_then = bytes;
+    resident_then = resident_bytes() + promised + unfilled_bytes(), asked_then = bytes;
   else if (bytes < large)
     return;
   throw MemoryRefused();
@@ -89,7 +90,7 @@ void take(std::uint64_t bytes) {
   if (bytes < large) return require(0);
   fulfil(resident_bytes());
   promised -= std::exchange(own_promise, 0);
-  promise(bytes);
+  require(bytes);
 }
 
 bool is_guarding() { return guarding.load(std::memory_order_relaxed); }
@@ -100,17 +101,30 @@ void* block_or_null(std::size_t bytes, std::size_t alignment) {
              : std::malloc(std::max<std::size_t>(bytes, 1));
 }
 
+// A library's are part of what was asked for it.
+void watch(void* block, std::size_t bytes) {
+  if (bytes >= large && is_guarding() && granted == 0) add_unfilled_block(block, bytes);
+}
+
 void* block_of(std::size_t bytes, std::size_t alignment) {
   if (is_guarding()) take(bytes);
   void* const block = block_or_null(bytes, alignment);
   if (!block) throw std::bad_alloc();
+  watch(block, bytes);
   return block;
 }
 
 // Its caller does without, as std::stable_sort: nothing is refused.
 void* block_if_allowed(std::size_t bytes, std::size_t alignment) {
   if (bytes >= large && granted == 0 && !memory_allows(bytes)) return nullptr;
-  return block_or_null(bytes, alignment);
+  void* const block = block_or_null(bytes, alignment);
+  if (block) watch(block, bytes);
+  return block;
+}
+
+void free_block(void* block) noexcept {
+  if (is_guarding() && ::malloc_usable_size(block) >= large) remove_unfilled_block(block);
+  std::free(block);
 }
 
 }  // namespace
@@ -189,5 +203,9 @@ void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
 void* operator new(std::size_t bytes, std::align_val_t alignment, const std::nothrow_t&) noexcept {
   return vitrail::block_if_allowed(bytes, static_cast<std::size_t>(alignment));
 }
+void operator delete(void* block) noexcept { vitrail::free_block(block); }
+void operator delete(void* block, std::size_t) noexcept { vitrail::free_block(block); }
+void operator delete(void* block, std::align_val_t) noexcept { vitrail::free_block(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { vitrail::free_block(block); }
 
 #endif

@@ -62,6 +62,34 @@ TEST(MemoryGuardDeathTest, RemembersWhatItPromised) {
               ::testing::ExitedWithCode(1), "");
 }
 
+// Nobody has written to them when the next is taken.
+TEST(MemoryGuardDeathTest, RemembersEachBlockThatIsNotFilled) {
+  for (const int blocks : {2, 3, 5})
+    EXPECT_EXIT(end_with(64 * mib,
+                         [blocks] {
+                           std::vector<std::vector<char>> reserved(blocks);
+                           for (auto& block : reserved) block.reserve(80 * mib / blocks);
+                           for (auto& block : reserved) block.assign(block.capacity(), 'a');
+                         }),
+                ::testing::ExitedWithCode(1), "")
+        << blocks;
+}
+
+// A filled one is resident, in whatever order it was filled; a freed one is nothing.
+TEST(MemoryGuardDeathTest, ForgetsBlocksThatAreFilledOrFreed) {
+  EXPECT_EXIT(end_with(64 * mib,
+                       [] {
+                         for (int round = 0; round < 10; ++round) std::vector<char>().reserve(40 * mib);
+                         std::vector<std::unique_ptr<char[]>> kept;
+                         for (int i = 0; i < 5; ++i) {
+                           kept.push_back(std::make_unique_for_overwrite<char[]>(10 * mib));
+                           for (std::uint64_t at = 10 * mib; at > 0; at -= 4096)
+                             static_cast<volatile char*>(kept.back().get())[at - 1] = 'a';
+                         }
+                       }),
+              ::testing::ExitedWithCode(0), "");
+}
+
 TEST(MemoryGuardDeathTest, FreedBlocksMayBeTakenAgain) {
   EXPECT_EXIT(end_with(64 * mib,
                        [] {
