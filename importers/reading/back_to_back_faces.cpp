@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <unordered_map>
+#include <numeric>
+#include <tuple>
 
 #include "scene/records/curve_uses.h"
 #include "scene/records/material_traits.h"
 #include "scene/shapes/deferred_mesh.h"
 #include "scene/shapes/mesh_parts.h"
 #include "scene/shapes/triangle_overlaps.h"
+#include "scene/system/memory_guard.h"
 
 namespace vitrail {
 
@@ -25,13 +27,8 @@ struct Face {
   Vector3d front;  // unit
 };
 
-struct PositionHash {
-  std::size_t operator()(const std::array<double, 3>& p) const {
-    std::size_t hash = 0;
-    for (const double x : p) hash = (hash ^ std::hash<double>{}(x)) * 0x9e3779b97f4a7c15u;
-    return hash ^ hash >> 32;
-  }
-};
+// Of a face, while those with a back are sought: its corners in order, too.
+constexpr std::uint64_t bytes_of_face = sizeof(Face) + sizeof(FlatTriangle) + 3 * sizeof(std::uint32_t);
 
 class FacesOfSpace {
  public:
@@ -43,6 +40,7 @@ class FacesOfSpace {
     for (const Shape& shape : shapes_)
       if (is_candidate(shape)) ++candidates, count += triangles_of(scene_.meshes[shape.mesh.value]);
     if (candidates < 2 || count > most_triangles) return;
+    ask_memory(count * bytes_of_face);
     flat_.reserve(count);
     faces_.reserve(count);
     gather();
@@ -79,24 +77,27 @@ class FacesOfSpace {
     }
   }
 
-  static std::array<double, 3> key(Point3d p) { return {p.x + 0.0, p.y + 0.0, p.z + 0.0}; }
-
   // Only those with a face of another shape at each corner that looks the other way: few, in most scenes
   // none.
   void keep_those_with_a_back() {
-    std::unordered_map<std::array<double, 3>, std::vector<std::uint32_t>, PositionHash> at;
-    for (std::uint32_t i = 0; i < faces_.size(); ++i)
-      for (const Point3d p : flat_[i].p) at[key(p)].push_back(i);
-    const auto has_back = [&](std::uint32_t i) {
-      return std::ranges::all_of(flat_[i].p, [&](Point3d p) {
-        return std::ranges::any_of(at.at(key(p)), [&](std::uint32_t j) { return are_two_sides(i, j); });
-      });
+    const auto place = [&](std::uint32_t corner) {
+      const Point3d& p = flat_[corner / 3].p[corner % 3];
+      return std::tie(p.x, p.y, p.z);
     };
-    std::vector<Face> faces;
-    std::vector<FlatTriangle> flat;
+    std::vector<std::uint32_t> corners(3 * faces_.size());
+    std::iota(corners.begin(), corners.end(), 0u);
+    std::ranges::sort(corners, {}, place);
+    std::vector<bool> has_back(corners.size());
+    for (auto first = corners.begin(), end = first; first != corners.end(); first = end) {
+      end = std::find_if(first, corners.end(), [&](std::uint32_t c) { return place(c) != place(*first); });
+      for (const std::uint32_t c : std::ranges::subrange(first, end))
+        has_back[c] = std::any_of(first, end, [&](std::uint32_t d) { return are_two_sides(c / 3, d / 3); });
+    }
+    std::uint32_t kept = 0;
     for (std::uint32_t i = 0; i < faces_.size(); ++i)
-      if (has_back(i)) faces.push_back(faces_[i]), flat.push_back(flat_[i]);
-    faces_ = std::move(faces), flat_ = std::move(flat);
+      if (has_back[3 * i] && has_back[3 * i + 1] && has_back[3 * i + 2])
+        faces_[kept] = faces_[i], flat_[kept++] = flat_[i];
+    faces_.resize(kept), flat_.resize(kept);
   }
 
   bool are_two_sides(std::uint32_t i, std::uint32_t j) const {

@@ -10,6 +10,7 @@
 #include "scene/shapes/deferred_mesh.h"
 #include "scene/shapes/mesh_parts.h"
 #include "scene/shapes/triangle_overlaps.h"
+#include "scene/system/memory_guard.h"
 
 namespace vitrail {
 
@@ -36,6 +37,7 @@ class LampsOfSpace {
     if (triangles() > most_triangles) {
       say_incomplete();
     } else {
+      ask_memory(triangles() * bytes_of_lamp);
       flat_.reserve(triangles());
       lamps_.reserve(triangles());
       gather(true);
@@ -51,8 +53,10 @@ class LampsOfSpace {
   const AreaLight& light_of(const Shape& shape) const { return scene_.area_lights[shape.area_light->value]; }
   bool shines(const Shape& shape) const { return is_lamp(scene_, shape); }
 
-  // That shine. Each takes some 200 bytes here.
+  // That shine.
   static constexpr std::uint64_t most_triangles = 1 << 20;
+  // Each is in order, too, while those that overlap are sought.
+  static constexpr std::uint64_t bytes_of_lamp = sizeof(Lamp) + sizeof(FlatTriangle) + sizeof(std::uint32_t);
   std::uint64_t triangles() const {
     std::uint64_t count = 0;
     for (const Shape& shape : shapes_)

@@ -68,6 +68,12 @@ double common_area(const FlatTriangle& a, const FlatTriangle& b) {
   return rest.size() < 3 ? 0 : area_of(rest) / (axis == 0 ? n.x : axis == 1 ? n.y : n.z);
 }
 
+Bounds3d box_of(const FlatTriangle& t) {
+  Bounds3d box;
+  for (const Point3d& p : t.p) extend(box, p);
+  return box;
+}
+
 bool boxes_meet(const Bounds3d& a, const Bounds3d& b, int axis) {
   const auto margin = [&](int i) { return 1e-6 * std::max(std::abs(a.upper[i]), std::abs(a.lower[i])); };
   return a.lower[axis] <= b.upper[axis] + margin(axis) && b.lower[axis] <= a.upper[axis] + margin(axis);
@@ -77,29 +83,33 @@ bool boxes_meet(const Bounds3d& a, const Bounds3d& b, int axis) {
 
 FlatTriangle flat_triangle(const std::array<Point3d, 3>& p) {
   const Vector3d n = cross(p[1] - p[0], p[2] - p[0]);
-  FlatTriangle flat{p, {}, length(n) / 2, {}};
+  FlatTriangle flat{p, {}, length(n) / 2};
   if (flat.area > 0) flat.normal = normalize(n);
-  for (const Point3d& at : p) extend(flat.box, at);
   return flat;
 }
 
 // A sweep along the axis on which they are spread most.
 std::vector<Overlap> overlaps_of(const std::vector<FlatTriangle>& triangles, bool& complete) {
   Bounds3d all;
-  for (const FlatTriangle& t : triangles) extend(all, t.box);
+  for (const FlatTriangle& t : triangles) extend(all, box_of(t));
   const Vector3d size = extent(all);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   std::vector<std::uint32_t> order(triangles.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair{triangles[i].box.lower[axis], i}; });
+  const auto lower = [&](const FlatTriangle& t) {
+    return std::min({t.p[0][axis], t.p[1][axis], t.p[2][axis]});
+  };
+  std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair{lower(triangles[i]), i}; });
   std::vector<Overlap> overlaps;
   std::uint64_t left = 1u << 30;  // a few seconds
   for (std::size_t i = 0; i < order.size(); ++i) {
     const FlatTriangle& a = triangles[order[i]];
+    const Bounds3d a_box = box_of(a);
     for (std::size_t k = i + 1; k < order.size() && left > 0; ++k, --left) {
       const FlatTriangle& b = triangles[order[k]];
-      if (!boxes_meet(a.box, b.box, axis)) break;
-      if (!boxes_meet(a.box, b.box, (axis + 1) % 3) || !boxes_meet(a.box, b.box, (axis + 2) % 3)) continue;
+      const Bounds3d b_box = box_of(b);
+      if (!boxes_meet(a_box, b_box, axis)) break;
+      if (!boxes_meet(a_box, b_box, (axis + 1) % 3) || !boxes_meet(a_box, b_box, (axis + 2) % 3)) continue;
       if (!in_one_plane(a, b)) continue;
       const double area = common_area(a, b);
       if (area > 1e-6 * std::min(a.area, b.area))

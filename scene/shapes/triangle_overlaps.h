@@ -12,7 +12,6 @@ struct FlatTriangle {
   std::array<Point3d, 3> p;
   Vector3d normal;  // unit
   double area;
-  Bounds3d box;
 };
 
 // `area` > 0, or there is nothing.
