@@ -33,7 +33,7 @@ constexpr double piece_bytes = 300;
 constexpr double quadric_bytes = 170, quadric_held = 230, quadric_built = 400;
 
 // While the tree of parts is planned: of each item of the sample (spill_scene.h).
-constexpr double planning_bytes = 72, most_sampled = 1 << 18;
+constexpr double planning_bytes = 110, most_sampled = 1 << 18;
 
 // Bytes a triangle: measured, docs/why/partitioning.md.
 struct Costs {
@@ -122,10 +122,12 @@ std::string lack_of(const Manifest& m, const MemoryNeeds& needs) {
     return fmt::format(
         "domains of {:.0f} triangles and pieces{}", domain.triangles,
         needs.domains || needs.domain_bytes ? "; without --domains and --domain-bytes they are smaller" : "");
-  const auto items =
-      static_cast<double>(needs.triangles) * needs.expansion + static_cast<double>(needs.quadrics);
-  if (left < planning_bytes * std::min(items, most_sampled) && left < costs_of(m).placed * items)
-    return "planning";
+  const auto quadrics = static_cast<double>(needs.quadrics);
+  const double triangles = static_cast<double>(needs.triangles) * needs.expansion;
+  const double all =
+      (costs_of(m).placed + piece_bytes * domain.pieces_each) * triangles + quadric_held * quadrics;
+  const bool in_parts = all + needs.threads * domain.build > left * needs.share;
+  if (in_parts && left < planning_bytes * std::min(triangles + quadrics, most_sampled)) return "planning";
   // With its vertices placed, and with the blocks on their way to disk.
   if (const auto mesh = static_cast<double>(needs.largest_mesh); 1.5 * mesh > left * 3 / 4)
     return fmt::format("a mesh of {:.0f} MiB", mesh / mib);

@@ -98,8 +98,10 @@ class TooLittleMemory : public testing::Test {
       EXPECT_TRUE(named_budget(result.output)) << what << ":\n" << result.output;
     }
   }
-  // Each budget is enough, or what is named in its place is, and a tenth less is not.
-  void expect_right_budgets(const std::string& scene, const std::vector<int>& ladder) const {
+  // Each budget is enough, or what is named in its place is. A tenth less is not, but where the scene cannot
+  // even be read: `read` is false then.
+  void expect_right_budgets(const std::string& scene, const std::vector<int>& ladder,
+                            bool read = true) const {
     std::map<int, CommandResult> runs;
     const auto run_in = [&](int budget) -> const CommandResult& {
       const auto [it, is_new] = runs.try_emplace(budget);
@@ -118,6 +120,8 @@ class TooLittleMemory : public testing::Test {
       const std::optional<int> named = named_budget(first.output);
       ASSERT_TRUE(named) << first.output;
       EXPECT_EQ(run_in(*named).status, 0) << scene << ": " << first.output << run_in(*named).output;
+      EXPECT_EQ(first.output.find("reading the scene") == std::string::npos, read) << first.output;
+      if (!read) continue;
       EXPECT_EQ(run_in(*named * 9 / 10).status, 4)
           << scene << " in " << *named * 9 / 10 << "M: " << first.output;
     }
@@ -181,29 +185,85 @@ TEST_F(TooLittleMemory, PlainPicturesDoWithoutTheLibrary) {
   }
 }
 
+// A wavy square of 2·side² triangles: its points.
+struct Waves {
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<int, 3>> triangles;
+};
+Waves waves(int side, int kind = 0) {
+  Waves w;
+  for (int y = 0; y <= side; ++y)
+    for (int x = 0; x <= side; ++x)
+      w.points.push_back({double(x), double(y), std::sin(x * 0.3 + kind) * std::cos(y * 0.2)});
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const int a = y * (side + 1) + x, b = a + side + 1;
+      w.triangles.push_back({a, a + 1, b});
+      w.triangles.push_back({b, a + 1, b + 1});
+    }
+  return w;
+}
+std::string as_pbrt(const Waves& w) {
+  std::string points, numbers;
+  for (const auto& p : w.points) points += fmt::format("{} {} {:.3f} ", p[0], p[1], p[2]);
+  for (const auto& t : w.triangles) numbers += fmt::format("{} {} {} ", t[0], t[1], t[2]);
+  return fmt::format("Shape \"trianglemesh\" \"point3 P\" [{}] \"integer indices\" [{}]\n", points, numbers);
+}
+
 TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForInstances) {
   ASSERT_TRUE(write_picture("small.png", 64, true));
   std::string scene = with_picture("small.png");
-  for (int object = 0; object < 4; ++object) {
-    std::string points, indices;
-    constexpr int side = 200;
-    for (int y = 0; y <= side; ++y)
-      for (int x = 0; x <= side; ++x)
-        points += fmt::format("{} {} {:.3f} ", x, y, std::sin(x * 0.3 + object) * std::cos(y * 0.2));
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) {
-        const int a = y * (side + 1) + x, b = a + side + 1;
-        indices += fmt::format("{} {} {} {} {} {} ", a, a + 1, b, b, a + 1, b + 1);
-      }
-    scene += fmt::format(
-        "ObjectBegin \"{}\"\nShape \"trianglemesh\" \"point3 P\" [{}] \"integer indices\" [{}]\nObjectEnd\n",
-        object, points, indices);
-  }
+  for (int object = 0; object < 4; ++object)
+    scene += fmt::format("ObjectBegin \"{}\"\n{}ObjectEnd\n", object, as_pbrt(waves(200, object)));
   for (int i = 0; i < 2000; ++i)
     scene += fmt::format("AttributeBegin\nTranslate {} {} -9\nObjectInstance \"{}\"\nAttributeEnd\n", i % 50,
                          i / 50, i % 4);
   write("a.pbrt", scene);
   expect_right_budgets("a.pbrt", {48, 64, 96, 128, 160, 256});
+}
+
+TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForMeshes) {
+  const Waves w = waves(220);
+  write("a.pbrt", std::string(head) + as_pbrt(w));
+  expect_right_budgets("a.pbrt", {24, 64});
+  std::string obj;
+  for (const auto& p : w.points) obj += fmt::format("v {} {} {:.3f}\n", p[0], p[1], p[2]);
+  for (const auto& t : w.triangles) obj += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  write("a.obj", obj);
+  expect_right_budgets("a.obj", {24, 64});
+}
+
+TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForLamps) {
+  write("a.pbrt", std::string(head) + "AreaLightSource \"diffuse\"\n" + as_pbrt(waves(220)));
+  expect_right_budgets("a.pbrt", {28, 32, 64});
+  expect_right_budgets("a.pbrt", {20, 24, 64}, false);
+}
+
+TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForCurves) {
+  std::string scene = std::string(head) + "Material \"hair\"\n";
+  for (int i = 0; i < 30'000; ++i) {
+    const double x = i % 141 * 0.1, y = i / 141 * 0.1, z = std::sin(i * 0.7);
+    scene += fmt::format(
+        "Shape \"curve\" \"float width\" .004 \"point3 P\" [{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} .3 {:.3f} "
+        "{:.3f} .6 "
+        "{:.3f} {:.3f} 1]\n",
+        x, y, z, x + 0.1 * z, y, x, y + 0.2, x - 0.1 * z, y);
+  }
+  write("a.pbrt", scene);
+  expect_right_budgets("a.pbrt", {32, 96});
+}
+
+TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForVolumes) {
+  constexpr int side = 80;
+  std::string densities;
+  for (int i = 0; i < side * side * side; ++i) densities += fmt::format("{:.3f} ", std::sin(i * 0.7) + 1);
+  write("a.pbrt",
+        fmt::format(
+            "{0}MakeNamedMedium \"m\" \"string type\" \"uniformgrid\" \"integer nx\" {1} \"integer ny\" {1} "
+            "\"integer nz\" {1} \"float density\" [{2}]\nMediumInterface \"m\" \"\"\nMaterial "
+            "\"interface\"\nShape \"sphere\"\n",
+            head, side, densities));
+  expect_right_budgets("a.pbrt", {12, 16, 64}, false);
 }
 
 }  // namespace
