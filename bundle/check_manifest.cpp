@@ -316,6 +316,7 @@ void check_media(const Checker& c, const Manifest& m) {
       check_volume(k->sigma_t), check_volume(k->albedo);
     if (const auto* grid = std::get_if<Grid>(&medium.density)) check_grid(*grid);
     if (medium.emission_scale) check_grid(*medium.emission_scale, true);
+    if (medium.temperature) check_grid(*medium.temperature);
     c.require(medium.g > -1 && medium.g < 1, "g of a medium is not between -1 and 1");
     c.require(is_invertible(medium.medium_to_world), "the transform of a medium cannot be inverted");
   }

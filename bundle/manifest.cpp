@@ -132,7 +132,8 @@ bool has_newer_grids(const Medium& medium) {
   return ends_in_0(medium.density) || (sum && (ends_in_0(sum->sigma_a) || ends_in_0(sum->sigma_s))) ||
          (product && (ends_in_0(product->sigma_t) || ends_in_0(product->albedo))) ||
          (medium.emission_scale &&
-          (medium.emission_scale->edge == GridEdge::zero || medium.emission_scale->channels > 1));
+          (medium.emission_scale->edge == GridEdge::zero || medium.emission_scale->channels > 1)) ||
+         (medium.temperature && ends_in_0(VolumeParameter{*medium.temperature}));
 }
 
 }  // namespace
@@ -206,6 +207,8 @@ Features features_of(const Manifest& m) {
               m.materials, [](const Material& a) { return std::holds_alternative<GlazedMaterial>(a.model); }),
           required_feature::glazes);
   require(std::ranges::any_of(m.media, &Medium::veils), required_feature::veils);
+  require(std::ranges::any_of(m.media, [](const Medium& medium) { return medium.temperature.has_value(); }),
+          required_feature::temperatures);
   require(has_shadowless_materials(m) || !std::ranges::all_of(m.lights, &Light::casts_shadows),
           required_feature::shadowless);
   require(m.film.working_gamma != 1, required_feature::working_gamma);

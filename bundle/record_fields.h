@@ -270,16 +270,20 @@ void fields(auto& io, Unknown auto&) {
   if constexpr (reads<decltype(io)>) io.stream.fail("a medium is of a kind that bundles do not have");
   throw std::logic_error("a bundle does not take this medium");
 }
-// A byte says whether there is an emission_scale; its next bit only media of the feature `veils` have.
+// A byte says whether there is an emission_scale; its next bits only media of the features `veils` and
+// `temperatures` have.
 void fields(auto& io, Is<Medium> auto& m) {
   fields(io, m.coefficients), io(m.scale), fields(io, m.density), fields(io, m.emission);
-  auto byte = static_cast<std::uint8_t>(m.emission_scale.has_value() | m.veils << 1);
+  auto byte =
+      static_cast<std::uint8_t>(m.emission_scale.has_value() | m.veils << 1 | m.temperature.has_value() << 2);
   io(byte);
   if constexpr (reads<decltype(io)>) {
     m.veils = byte & 2;
     if (byte & 1) m.emission_scale.emplace();
+    if (byte & 4) m.temperature.emplace();
   }
   if (m.emission_scale) fields(io, *m.emission_scale);
+  if (m.temperature) fields(io, *m.temperature), io(m.temperature_scale), io(m.temperature_offset);
   io(m.g), fields(io, m.medium_to_world);
 }
 

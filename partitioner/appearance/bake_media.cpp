@@ -128,15 +128,14 @@ std::optional<Medium> bake_medium(const Medium& medium, RgbMethod method, std::v
   else if (std::holds_alternative<CloudDensity>(baked.density))
     whole = false, notes.push_back("a procedural cloud cannot be shown");
   if (!whole) return std::nullopt;
-  if (baked.temperature) {
-    notes.push_back("its glow by temperature is left out");
-    baked.temperature.reset();
-    baked.emission.reset();
+  if (baked.temperature) {  // as pbrt's film shows what no light normalises
+    baked.emission = ConstantSpectrum{static_cast<float>(cie_y_integral_nm)};
+    if (!bake_number(*baked.temperature, notes)) baked.emission.reset();
   }
   if (baked.emission)
     *baked.emission = scaled(resolved(*baked.emission, method), static_cast<double>(baked.emission_factor));
   if (baked.emission_scale && !bake_colors(*baked.emission_scale, method, notes)) baked.emission.reset();
-  if (!baked.emission) baked.emission_scale.reset();
+  if (!baked.emission) baked.emission_scale.reset(), baked.temperature.reset();
   baked.emission_factor = 1;
   return baked;
 }

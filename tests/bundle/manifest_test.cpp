@@ -418,6 +418,24 @@ TEST_F(ManifestFile, AGridWhoseCellsCannotBeCountedIsNone) {
   EXPECT_THROW(write_manifest(directory.path(), m), Error);
 }
 
+TEST_F(ManifestFile, Temperatures) {
+  Manifest m = sample_manifest();
+  EXPECT_EQ(features_of(m).required & required_feature::temperatures, 0u);
+  m.media[0].temperature = Grid{"", "", 2, 1, 1, 1, {900, 1000}};
+  m.media[0].temperature_scale = 2, m.media[0].temperature_offset = 100;
+  EXPECT_NE(features_of(m).required & required_feature::temperatures, 0u);
+  EXPECT_EQ(features_of(m).required & required_feature::media_grids, 0u);
+  EXPECT_EQ(written_and_read(m).media, m.media);
+  m.media[0].emission_scale = Grid{"", "", 1, 1, 2, 1, {3, 4}};
+  m.media[0].veils = true;
+  EXPECT_EQ(written_and_read(m).media, m.media);
+  m.media[0].temperature->edge = GridEdge::zero;
+  EXPECT_NE(features_of(m).required & required_feature::media_grids, 0u);
+  EXPECT_EQ(written_and_read(m).media, m.media);
+  m.media[0].temperature->nx = 3;
+  EXPECT_THROW(write_manifest(directory.path(), m), Error);
+}
+
 TEST_F(ManifestFile, MaterialsThatDoubleAreRefused) {
   Manifest m = sample_manifest();
   for (int i = 0; i < 40; ++i) {

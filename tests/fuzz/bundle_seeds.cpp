@@ -52,6 +52,11 @@ void add_bundles(const std::function<void(const std::string&)>& add) {
   };
   add_changed([](Manifest&) {});
   add_changed([](Manifest& m) { m.camera_medium = -1; });
+  add_changed([](Manifest& m) {
+    m.media[1].emission = ConstantSpectrum{1};
+    m.media[1].temperature = Grid{"", "", 2, 1, 1, 1, {900, 6000}};
+    m.media[1].temperature_scale = 2, m.media[1].temperature_offset = 100;
+  });
   for_each_kind<MaterialVariant>([&](const auto& kind) {
     add_changed([&](Manifest& m) {
       m.camera_medium = -1;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "scene/geometry/portable_math.h"
+#include "tracer/media/blackbody.h"
 #include "tracer/media/grid.h"
 
 namespace vitrail {
@@ -75,10 +76,16 @@ class Coefficients {
   }
 
   Values emission_scale(Point3d p) const {
-    if (m_.medium->emission_scale) return at_point(*m_.medium->emission_scale, lambda_nm_, p);
-    Values one;
-    one.fill(1);
-    return one;
+    const Medium& medium = *m_.medium;
+    Values scale;
+    scale.fill(1);
+    if (medium.emission_scale) scale = at_point(*medium.emission_scale, lambda_nm_, p);
+    if (!medium.temperature) return scale;
+    const double kelvin =
+        (look_up(*medium.temperature, p, 0) - static_cast<double>(medium.temperature_offset)) *
+        static_cast<double>(medium.temperature_scale);
+    for (std::size_t i = 0; i < hero_count; ++i) scale[i] *= blackbody_radiance(kelvin, lambda_nm_[i]);
+    return scale;
   }
 
   // k (ExtinctionRange) at each wavelength, and the greatest of them.
@@ -220,8 +227,9 @@ double least_majorant(const PreparedMedium& m, const SampledSpectrum& glow) {
   constexpr double least_collisions = 8;  // along the diagonal
   if (is_black(glow)) return 0;
   const Bounds3d& bounds = m.extinction.bounds;
-  const Bounds3d& box =
-      bounds.empty() && m.medium->emission_scale ? m.medium->emission_scale->bounds : bounds;
+  const std::optional<Grid>& glow_grid =
+      m.medium->emission_scale ? m.medium->emission_scale : m.medium->temperature;
+  const Bounds3d& box = bounds.empty() && glow_grid ? glow_grid->bounds : bounds;
   if (box.empty()) return 0;
   return least_collisions / length(transform_vector(m.medium->medium_to_world, extent(box)));
 }
@@ -257,7 +265,7 @@ PreparedMedium prepare(const Medium& medium) {
   }
   if (const auto* k = std::get_if<ExtinctionAlbedo>(&medium.coefficients))
     m.homogeneous &= !varies(k->sigma_t) && !varies(k->albedo);
-  m.homogeneous &= !medium.emission_scale;
+  m.homogeneous &= !medium.emission_scale && !medium.temperature;
   if (!m.homogeneous) m.extinction = bound_extinction(medium, bounds);
   return m;
 }

@@ -124,7 +124,7 @@ void uniform_grid(const MediumMaker& m, Medium& medium) {
   if (m.has("temperature")) medium.temperature = grid(m, "temperature", 1);
   if (const Parameter* scale = m.parameters.find_numbers("Lescale"); scale && scale->numbers.size() > 1)
     medium.emission_scale = grid(m, "Lescale", 1);
-  else if (medium.emission)
+  else if (medium.emission || medium.temperature)
     medium.emission_scale = one_cell(m, m.number("Lescale", 1));
   else
     medium.emission_factor = m.number("Lescale", 1);

@@ -181,6 +181,11 @@ const char* nanovdb(Parameters& p, const Medium& m, const Grid& density) {
 // What pbrt takes where no factors of emission are given, but for its value.
 bool is_one_cell(const Grid& grid) { return grid.values.size() == 1 && grid.edge == GridEdge::zero; }
 
+bool is_default_scale(const Medium& m) {
+  return m.emission_scale && is_one_cell(*m.emission_scale) &&
+         m.emission_scale->values[0] * m.emission_factor == 1;
+}
+
 // Emission has a factor in each cell.
 void emission_grid(Parameters& p, const Medium& m, const Grid& cells) {
   if (!m.emission_scale && !m.emission) return;
@@ -204,7 +209,7 @@ const char* uniform_grid(Parameters& p, const Medium& m, const Grid& density) {
   if (m.temperature) {
     grid(p, "float temperature", *m.temperature, false);
     if (m.emission) p.dropped("its emission: pbrt takes none beside a temperature");
-    emission_grid(p, m, density);
+    if (!is_default_scale(m)) emission_grid(p, m, density);
   } else if (m.emission_scale && is_one_cell(*m.emission_scale) && density.values.size() > 1) {
     emission(p, m, m.emission_scale->values[0] * m.emission_factor);
   } else {

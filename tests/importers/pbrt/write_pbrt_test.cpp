@@ -235,6 +235,8 @@ TEST(WritePbrt, KindsOfMedia) {
         "\"homogeneous\" \"rgb Le\" [1 2 3] \"float Lescale\" 4",
         "\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 2] \"float temperature\" [900 1000] \"float "
         "temperaturescale\" 2",
+        "\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 2] \"float temperature\" [900 1000] \"float "
+        "Lescale\" [2 3]",
         "\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 2] \"rgb Le\" [1 2 3] \"float Lescale\" [.5 "
         ".7]",
         "\"rgbgrid\" \"integer nx\" 2 \"rgb sigma_a\" [1 2 3 4 5 6] \"rgb sigma_s\" [6 5 4 3 2 1] \"float "

@@ -9,6 +9,7 @@
 #include "importers/pbrt/read/pbrt.h"
 #include "scene/spectra/color.h"
 #include "scene/spectra/rgb_to_spectrum.h"
+#include "scene/spectra/spectrum.h"
 #include "tests/laws/light/flat_scenes.h"
 #include "tests/support/temporary_directory.h"
 
@@ -96,6 +97,55 @@ TEST(PbrtMedia, RgbGridEndsWithItsBounds) {
       cie_y_integral_nm * glow_of([](double z) { return z < 0.5 ? 1 - std::abs(2 * z - 0.5) : 0; },
                                   [](double z) { return z < 0.5 ? 1 - std::abs(2 * z - 0.5) : 0; }),
       0.01, "", 2e-3);
+}
+
+// The luminance of a blackbody whose greatest radiance is 1, by a film that nothing normalises.
+double luminance_at(double kelvin) {
+  return kelvin > 100 ? cie_y_integral_nm * luminance(Spectrum{blackbody(kelvin)}) : 0;
+}
+
+// Its radiance is that of a blackbody over its greatest, times Lescale, whose grid is one cell where none is
+// given. Temperatures are linear between cells.
+TEST(PbrtMedia, Temperature) {
+  const std::string two =
+      "\"uniformgrid\" \"integer nz\" 2 \"float density\" [1 1] \"rgb sigma_a\" [1 1 1] \"rgb sigma_s\" [0 0 "
+      "0] ";
+  expect_luminance(through_the_middle(two + "\"float temperature\" [6000 6000] \"float Lescale\" [1 1]"),
+                   glow_of(plateau, [](double z) { return plateau(z) * luminance_at(6000 * plateau(z)); }),
+                   0.02, "6000 K", 3e-3);
+  expect_luminance(through_the_middle(two + "\"float temperature\" [6000 6000]"),
+                   glow_of(plateau, [](double z) { return tent(z) * luminance_at(6000 * plateau(z)); }), 0.02,
+                   "no Lescale", 3e-3);
+  const auto moved = [](double z) { return tent(z) * luminance_at(2 * (2500 * plateau(z) - 300)); };
+  const Mean warm = through_the_middle(two +
+                                       "\"float temperature\" [2500 2500] \"float temperatureoffset\" 300 "
+                                       "\"float temperaturescale\" 2");
+  expect_luminance(warm, glow_of(plateau, moved), 0.02, "moved and stretched", 3e-3);
+  EXPECT_GT(warm.value.x, 1.1 * warm.value.z);
+  EXPECT_EQ(through_the_middle(two + "\"float temperature\" [100 100]").value.y, 0);
+}
+
+// A slab of one temperature, in the middle of cells that are alike: (1 − e^{−σ})·B(T). That is B(T) where it
+// is thick, and σ·B(T) where it is thin.
+TEST(PbrtMedia, ASlabOfOneTemperature) {
+  const auto slab = [](double sigma, double kelvin) {
+    return through_the_middle(fmt::format(
+        "\"uniformgrid\" \"integer nz\" 2 \"point3 p0\" [-9 -9 -9] \"point3 p1\" [10 10 10] \"rgb sigma_a\" "
+        "[{0} {0} {0}] \"rgb sigma_s\" [0 0 0] \"float density\" [1 1] \"float temperature\" [{1} {1}] "
+        "\"float "
+        "Lescale\" [1 1]",
+        sigma, kelvin));
+  };
+  for (const double kelvin : {1500.0, 6504.0})
+    for (const double sigma : {0.01, 1.0, 30.0}) {
+      const XYZ of_one = to_xyz(Spectrum{blackbody(kelvin)});
+      const double expected = -std::expm1(-sigma) * luminance_at(kelvin);
+      const std::string what = fmt::format("{} K, {}", kelvin, sigma);
+      const Mean mean = slab(sigma, kelvin);
+      expect_luminance(mean, expected, 0.02, what.c_str(), 3e-3);
+      EXPECT_NEAR(mean.value.x / mean.value.y, of_one.x / of_one.y, 0.02 * of_one.x / of_one.y) << what;
+      EXPECT_NEAR(mean.value.z / mean.value.y, of_one.z / of_one.y, 0.03 * of_one.z / of_one.y) << what;
+    }
 }
 
 }  // namespace
