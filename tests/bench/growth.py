@@ -68,6 +68,7 @@ def rows():
     yield Row("textures", s.textures, 100, "texture", (1.5, 2), TREE)
     yield Row("media", s.media, 3, "medium", (1.5, 2), TREE)
     yield Row("mixtures", s.coats, 4, "material", (1.5, 2), "choices on the way down")
+    yield Row("layers of materials", s.layers, 2, "layer", (1.5, 2), "choices on the way down")
     yield Row("layers of shapes", s.named_spheres, 250, "shape", (1.5, 2), TREE, kept=("--aov", "cryptomatte"), options=("--aov", "cryptomatte"))
     yield Row("groups of lights", s.points, 2, "light", options=("--light-groups",))
     yield Row("photons", s.room, 2000, "photon", options=("--integrator", "photon"), spp=(2, 4))

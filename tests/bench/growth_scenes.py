@@ -334,6 +334,16 @@ def coats(folder, count):
     return write(folder, [*body, f'NamedMaterial "{names[0]}"\nShape "trianglemesh" {WIDE}'])
 
 
+def layers(folder, count):
+    """`count` coats one on the other: each is a varnish that lets half of what is below be seen."""
+    body = ['MakeNamedMaterial "l0" "string type" "diffuse" "rgb reflectance" [.4 .4 .5]']
+    for k in range(1, count):
+        kind = ("coateddiffuse", "conductor", "diffuse")[k % 3]
+        body += [f'MakeNamedMaterial "c{k}" "string type" "{kind}" "rgb reflectance" [.{k % 8 + 1} .4 .5]',
+                 f'MakeNamedMaterial "l{k}" "string type" "mix" "string materials" ["l{k - 1}" "c{k}"] "float amount" .5']
+    return write(folder, [*body, f'NamedMaterial "l{count - 1}"\nShape "trianglemesh" {WIDE}'])
+
+
 def named_spheres(folder, count):
     """For layers that tell shapes apart."""
     return spheres(folder, count)
