@@ -48,8 +48,11 @@ CellNumbers numbers_of_cell(std::int64_t i, std::int64_t j, std::int64_t k, std:
 double lattice_noise(Point3d p, std::uint64_t which) { return chosen_noise(p, which); }
 Vector3d lattice_noises(Point3d p) { return chosen_noises(p); }
 
-double narrow_noise(Point3d p) { return std::clamp(0.5 + lattice_noise(p), 0.0, 1.0); }
-double wide_noise(Point3d p) { return std::clamp(0.5 + 2 * lattice_noise(p), 0.0, 1.0); }
+// Askew in its lattice POV-Ray's noise deviates by 0.126; along the lattice, as its normals were measured, by
+// 0.117.
+constexpr double askew = 1.076;
+double narrow_noise(Point3d p) { return std::clamp(0.5 + askew * lattice_noise(p), 0.0, 1.0); }
+double wide_noise(Point3d p) { return std::clamp(0.5 + 2 * askew * lattice_noise(p), 0.0, 1.0); }
 
 double scalar_turbulence(Point3d p, const Octaves& octaves) {
   double sum = 0;

@@ -18,17 +18,18 @@ using Wave = PatternTexture::Wave;
 
 double in_tile(double x, double size) { return size > 0 ? x - size * std::floor(x / size) : x; }
 
-// In the first tile, moved by turbulence. Of wood, only across its rings.
+// In the first tile, moved by turbulence. Of wood across its rings alone, by the sine of where it would be
+// times the amount, as povray's pictures show it.
 Point3d moved(const PatternTexture& t, Point3d p) {
   p = {in_tile(p.x, t.repeat.x), in_tile(p.y, t.repeat.y), in_tile(p.z, t.repeat.z)};
   const PatternTurbulence& turbulence = t.turbulence;
-  const bool by_itself = t.kind == Kind::marble || t.kind == Kind::agate;
-  if (by_itself || turbulence.amount == Vector3d{}) return p;
+  if (t.kind == Kind::marble || turbulence.amount == Vector3d{}) return p;
   const Vector3d way = vector_turbulence(
       p, {turbulence.octaves, static_cast<double>(turbulence.lambda), static_cast<double>(turbulence.omega)});
   const Vector3d& amount = turbulence.amount;
-  return {p.x + amount.x * way.x, p.y + amount.y * way.y,
-          t.kind == Kind::wood ? p.z : p.z + amount.z * way.z};
+  if (t.kind == Kind::wood)
+    return {p.x + sin_pi(2 * amount.x * (p.x + way.x)), p.y + sin_pi(2 * amount.y * (p.y + way.y)), p.z};
+  return {p.x + amount.x * way.x, p.y + amount.y * way.y, p.z + amount.z * way.z};
 }
 
 double shaped(const PatternTexture& t, double x) {

@@ -54,6 +54,12 @@ Octaves octaves_of(const PatternTurbulence& t) {
   return {t.octaves, static_cast<double>(t.lambda), static_cast<double>(t.omega)};
 }
 
+// What turbulence adds to the number of marble and of spirals.
+double turbulence_along_x(const PatternTexture& t, Point3d p) {
+  const double amount = t.turbulence.amount.x;
+  return amount == 0 ? 0 : amount * scalar_turbulence(p, octaves_of(t.turbulence));
+}
+
 double agate(const PatternTexture& t, Point3d p) {
   const double noise = static_cast<double>(t.agate_turb) * scalar_turbulence(p, octaves_of(t.turbulence));
   return portable_pow(0.5 * (1 + sine(1.3 * noise + 1.1 * p.z)), 0.77);
@@ -136,17 +142,15 @@ double number_of_pattern(const PatternTexture& t, Point3d p) {
       const double sum = (portable_sin(p.x) + portable_sin(p.y) + portable_sin(p.z)) / 3;
       return sum * sum;
     }
-    case Kind::marble: {
-      const double amount = t.turbulence.amount.x;
-      return amount == 0 ? p.x : p.x + amount * scalar_turbulence(p, octaves_of(t.turbulence));
-    }
+    case Kind::marble:
+      return p.x + turbulence_along_x(t, p);
     case Kind::onion:
       return rest(radius(p));
     case Kind::radial:
       return rest(0.75 + portable_atan2(p.x, p.z) / (2 * pi));
     case Kind::spiral1: {
       const double turn = portable_atan2(p.y, p.x) / (2 * pi) + 0.25;
-      return std::sqrt(p.x * p.x + p.y * p.y) + p.z + t.arms * turn;
+      return std::sqrt(p.x * p.x + p.y * p.y) + p.z + t.arms * turn + turbulence_along_x(t, p);
     }
     case Kind::wood:
       return std::sqrt(p.x * p.x + p.y * p.y);
@@ -166,10 +170,7 @@ double number_of_pattern(const PatternTexture& t, Point3d p) {
     case Kind::ripples:
       return rings(t, p, [](int) { return FrequencyAndWeight{1, 1}; });
     case Kind::waves:
-      return rings(t, p, [](int i) {
-        const double frequency = 0.1 * (i + 1);
-        return FrequencyAndWeight{frequency, 1 / std::sqrt(frequency)};
-      });
+      return rings(t, p, [](int i) { return FrequencyAndWeight{0.085 * (i + 1), 1 / std::sqrt(i + 1.0)}; });
     case Kind::wrinkles:
       return std::min(0.5 * scalar_turbulence(p, {10, 2, 0.5}), 1.0);
     case Kind::mandel:

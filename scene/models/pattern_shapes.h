@@ -13,7 +13,7 @@ std::size_t place_of_pattern(const PatternTexture& pattern, Point3d p);
 // Places of the kind: 2 or 3.
 std::size_t places_of(PatternTexture::Kind kind);
 
-// Of the other kinds. `p`: after turbulence, which marble and agate do by themselves.
+// Of the other kinds. `p`: after turbulence, which marble does by itself.
 double number_of_pattern(const PatternTexture& pattern, Point3d p);
 
 // The point of its first tile that stands for p, after turbulence (pattern.cpp).

@@ -161,6 +161,12 @@ box { -1, 1 texture { slope { y, .2, .8 altitude y, 0, 2 } texture_map { [0 pigm
 fog { fog_type 2 distance 5 fog_offset 1 fog_alt 2 up z turbulence .2 turb_depth .5 rgbft <.5,.5,.6,.3,.2> })pov");
   seeds.add(
       "povray",
+      R"pov(declare Q = 0; version 3.6; #default { pigment { square rgb 1 } finish { ambient 1 } } #declare L = array[1] {0};
+#declare U = union { sphere { 0, 1 } box { 0, 1 pigment { triangular pigment { rgb x } } } pigment { pavement number_of_sides 3 form 0 } }
+#while (Q < 3) #declare U = union { object { U finish { ambient .5 } } object { U translate -!+Q*x } } #declare L[0] = L; #declare Q = Q + 1; #end
+union { object { U } texture { checker texture { pigment { wood turbulence .3 warp { turbulence .2 } } } } } #if (Q ? 1 : 0 ? 2 : 3) #debug concat(concat("a", "b"), "c") #end)pov");
+  seeds.add(
+      "povray",
       R"pov(height_field { function 4, 4 { pattern { bozo } } } sky_sphere { pigment { gradient y color_map { [0 rgb 1] [1 rgb z] } } } background { rgb 1 })pov");
 }
 

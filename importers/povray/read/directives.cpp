@@ -67,6 +67,12 @@ void Reader::execute(const Token& directive) {
     case Word::statistics_:
       message_text();
       break;
+    case Word::max_trace_level_: {  // of version 1: a statement
+      Token statement = directive;
+      statement.kind = TokenKind::word;
+      put_back(statement);
+      break;
+    }
     case Word::fopen_:
       open_text_file(directive);
       break;

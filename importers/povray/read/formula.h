@@ -13,6 +13,10 @@ namespace vitrail::pov {
 // formula cannot hold it: images, solids that are triangles, what is very long.
 std::optional<PatternTexture> pattern_record(const Pattern& pattern);
 
+// Returns the pattern within a formula that has no turbulence, repetition and place yet: they are those of
+// the formula, before the pattern's own.
+PatternTexture carried(PatternTexture pattern);
+
 // Whether the Scene has a kind for it, and needs no formula.
 bool has_kind(const Pattern& pattern);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "importers/povray/read/formula.h"
 #include "importers/povray/read/pattern_kinds.h"
@@ -132,6 +133,24 @@ void FormulaMaker::square(Slot p) {
   keep_at(first);
 }
 
+// Of triangles of side 1 in −x and z. In the cell (i, j) of the lattice of (1, 0) and (½, √¾), with d = i − j
+// modulo 3, the one at the cell's corner has the place 2 + 2d modulo 6 and the one beyond it 5 − 2d.
+void FormulaMaker::triangular(Slot p) {
+  const Slot v = top_, u = v + 1, i = v + 2, j = v + 3, d = v + 4, is_beyond = v + 5, corner = v + 6;
+  pick(p + 2), op(Op::multiply, 2 / std::sqrt(3.0));
+  pick(v), op(Op::multiply, -0.5), pick(p), op(Op::subtract);
+  pick_and(u, Op::floor), pick_and(v, Op::floor);
+  pick(i), pick(j), op(Op::subtract), op(Op::multiply, 1.0 / 3);
+  pick(top_ - 1), op(Op::floor), op(Op::subtract), op(Op::multiply, 3);
+  constant(1), pick(u), pick(v), op(Op::add), pick(i), op(Op::subtract), pick(j), op(Op::subtract);
+  op(Op::less);
+  pick(d), op(Op::multiply, 2), op(Op::add, 2);
+  constant(1.5), pick(d), op(Op::less), op(Op::multiply, 6), op(Op::subtract);
+  constant(5), pick(d), op(Op::multiply, 2), op(Op::subtract), pick(corner), op(Op::subtract);
+  pick(is_beyond), op(Op::multiply), pick(corner), op(Op::add);
+  keep_at(v);
+}
+
 void FormulaMaker::fractal(const Pattern& pattern, Slot p) {
   pick(p), pick(p + 1);
   PatternFractal f = pattern.fractal;
@@ -159,6 +178,8 @@ void FormulaMaker::pattern(const Pattern& pattern, Slot p) {
       return cubic(p);
     case Word::square_:
       return square(p);
+    case Word::triangular_:
+      return triangular(p);
     case Word::mandel_:
     case Word::julia_:
     case Word::magnet_:
@@ -273,10 +294,20 @@ std::size_t places_of_list(Word kind) {
     case Word::square_:
       return 4;
     case Word::cubic_:
+    case Word::triangular_:
       return 6;
     default:
       return 0;
   }
+}
+
+PatternTexture carried(PatternTexture pattern) {
+  PatternTexture t;
+  t.kind = PatternTexture::Kind::formula;
+  t.texture_to_world = std::exchange(pattern.texture_to_world, Transform{});
+  pattern.map = {{0, Spectrum{ConstantSpectrum{0}}}, {1, Spectrum{ConstantSpectrum{1}}}};
+  FormulaMaker(t).carry(std::move(pattern));
+  return t;
 }
 
 bool has_kind(const Pattern& pattern) {

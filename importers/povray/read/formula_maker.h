@@ -28,6 +28,7 @@ class FormulaMaker {
   void pigment(const Pigment& pigment, std::uint8_t component, Slot point);
   void function(const Function& function, Slot arguments);
   void object(const Object& object, Slot point);  // 1 inside
+  void carry(PatternTexture part) { ask(std::move(part), 0); }
 
   void constant(double value) { emit(Op::constant, 0, value); }
   void pick(Slot slot) { emit(Op::pick, slot); }
@@ -52,6 +53,7 @@ class FormulaMaker {
   void spiral2(const Pattern& pattern, Slot point);
   void cubic(Slot point);
   void square(Slot point);
+  void triangular(Slot point);
   void fractal(const Pattern& pattern, Slot point);
   // Of entries of a map, by what `part` has at the three numbers from `number` on; `places`: of a list.
   void blend(PatternTexture part, const std::vector<BlendEntry>& entries, std::uint8_t component,

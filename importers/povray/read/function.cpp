@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "importers/povray/read/levels.h"
 #include "importers/povray/read/noise.h"
 #include "importers/povray/read/number_words.h"
 #include "importers/povray/read/pattern_field.h"
@@ -320,6 +321,7 @@ void say_notes(Reader& reader, const Function& function, const SourceLocation& p
 Shared<Function> declare_function(Reader& reader) {
   Notes others = std::exchange(reader.notes, {});
   const std::shared_ptr<Function> function = read_braces(reader);
+  settle(reader, *function);
   function->notes = std::exchange(reader.notes, std::move(others)).take();
   function->notable |= !function->notes.empty() ||
                        std::ranges::any_of(function->callees, [](const auto& f) { return f->notable; });
@@ -330,6 +332,7 @@ Shared<Function> read_function(Reader& reader) {
   const SourceLocation place = reader.location(reader.peek().place);
   const Shared<Function> function = declare_function(reader);
   say_notes(reader, *function, place);
+  reader.function_levels = std::max(reader.function_levels, function->levels);
   return function;
 }
 

@@ -52,6 +52,7 @@ struct Instruction {
 
 struct Function {
   static constexpr std::size_t most_operands = 64;  // on the stack
+  int levels = 1;
   std::vector<Symbol*> parameters;
   bool unnamed = false;  // x, y, z, as it gives none; u and v are then the first two
   std::vector<Instruction> code;

@@ -6,11 +6,17 @@ namespace vitrail::pov {
 
 namespace {
 
-void read_area(Reader& reader, LightShape& light) {
+// What takes a part of the light from where the file says it to before the transformations that stand in
+// front of it: as in povray, they move what was said by then.
+Transform before_what_stands(const Object& object) {
+  return is_invertible(object.to_parent) ? inverse(object.to_parent) : Transform{};
+}
+
+void read_area(Reader& reader, LightShape& light, const Transform& before) {
   light.area = true;
-  light.axis1 = reader.vector("an axis of an area_light");
+  light.axis1 = transform_vector(before, reader.vector("an axis of an area_light"));
   reader.comma();
-  light.axis2 = reader.vector("an axis of an area_light");
+  light.axis2 = transform_vector(before, reader.vector("an axis of an area_light"));
   reader.comma();
   light.count1 = std::max(1, reader.integer("a number of lights"));
   reader.comma();
@@ -29,7 +35,7 @@ bool read_light_part(Reader& reader, LightShape& light, Object& object, const To
       light.parallel = true;
       return true;
     case Word::point_at_:
-      light.point_at = reader.point("point_at");
+      light.point_at = transform_point(before_what_stands(object), reader.point("point_at"));
       return true;
     case Word::radius_:
       light.radius_deg = reader.number("radius");
@@ -41,7 +47,7 @@ bool read_light_part(Reader& reader, LightShape& light, Object& object, const To
       light.tightness = reader.number("tightness");
       return true;
     case Word::area_light_:
-      read_area(reader, light);
+      read_area(reader, light, before_what_stands(object));
       return true;
     case Word::circular_:
       light.circular = true;
@@ -75,8 +81,10 @@ bool read_light_part(Reader& reader, LightShape& light, Object& object, const To
       reader.expect('{', "behind looks_like");
       auto looks = std::make_shared<Object>(*read_object_in(reader));
       reader.expect('}', "at the end of looks_like");
-      looks->to_parent = translate(light.position - Point3d{}) * looks->to_parent;
-      if (looks->texture) looks->texture = moved(looks->texture, translate(light.position - Point3d{}));
+      const Transform placed = before_what_stands(object) *
+                               translate(transform_point(object.to_parent, light.position) - Point3d{});
+      looks->to_parent = placed * looks->to_parent;
+      if (looks->texture) looks->texture = moved(looks->texture, placed);
       looks->no_shadow = true;
       object.children.push_back(looks);
       return true;

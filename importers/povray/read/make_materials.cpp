@@ -260,7 +260,7 @@ Id<Material> Surfaces::clear_material(const Pigment& pigment, const Finish& fini
                                       const Interior* interior) {
   const Numbers color = pigment.color.value_or(Finish::grey(1));
   const double filter = std::max(color.v[3], 0.0), transmit = std::max(color.v[4], 0.0);
-  const double all = std::max(filter + transmit, 1e-6);
+  const double all = std::max(share_through(color), 1e-6);
   RGB through;
   const auto component = [&](std::size_t i) {
     return std::clamp((reader_.linear(color.v[i]) * filter + transmit) / all, 0.0, 1.0);

@@ -143,8 +143,8 @@ struct WeakenedLamps {
 
 WeakenedLamps weakened_lamps(const World& world) {
   WeakenedLamps lamps{false, true};
-  for (const auto& object : world.objects)
-    if (const auto* const light = std::get_if<LightShape>(&object->shape)) {
+  for (const Placed& placed : world.objects)
+    if (const auto* const light = std::get_if<LightShape>(&placed.object->shape)) {
       lamps.any = lamps.any || light->attenuated;
       lamps.all = lamps.all && light->attenuated && !light->parallel;
     }
@@ -298,7 +298,7 @@ bool keeps_out(const Object& object, Point3d p, bool hollow) {
 
 void SceneMaker::set_eye_medium() {
   scene_.camera_medium = atmosphere_;
-  const auto around_eye = [&](const auto& object) { return keeps_out(*object, eye(), false); };
+  const auto around_eye = [&](const Placed& placed) { return keeps_out(*placed.object, eye(), false); };
   if (atmosphere_ && std::ranges::any_of(world_.objects, around_eye)) scene_.camera_medium.reset();
   if (eye_medium_) scene_.camera_medium = eye_medium_;
 }

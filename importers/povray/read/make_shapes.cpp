@@ -86,8 +86,9 @@ SceneMaker::SceneMaker(Reader& reader, const World& world, MeshMemory& memory)
 Scene SceneMaker::make() {
   for (const std::string& file : reader_.files()) scene_.files.push_back(file);
   Bounds3d box;
-  for (const auto& object : world_.objects)
-    if (const Bounds3d one = extents_of(*object); !one.empty() && length(extent(one)) < 1e7) extend(box, one);
+  for (const Placed& placed : world_.objects)
+    if (const Bounds3d one = extents_of(*placed.object); !one.empty() && length(extent(one)) < 1e7)
+      extend(box, one);
   if (box.empty()) extend(box, Point3d{});  // planes alone
   extend(box, world_.camera ? Point3d{} + world_.camera->location : Point3d{});
   reach_ = 1000 * std::max(length(extent(box)), 1e-3);
@@ -95,7 +96,10 @@ Scene SceneMaker::make() {
   add_fog();
   add_atmosphere();
   const Target target{scene_.shapes, scene_.instances};
-  for (const auto& object : world_.objects) add(*object, {}, {reader_.defaults.texture, {}, nullptr}, target);
+  for (const Placed& placed : world_.objects) {
+    default_texture_ = placed.default_texture;
+    add(*placed.object, {}, {default_texture_, {}, nullptr}, target);
+  }
   hide_lamps();
   add_lamps();
   add_surroundings();
@@ -128,7 +132,7 @@ void SceneMaker::add(const Object& object, const Transform& parent_to_world, Loo
     if (&target.shapes != &scene_.shapes) return;
     add_light(object, *light, to_world);
     for (const auto& child : object.children) {
-      Look lamp{reader_.defaults.texture, {}, nullptr};
+      Look lamp{default_texture_, {}, nullptr};
       lamp.no_shadow = lamp.of_lamp = true;
       add(*child, to_world, lamp, target);
     }
@@ -162,10 +166,12 @@ void SceneMaker::add(const Object& object, const Transform& parent_to_world, Loo
 
 void SceneMaker::add_group(const Object& object, const Transform& to_world, const Look& look, Target target) {
   for (const auto& child : object.children) {
-    const bool plain = !look.texture || pov::is_plain(*look.texture);
-    if (child->declared && std::holds_alternative<GroupShape>(child->shape) && plain && is_plain(*child) &&
-        (!object.texture && !look.interior && !look.no_shadow))
-      if (const auto prototype = prototype_of(child)) {
+    const auto plain = [](const Shared<pov::Texture>& texture) {
+      return !texture || pov::is_plain(*texture);
+    };
+    if (child->declared && std::holds_alternative<GroupShape>(child->shape) && is_plain(*child) &&
+        plain(look.texture) && plain(look.interior_texture) && !look.interior && !look.of_lamp)
+      if (const auto prototype = prototype_of(child, look)) {
         target.instances.push_back({*prototype, to_world, origin(object.place)});
         continue;
       }
@@ -185,17 +191,19 @@ bool SceneMaker::is_plain(const Object& object) {
   return plain_[&object] = plain;
 }
 
-std::optional<Id<Prototype>> SceneMaker::prototype_of(const Shared<Object>& object) {
-  if (const auto known = prototypes_.find(object.get()); known != prototypes_.end()) return known->second;
+std::optional<Id<Prototype>> SceneMaker::prototype_of(const Shared<Object>& object, const Look& look) {
+  const Worn key{object.get(),  look.texture.get(), look.interior_texture.get(), look.by_uv, look.no_shadow,
+                 look.no_image, look.hollow,        look.double_illuminate};
+  if (const auto known = prototypes_.find(key); known != prototypes_.end()) return known->second;
   Prototype prototype;
   prototype.origin = origin(object->place);
-  add(*object, {}, {reader_.defaults.texture, {}, nullptr}, {prototype.shapes, prototype.instances});
+  add(*object, {}, look, {prototype.shapes, prototype.instances});
   std::optional<Id<Prototype>> made;
   if (!prototype.shapes.empty() || !prototype.instances.empty()) {
     scene_.prototypes.push_back(std::move(prototype));
     made = Id<Prototype>{static_cast<std::uint32_t>(scene_.prototypes.size() - 1)};
   }
-  return prototypes_[object.get()] = made;
+  return prototypes_[key] = made;
 }
 
 // A disc around the point below the camera: of what it leaves out at the horizon, a pixel is more.

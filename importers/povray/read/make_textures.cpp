@@ -105,8 +105,15 @@ Id<vitrail::Texture> Surfaces::add(TextureModel model, bool is_float, const Plac
   return append(scene_.textures, std::move(texture));
 }
 
+double Surfaces::share_through(const Numbers& color) const {
+  double filter = std::max(color.v[3], 0.0);
+  if (reader_.version < 3.7)
+    filter *= std::clamp(reader_.linear(std::max({color.v[0], color.v[1], color.v[2]})), 0.0, 1.0);
+  return filter + std::max(color.v[4], 0.0);
+}
+
 float Surfaces::opacity_of(const Numbers& color) const {
-  return static_cast<float>(std::clamp(1 - color.v[3] - color.v[4], 0.0, 1.0));
+  return static_cast<float>(std::clamp(1 - share_through(color), 0.0, 1.0));
 }
 
 Spectrum Surfaces::spectrum_of(const Numbers& color, Part part, double factor) const {
@@ -190,6 +197,8 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
     note_modifiers(pattern, pigment.place);
     return color_texture(*both, to_world * both->to_object, part, factor, by_uv);
   }
+  if (by_uv || pattern.uv_mapping)
+    dropped("uv_mapping of a pattern that is no image: it lies by position", pigment.place);
   auto made = pattern_texture(pattern, to_world, pigment.place);
   if (!made && pattern.kind == Word::function_)
     return spectrum_of(PatternField(reader_, pigment).mean(), part, factor);
@@ -297,7 +306,9 @@ std::optional<PatternTexture> Surfaces::pattern_texture(const Pattern& pattern, 
   for (const Warp& warp : pattern.warps) {
     if (warp.kind == Warp::Kind::transform) {
       t.texture_to_world = t.texture_to_world * warp.transform;
-    } else if (warp.kind == Warp::Kind::turbulence && t.turbulence.amount == Vector3d{0, 0, 0}) {
+    } else if (warp.kind == Warp::Kind::turbulence) {
+      const bool has_own = t.turbulence.amount != Vector3d{};
+      if (has_own || is_turbulent_by_itself(t.kind)) t = carried(std::move(t));
       t.turbulence = {warp.amount, std::clamp(warp.octaves, 1, 10), static_cast<float>(warp.lambda),
                       static_cast<float>(warp.omega)};
     } else if (warp.kind == Warp::Kind::repeat && t.repeat == Vector3d{0, 0, 0}) {

@@ -81,7 +81,7 @@ std::optional<Numbers> Reader::constant_of(Word word) {
       return n;
     }
     case Word::version_:
-      return Numbers(version > 0 ? version : 3.62);
+      return Numbers(version > 0 ? version : 3.7);
     case Word::image_width_:
       return Numbers(image_width);
     case Word::image_height_:

@@ -75,6 +75,7 @@ struct LightShape {
 };
 
 struct Object {
+  int levels = 1;
   Place place;
   std::variant<SphereShape, BoxShape, PlaneShape, ConeShape, DiscShape, MeshShape, SolidShape, GroupShape,
                LightShape>
@@ -87,6 +88,7 @@ struct Object {
   bool inverse = false, no_shadow = false, no_image = false, hollow = false, uv_mapping = false;
   bool no_reflection = false, no_radiosity = false, double_illuminate = false;
   bool declared = false;                             // an identifier stands for it
+  bool refers = false;                               // a copy of its only child, which is declared
   mutable std::optional<Bounds3d> box;               // of the shape, once it was asked for (extents.h)
   mutable std::shared_ptr<const TriangleTree> tree;  // of the shape, once trace() asked (shape_hits.h)
   Shared<Object> original;  // of a copy: what its shape was made as, so that both share it

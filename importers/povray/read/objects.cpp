@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "importers/povray/read/extents.h"
+#include "importers/povray/read/levels.h"
 #include "importers/povray/read/reader.h"
 
 namespace vitrail::pov {
@@ -98,9 +101,29 @@ void move(Object& object, const Transform& by) {
 
 Object copy_of(const Shared<Object>& object) {
   Object copy = *object;
-  copy.declared = false;
+  copy.declared = copy.refers = false;
   if (!copy.original) copy.original = object;
   return copy;
+}
+
+// What refers to a union becomes a copy of it before its texture or interior changes: they are the union's
+// own then.
+void make_own(Object& object, int& layers) {
+  if (!object.refers) return;
+  Object own = copy_of(object.children.front());
+  move(own, object.to_parent);
+  own.place = object.place;
+  own.clipped_by.insert(own.clipped_by.end(), object.clipped_by.begin(), object.clipped_by.end());
+  own.inverse ^= object.inverse, own.no_shadow |= object.no_shadow, own.no_image |= object.no_image;
+  own.hollow |= object.hollow, own.uv_mapping |= object.uv_mapping, own.no_reflection |= object.no_reflection;
+  own.no_radiosity |= object.no_radiosity, own.double_illuminate |= object.double_illuminate;
+  layers = own.texture ? 1 : 0;
+  object = std::move(own);
+}
+
+bool is_of_surface(Word word) {
+  return word == Word::texture_ || word == Word::pigment_ || word == Word::normal_ || word == Word::finish_ ||
+         word == Word::interior_texture_ || word == Word::interior_ || word == Word::material_;
 }
 
 void read_clips(Reader& reader, Object& object) {
@@ -142,6 +165,7 @@ bool read_object_modifier(Reader& reader, Object& object, int& layers) {
     reader.put_back(token);
     return false;
   }
+  if (is_of_surface(token.symbol->word)) make_own(object, layers);
   switch (token.symbol->word) {
     case Word::texture_:
       add_layer(object, read_texture_block(reader), layers);
@@ -230,6 +254,7 @@ bool read_object_modifier(Reader& reader, Object& object, int& layers) {
 }
 
 Shared<Object> read_object_in(Reader& reader) {
+  const int before = std::exchange(reader.function_levels, 0);
   auto object = std::make_shared<Object>();
   object->place = reader.peek().place;
   int layers = 0;
@@ -238,8 +263,7 @@ Shared<Object> read_object_in(Reader& reader) {
     if (const auto* group = std::get_if<GroupShape>(&(*named)->shape);
         group && (*named)->declared && (*named)->children.size() > 1 && group->kind == Word::union_) {
       object->children.push_back(*named);
-      object->texture = nullptr;
-      object->inverse = false;
+      object->refers = true;
     } else {
       *object = copy_of(*named);
       layers = object->texture ? 1 : 0;
@@ -253,6 +277,8 @@ Shared<Object> read_object_in(Reader& reader) {
   }
   while (read_object_modifier(reader, *object, layers)) {
   }
+  settle(reader, *object, reader.function_levels);
+  reader.function_levels = before;
   return object;
 }
 
@@ -269,6 +295,7 @@ Shared<Object> read_object(Reader& reader) {
     reader.expect('}', "at the end of an object");
     return object;
   }
+  const int before = std::exchange(reader.function_levels, 0);
   auto object = std::make_shared<Object>();
   object->place = token.place;
   int layers = 0;
@@ -311,6 +338,8 @@ Shared<Object> read_object(Reader& reader) {
   while (read_object_modifier(reader, *object, layers)) {
   }
   reader.expect('}', "at the end of an object");
+  settle(reader, *object, reader.function_levels);
+  reader.function_levels = before;
   return object;
 }
 

@@ -106,6 +106,11 @@ PatternTexture record_of(const Pattern& pattern) {
   return t;
 }
 
+bool is_turbulent_by_itself(PatternTexture::Kind kind) {
+  using Kind = PatternTexture::Kind;
+  return kind == Kind::marble || kind == Kind::wood || kind == Kind::spiral1;
+}
+
 bool is_of_noise(const PatternTexture& t) {
   const auto is_step_of_noise = [](const PatternStep& step) {
     using Op = PatternStep::Op;
@@ -127,7 +132,14 @@ std::vector<BlendEntry> default_entries(Word pattern) {
   };
   switch (pattern) {
     case Word::checker_:
+    case Word::object_:
       return {entry(0, 0, 0, 1), entry(0, 0, 1, 0)};
+    case Word::square_:
+      return {entry(0, 1, 0, 0), entry(0, 0, 1, 0), entry(0, 0, 0, 1), entry(0, 1, 1, 0)};
+    case Word::cubic_:
+    case Word::triangular_:
+      return {entry(0, 1, 0, 0), entry(0, 0, 1, 0), entry(0, 0, 0, 1),
+              entry(0, 1, 1, 0), entry(0, 0, 1, 1), entry(0, 1, 0, 1)};
     case Word::brick_:
       return {entry(0, 0.5, 0.5, 0.5), entry(0, 0.6, 0.15, 0.15)};
     case Word::hexagon_:

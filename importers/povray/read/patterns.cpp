@@ -4,10 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
+#include "importers/povray/read/formula.h"
 #include "importers/povray/read/function.h"
+#include "importers/povray/read/levels.h"
 #include "importers/povray/read/objects.h"
+#include "importers/povray/read/pattern_kinds.h"
 #include "importers/povray/read/pattern_parts.h"
 #include "importers/povray/read/pattern_warps.h"
 #include "importers/povray/read/reader.h"
@@ -83,8 +87,26 @@ Word map_kind(Word word) {
 
 namespace {
 
-// Up to three colours, pigments, normals or textures behind checker, brick, hexagon …
-void read_list(Reader& reader, Shared<BlendMap>& map) {
+// What stands where a list ends before its pattern has all it shows, as povray 3.7 shows it: colours of the
+// pattern's own, else what #default says.
+BlendEntry missing_entry(const Reader& reader, Word pattern, Word kind, std::size_t index) {
+  BlendEntry entry;
+  const Shared<Texture>& texture = reader.defaults.texture;
+  if (kind == Word::color_map_)
+    entry = default_entries(pattern).at(index);
+  else if (kind == Word::texture_map_)
+    entry.texture = texture ? texture : std::make_shared<Texture>();
+  else if (kind == Word::normal_map_)
+    entry.bump = texture && texture->normal ? texture->normal : std::make_shared<Bump>();
+  else if (texture && texture->pigment)
+    entry.pigment = texture->pigment;
+  else
+    entry.color = Finish::grey(0);
+  return entry;
+}
+
+// The colours, pigments, normals or textures behind checker, brick, hexagon …; none: those of the pattern.
+void read_list(Reader& reader, Word pattern, Shared<BlendMap>& map) {
   BlendMap list;
   for (;;) {
     reader.comma();
@@ -110,7 +132,14 @@ void read_list(Reader& reader, Shared<BlendMap>& map) {
     entry.at = static_cast<double>(list.entries.size());
     list.entries.push_back(std::move(entry));
   }
-  if (!list.entries.empty()) map = std::make_shared<BlendMap>(std::move(list));
+  map.reset();
+  if (list.entries.empty()) return;
+  for (std::size_t i = list.entries.size(); i < places_of_list(pattern); ++i) {
+    list.entries.push_back(missing_entry(reader, pattern, list.kind, i));
+    list.entries.back().at = static_cast<double>(i);
+  }
+  settle(reader, list);
+  map = std::make_shared<BlendMap>(std::move(list));
 }
 
 // An object, and how it is moved; what else follows it is of the list.
@@ -120,7 +149,16 @@ Shared<Object> read_solid(Reader& reader) {
   solid->children.push_back(read_object(reader));
   while (read_transform(reader, solid->to_parent)) {
   }
+  settle(reader, *solid);
   return solid;
+}
+
+// "number_of_sides 3 number_of_tiles 4 pattern 1 exterior 0 interior 0 form 0", in any order.
+void read_pavement(Reader& reader) {
+  constexpr std::array parts{Word::number_of_sides_, Word::number_of_tiles_, Word::pattern_,
+                             Word::exterior_,        Word::interior_,        Word::form_};
+  while (std::ranges::any_of(parts, [&](Word part) { return reader.accept(part); }))
+    reader.integer("a part of pavement");
 }
 
 void read_numbers_of(Reader& reader, Word word, Pattern& pattern) {
@@ -128,7 +166,8 @@ void read_numbers_of(Reader& reader, Word word, Pattern& pattern) {
   if (word == Word::spiral1_ || word == Word::spiral2_) pattern.arms = reader.integer("the number of arms");
   if (word == Word::mandel_ || word == Word::magnet_ || word == Word::julia_)
     read_fractal(reader, word, pattern);
-  if ((word == Word::pavement_ || word == Word::tiling_) && reader.number_follows()) reader.numbers();
+  if (word == Word::tiling_ && reader.number_follows()) reader.numbers();
+  if (word == Word::pavement_) read_pavement(reader);
   if (word == Word::facets_ && reader.accept(Word::coords_)) reader.numbers();
   if (word == Word::facets_ && reader.accept(Word::size_)) reader.numbers();
 }
@@ -144,7 +183,7 @@ void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>&
     case Word::cubic_:
     case Word::square_:
     case Word::triangular_:
-      read_list(reader, map);
+      read_list(reader, word, map);
       break;
     case Word::function_:
       pattern.function = read_function(reader);
@@ -155,7 +194,7 @@ void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>&
     case Word::object_:
       reader.expect('{', "behind object");
       pattern.object = read_solid(reader);
-      read_list(reader, map);
+      read_list(reader, word, map);
       reader.expect('}', "at the end of an object");
       break;
     case Word::pigment_pattern_:

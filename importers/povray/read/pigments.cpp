@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "importers/povray/read/function.h"
+#include "importers/povray/read/levels.h"
 #include "importers/povray/read/patterns.h"
 #include "importers/povray/read/reader.h"
 
@@ -92,6 +93,7 @@ Shared<BlendMap> read_map_block(Reader& reader, Word kind) {
     reader.comma();
   }
   reader.expect('}', "at the end of a map");
+  settle(reader, map);
   return std::make_shared<BlendMap>(std::move(map));
 }
 
@@ -165,6 +167,7 @@ Shared<Pigment> read_pigment_block(Reader& reader, Shared<Pigment> from) {
     reader.unexpected(reader.next(), "a part of pigment");
   }
   reader.next();
+  settle(reader, pigment);
   return std::make_shared<Pigment>(std::move(pigment));
 }
 
@@ -220,6 +223,7 @@ Shared<Bump> read_normal_block(Reader& reader) {
     reader.unexpected(reader.next(), "a part of normal");
   }
   reader.next();
+  settle(reader, bump);
   return std::make_shared<Bump>(std::move(bump));
 }
 

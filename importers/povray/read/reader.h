@@ -3,6 +3,7 @@
 // the expressions above them. What reads objects and textures takes a Reader.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <map>
@@ -79,6 +80,9 @@ class Reader {
   [[noreturn]] void fail(const std::string& message, const Place& place);
   // Of objects, textures and brackets within each other.
   [[noreturn]] void too_deep(const Place& place);
+  // Of things that are declared of each other (levels.h).
+  [[noreturn]] void too_many_levels(int most);
+  int function_levels = 0;  // the most of a function that was read for the object that is
   [[noreturn]] void unexpected(const Token& token, const std::string& wanted);
   SourceLocation location(const Place& place) const;
   // Of the token that was read last.
@@ -127,7 +131,9 @@ class Reader {
   Defaults defaults;
   void set_defaults();  // by the block of #default
   Notes notes;
-  double version = 0;                   // 0: the file does not say
+  // 0: the file does not say. POV-Ray then computes as before 3.7, but the word `version` gives 3.7: what an
+  // include saves by it and restores at its end counts as said.
+  double version = 0;
   std::optional<double> assumed_gamma;  // srgb_gamma: sRGB's curve
   bool for_export = false;              // ImportOptions::for_export
   int image_width = 640, image_height = 480;
@@ -182,6 +188,7 @@ class Reader {
   };
 
   // Sources (sources.cpp).
+  void guard_stack();
   Token raw();
   bool end_frame();
   void open_file(const std::filesystem::path& path, const std::string& name, const Place& place);
@@ -266,6 +273,7 @@ class Reader {
   std::optional<Numbers> first_;  // an operand that has been read already
   std::uint64_t tokens_ = 0, written_ = 0;
   int depth_ = 0;
+  const std::uintptr_t stack_begin_, stack_bytes_;
   std::vector<std::uint32_t> random_;  // states of rand()'s streams
   std::map<std::string, std::string> written_files_;
 };

@@ -58,6 +58,12 @@ void Reader::too_deep(const Place& place) {
        place);
 }
 
+void Reader::too_many_levels(int most) {
+  fail(fmt::format("too deep: more than {} objects, textures, functions or arrays are declared of each other",
+                   most),
+       last_);
+}
+
 void Reader::unexpected(const Token& token, const std::string& wanted) {
   if (token.kind == TokenKind::word && token.symbol->word == Word::none && token.symbol->bindings.empty())
     fail(fmt::format("{} is not declared{}", describe(token),

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "importers/povray/read/area_lamp.h"
 #include "importers/povray/read/surfaces.h"
@@ -51,7 +52,9 @@ class SceneMaker {
   Surface without_shadow(Surface surface, bool of_lamp, const Object& object);
   Id<TriangleMesh> add_mesh(TriangleMesh mesh);
   Id<TriangleMesh> quadric_mesh(const Quadric& quadric);
-  std::optional<Id<Prototype>> prototype_of(const Shared<Object>& object);
+  // An object that many may refer to, as it is within something of this look, which is the same wherever it
+  // is.
+  std::optional<Id<Prototype>> prototype_of(const Shared<Object>& object, const Look& look);
   bool is_plain(const Object& object);
   // Quadrics and meshes (make_pieces.cpp).
   std::vector<Piece> pieces_of(const Object& object);
@@ -107,10 +110,14 @@ class SceneMaker {
   Scene scene_;
   Surfaces surfaces_;
   std::map<const Object*, std::vector<Piece>> pieces_;
-  std::map<const Object*, std::optional<Id<Prototype>>> prototypes_;
+  // An object, and of a look all that shapes take from it: texture, interior_texture, by_uv, no_shadow,
+  // no_image, hollow, double_illuminate.
+  using Worn =
+      std::tuple<const Object*, const pov::Texture*, const pov::Texture*, bool, bool, bool, bool, bool>;
+  std::map<Worn, std::optional<Id<Prototype>>> prototypes_;
+  Shared<pov::Texture> default_texture_;  // of the object that is added
   std::map<const Object*, bool> plain_;
   std::vector<std::pair<Quadric, Id<TriangleMesh>>> quadrics_;
-  std::vector<Shared<Object>> kept_;  // what the maps' keys point to
   std::optional<Id<Material>> clear_sheet_;
   std::map<std::uint32_t, Id<Material>> shadowless_;
   std::vector<AreaLamp> lamps_;

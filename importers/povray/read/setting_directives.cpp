@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "importers/povray/read/levels.h"
 #include "importers/povray/read/numbers_text.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/text_file.h"
@@ -53,7 +54,9 @@ void Reader::declare(bool local) {
     const auto* const held = std::get_if<std::shared_ptr<Array>>(name->value());
     if (!held) fail(fmt::format("{} is {}, not an array", name->name, kind_of(*name->value())), place);
     std::shared_ptr<Array> array = *held;
+    std::vector<std::shared_ptr<Array>> within;  // those that the indices lead through
     for (;;) {
+      within.push_back(array);
       std::size_t at = 0;
       put_back_.push_back([&] {
         Token t;
@@ -72,7 +75,11 @@ void Reader::declare(bool local) {
       if (!this->at('[')) {
         expect('=', "behind the name that is declared");
         Value value = owned(read_value(*this));
+        int levels = levels_of(value);
         array->elements.at(at) = std::move(value);
+        for (auto around = within.rbegin(); around != within.rend(); ++around)
+          levels = (*around)->levels = std::max((*around)->levels, levels + 1);
+        if (levels > most_levels) too_many_levels(most_levels);
         break;
       }
       const auto* const inner = std::get_if<std::shared_ptr<Array>>(&array->elements.at(at));
@@ -84,7 +91,8 @@ void Reader::declare(bool local) {
   } else {
     expect('=', "behind the name that is declared");
     Value value = owned(read_value(*this));
-    if (!target && scope <= symbols_.depth()) target = symbols_.variable(name, local ? scope : 0);
+    // A file or macro may have ended behind the value: what was local to it is gone then.
+    if (!target && (!local || scope <= symbols_.depth())) target = symbols_.variable(name, local ? scope : 0);
     if (target) *target = std::move(value);
   }
   declaring_ = false;

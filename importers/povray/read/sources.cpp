@@ -1,11 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where tokens come from: files, and what macros and loops have stored.
 #include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
 
 #include "importers/povray/read/reader.h"
 #include "scene/records/nesting_limits.h"
 
 namespace vitrail::pov {
+
+namespace {
+
+// About where the stack is.
+std::uintptr_t stack_address() { return reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)); }
+
+// Half of a thread's stack: what is left is for whoever reads and for messages.
+std::uintptr_t usable_stack_bytes() {
+  constexpr rlim_t most = rlim_t{64} << 20;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return most / 8;
+  return std::min(limit.rlim_cur, most) / 2;
+}
+
+}  // namespace
 
 Reader::Source::Source(const std::filesystem::path& path, Symbols& symbols, std::deque<std::string>& texts,
                        std::uint16_t file)
@@ -16,7 +34,11 @@ Reader::Source::Source(std::string text, Symbols& symbols, std::deque<std::strin
       lexer(symbols, texts, content.data(), content.data() + content.size(), file) {}
 
 Reader::Reader(const std::filesystem::path& file, const Search& search, const Limits& limits)
-    : search_(search), limits_(limits), included_(limits.include_bytes) {
+    : search_(search),
+      limits_(limits),
+      included_(limits.include_bytes),
+      stack_begin_(stack_address()),
+      stack_bytes_(usable_stack_bytes()) {
   files_.push_back(file.string());
   frames_.reserve(64);
   open_file(file, file.string(), {});
@@ -122,7 +144,19 @@ bool Reader::end_frame() {
   return false;
 }
 
+// Whatever reads calls this at each of its levels, however they are mixed: none can go round it.
+void Reader::guard_stack() {
+  const std::uintptr_t here = stack_address();
+  const std::uintptr_t used = here < stack_begin_ ? stack_begin_ - here : here - stack_begin_;
+  if (used > stack_bytes_)
+    fail(
+        "too deep: directives, expressions and blocks lie within each other beyond the stack of the program; "
+        "`ulimit -s` raises that",
+        last_);
+}
+
 Token Reader::next() {
+  guard_stack();
   for (;;) {
     Token token;
     if (put_back_.empty()) {

@@ -25,6 +25,7 @@ struct BlendEntry {
   Shared<Bump> bump;
 };
 struct BlendMap {
+  int levels = 1;
   Word kind =
       Word::color_map_;  // color_map_, pigment_map_, texture_map_, normal_map_, slope_map_, density_map_
   std::vector<BlendEntry> entries;
@@ -99,6 +100,7 @@ struct Pattern {
 };
 
 struct Pigment {
+  int levels = 1;
   Place place;
   std::optional<Numbers> color;  // of one colour
   Pattern pattern;
@@ -108,6 +110,7 @@ struct Pigment {
 };
 
 struct Bump {
+  int levels = 1;
   Place place;
   Pattern pattern;
   double size = 0.5;
@@ -136,6 +139,7 @@ struct Finish {
 };
 
 struct Texture {
+  int levels = 1;
   Place place;
   Shared<Pigment> pigment;
   Shared<Bump> normal;

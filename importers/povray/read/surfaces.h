@@ -126,6 +126,9 @@ class Surfaces {
                                 const Place& place, bool second_of_list, std::size_t index);
 
   Spectrum spectrum_of(const Numbers& color, Part part, double factor) const;
+  // Returns by how much less a colour shows of itself for what it lets through: filter + transmit, and before
+  // version 3.7 filter·max(r, g, b) + transmit, as povray's pixels say.
+  double share_through(const Numbers& color) const;
   float opacity_of(const Numbers& color) const;
   template <class T>
   auto append(std::vector<T>& records, T record) {

@@ -2,6 +2,8 @@
 // texture {}, material {}, finish {}, interior {}.
 #include <algorithm>
 
+#include "importers/povray/read/formula.h"
+#include "importers/povray/read/levels.h"
 #include "importers/povray/read/patterns.h"
 #include "importers/povray/read/reader.h"
 
@@ -206,6 +208,7 @@ Shared<Texture> read_texture_block(Reader& reader) {
           }
         }
         pattern.kind = Word::checker_;
+        settle(reader, tiles);
         map = std::make_shared<BlendMap>(std::move(tiles));
         continue;
       }
@@ -245,7 +248,8 @@ Shared<Texture> read_texture_block(Reader& reader) {
     reader.unexpected(reader.next(), "a part of texture");
   }
   reader.next();
-  if (pattern.kind != Word::none) {
+  const bool is_default_alone = !map && places_of_list(pattern.kind) > 0;
+  if (pattern.kind != Word::none && !is_default_alone) {
     pattern.uv_mapping = uv;
     texture.pattern = pattern;
     texture.map = map;
@@ -254,6 +258,7 @@ Shared<Texture> read_texture_block(Reader& reader) {
     pigment->pattern.uv_mapping = true;
     texture.pigment = pigment;
   }
+  settle(reader, texture);
   return std::make_shared<Texture>(std::move(texture));
 }
 

@@ -77,6 +77,7 @@ const char* kind_of(const Value& value);
 struct Array {
   std::vector<std::size_t> sizes;
   std::vector<Value> elements;
+  int levels = 1;  // of this and the following things: how many lie within each other (levels.h)
 };
 
 }  // namespace vitrail::pov

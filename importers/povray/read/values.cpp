@@ -4,6 +4,7 @@
 
 #include "importers/povray/read/fog.h"
 #include "importers/povray/read/function.h"
+#include "importers/povray/read/levels.h"
 #include "importers/povray/read/objects.h"
 #include "importers/povray/read/patterns.h"
 #include "importers/povray/read/reader.h"
@@ -56,6 +57,7 @@ Value read_array(Reader& reader) {
     read_elements(reader, *array, 0, array->elements);
   else
     array->elements.resize(total);
+  settle(reader, *array);
   return array;
 }
 
@@ -104,6 +106,7 @@ Value read_textures(Reader& reader) {
     reader.next();
     add(read_texture_block(reader));
   }
+  settle(reader, *layered);
   return Shared<Texture>(layered);
 }
 

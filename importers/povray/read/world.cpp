@@ -66,7 +66,7 @@ void drop(Reader& reader, const Token& token) {
 // False: the file ends.
 bool read_statement(Reader& reader, World& world) {
   if (const auto named = reader.identifier<Shared<Object>>()) {
-    world.objects.push_back(*named);
+    world.objects.push_back({*named, reader.defaults.texture});
     return true;
   }
   const Token token = reader.peek();
@@ -78,7 +78,8 @@ bool read_statement(Reader& reader, World& world) {
   if (token.kind != TokenKind::word) reader.unexpected(token, "an object or a directive");
   const Word word = token.symbol->word;
   if (names_object(word)) {
-    world.objects.push_back(read_object(reader));
+    Shared<Object> object = read_object(reader);
+    world.objects.push_back({std::move(object), reader.defaults.texture});
     return true;
   }
   if (word == Word::none && reader.number_follows()) {  // a macro has left a value
@@ -111,9 +112,15 @@ bool read_statement(Reader& reader, World& world) {
     case Word::rainbow_:
       drop(reader, token);
       return true;
-    case Word::default_:  // without its #
-      reader.set_defaults();
+    case Word::declare_:  // without their #, which povray warns of between statements
+    case Word::default_:
+    case Word::include_:
+    case Word::version_: {
+      Token directive = token;
+      directive.kind = TokenKind::directive;
+      reader.put_back(directive);
       return true;
+    }
     case Word::max_trace_level_:  // of version 1
       world.max_trace_level = reader.integer("max_trace_level");
       return true;

@@ -13,8 +13,15 @@ namespace vitrail::pov {
 
 class Reader;
 
+// An object that stands in the scene, with what `#default` said when it was whole: povray looks no earlier,
+// not even where an identifier was declared, and no later.
+struct Placed {
+  Shared<Object> object;
+  Shared<Texture> default_texture;
+};
+
 struct World {
-  std::vector<Shared<Object>> objects;
+  std::vector<Placed> objects;
   Shared<CameraView> camera;
   Shared<SkySphere> sky;
   std::vector<Shared<Fog>> fogs;
