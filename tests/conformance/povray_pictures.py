@@ -53,14 +53,14 @@ def by_povray(scene, folder, options, extra, original=None):
     return Image.open(pictures[0])
 
 
-def by_vitrail(scene, folder, options, extra):
+def by_vitrail(scene, folder, options, extra, developing=()):
     film, target = folder / "vitrail.film", folder / "vitrail.png"
     done = run([options.bin / "vitrail", "render", scene, "-o", film, "--width", str(options.width), "--height",
                 str(options.height), "--missing", "replace", "--force", "--quiet", "--threads", "1", *extra],
                options.seconds)
     if done.returncode:
         raise Skipped((done.stderr.strip().splitlines() or ["render fails"])[0][:160])
-    run([options.bin / "vitrail", "develop", film, "-o", target], options.seconds)
+    run([options.bin / "vitrail", "develop", film, "-o", target, *developing], options.seconds)
     return Image.open(target)
 
 
