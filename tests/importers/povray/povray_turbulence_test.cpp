@@ -96,8 +96,7 @@ TEST_F(PovrayTurbulence, StatisticsOfPatterns) {
 
 TEST_F(PovrayTurbulence, WarpsAndOtherAmounts) {
   for (const char* pattern : {"agate", "wood", "marble", "spiral1 3"})
-    for (const char* modifiers : {"warp { turbulence .5 }", "turbulence 1", "turbulence <.5, 0, 0>"})
-      expect_alike(pattern, modifiers);
+    for (const char* modifiers : {"warp { turbulence .5 }", "turbulence 1"}) expect_alike(pattern, modifiers);
 }
 
 }  // namespace
