@@ -51,12 +51,30 @@ ImageRows rows_of(const ImageTexture& texture, const ImageLayout& layout, Textur
           }};
 }
 
+// The rows in three channels, each times its factor.
+ImageRows tinted(ImageRows rows, const Tint& tint) {
+  if (tint == no_tint) return rows;
+  const auto times_tint = [tint](const Image& values) {
+    Image product = black_image(values.width, values.height, 3);
+    const auto channels = static_cast<std::size_t>(values.channels);
+    for (std::size_t i = 0; i < values.pixels(); ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        product.values[3 * i + c] = tint[c] * values.values[channels * i + (channels < 3 ? 0 : c)];
+    return product;
+  };
+  rows.read = [read = std::move(rows.read), times_tint](const std::function<void(Image)>& visit) {
+    read([&](const Image& values) { visit(times_tint(values)); });
+  };
+  return rows;
+}
+
 // To be raised where equal images are baked to other texels than before.
 constexpr int baking_revision = 2;
 
 // Of a baked image: what is in the file, and all that is asked of it. Empty for small files, which are baked
 // as soon as they are looked for.
-std::string key_of(const ImageTexture& image, TextureUse use, bool all_levels, RgbMethod method) {
+std::string key_of(const ImageTexture& image, TextureUse use, const Tint& tint, bool all_levels,
+                   RgbMethod method) {
   constexpr std::uint64_t least_bytes = 1 << 15;
   if (file_part(image.filename)) return "";  // the content would be looked up in the file as a whole
   const std::filesystem::path file = image.filename;
@@ -68,6 +86,7 @@ std::string key_of(const ImageTexture& image, TextureUse use, bool all_levels, R
       "{} {} {} {} {} {} {} {} {} {} {}", baking_revision, texture_version, static_cast<int>(image.encoding),
       image.gamma, image.scale, image.invert, use == TextureUse::number ? static_cast<int>(image.number) : -1,
       static_cast<int>(image.primaries), static_cast<int>(use), all_levels, static_cast<int>(method)));
+  if (tint != no_tint) hash.add(fmt::format("tint {} {} {}", tint[0], tint[1], tint[2]));
   hash.add(file.extension().string());  // tells the kind of some files
   hash.add_content(file);
   return hash.hex() + ".tex";
@@ -89,25 +108,25 @@ bool keeps_integers_finite(const ImageTexture& image) {
 }  // namespace
 
 std::string TextureBaker::bake_image(const ImageTexture& image, TextureUse use, const SourceLocation& where) {
-  return bake_file(image, use, true, where);
+  return bake_file(image, use, no_tint, true, where);
 }
 
-std::string TextureBaker::bake_file(const ImageTexture& image, TextureUse use, bool all_levels,
-                                    const SourceLocation& where) {
+std::string TextureBaker::bake_file(const ImageTexture& image, TextureUse use, const Tint& tint,
+                                    bool all_levels, const SourceLocation& where) {
   const ImageNumber number = use == TextureUse::number ? image.number : ImageNumber{};
   const ImageKey key{image.filename, image.encoding,  image.gamma, image.scale, image.invert,
-                     number,         image.primaries, use,         all_levels};
+                     number,         image.primaries, use,         tint,        all_levels};
   if (const auto known = images_.find(key); known != images_.end()) return known->second;
   try {
-    return images_[key] = write_file(image, use, all_levels, where);
+    return images_[key] = write_file(image, use, tint, all_levels, where);
   } catch (const Error& error) {
     throw Error(fmt::format("texture {}: {}", image.filename, error.what()), where);
   }
 }
 
-std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, bool all_levels,
-                                     const SourceLocation& where) {
-  const std::string key = cache_.is_on() ? key_of(image, use, all_levels, scene_.settings.rgb) : "";
+std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, const Tint& tint,
+                                     bool all_levels, const SourceLocation& where) {
+  const std::string key = cache_.is_on() ? key_of(image, use, tint, all_levels, scene_.settings.rgb) : "";
   if (!key.empty()) {
     const std::string name = next_file();
     const auto kept = bundle_.empty() ? cache_.note(key) : cache_.take(key, bundle_ / name);
@@ -117,7 +136,7 @@ std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, 
       return name;
     }
   }
-  if (const auto rows = byte_rows(image.filename)) {
+  if (const auto rows = tint == no_tint ? byte_rows(image.filename) : std::nullopt) {
     const ImageTexture chosen =
         use == TextureUse::number && rows->channels % 2 == 0 ? without_choice(image) : image;
     if (const auto coded = coded_image(chosen, *rows, use, scene_.settings.rgb))
@@ -130,7 +149,8 @@ std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, 
   ImageFacts facts;
   facts.other_primaries =
       use != TextureUse::number && use != TextureUse::vector && ignores_primaries(image, layout);
-  ImageRows rows = rows_of(use == TextureUse::number ? without_choice(image) : image, layout, use);
+  ImageRows rows =
+      tinted(rows_of(use == TextureUse::number ? without_choice(image) : image, layout, use), tint);
   rows.read = [&, read = rows.read](const std::function<void(Image)>& visit) {
     facts.broken = 0;  // the last reading is of all rows
     read([&](Image values) {

@@ -19,13 +19,18 @@ namespace {
 
 RGB to_rgb(const std::array<float, 3>& c) { return {c[0], c[1], c[2]}; }
 
+// The linear sRGB colour that the spectrum was made of, if it was.
+const std::array<float, 3>* rgb_of(const Spectrum& spectrum) {
+  if (const auto* s = std::get_if<SigmoidSpectrum>(&spectrum)) return &s->rgb;
+  if (const auto* s = std::get_if<RgbUnboundedSpectrum>(&spectrum)) return &s->rgb;
+  if (const auto* s = std::get_if<RgbIlluminantSpectrum>(&spectrum)) return &s->rgb;
+  return nullptr;
+}
+
 // A colour within a texture means what the texture is used for, and what shines is under D65; other spectra
 // are what they are.
 Spectrum as_used(const Spectrum& spectrum, TextureUse use, RgbMethod method) {
-  const std::array<float, 3>* rgb = nullptr;
-  if (const auto* s = std::get_if<SigmoidSpectrum>(&spectrum)) rgb = &s->rgb;
-  if (const auto* s = std::get_if<RgbUnboundedSpectrum>(&spectrum)) rgb = &s->rgb;
-  if (const auto* s = std::get_if<RgbIlluminantSpectrum>(&spectrum)) rgb = &s->rgb;
+  const std::array<float, 3>* const rgb = rgb_of(spectrum);
   switch (use) {
     case TextureUse::number:
     case TextureUse::vector: {
@@ -132,9 +137,10 @@ struct TextureBaker::Clone {
   Id<Texture> id;
   TextureUse use;
 
-  SpectrumParameter operator()(const ImageTexture& image) const {
+  SpectrumParameter operator()(const ImageTexture& image) const { return image_of(image, no_tint); }
+  SpectrumParameter image_of(const ImageTexture& image, const Tint& tint) const {
     ImageTexture baked;
-    baked.filename = baker.bake_file(image, use, needs_levels(image.filter), where());
+    baked.filename = baker.bake_file(image, use, tint, needs_levels(image.filter), where());
     baked.mapping = image.mapping;
     baked.wrap = image.wrap;
     baked.filter = image.filter;
@@ -146,6 +152,7 @@ struct TextureBaker::Clone {
   }
   // One of the two is what the product is used for, the other one a factor.
   SpectrumParameter operator()(ProductTexture t) const {
+    if (const auto tinted = baker.bake_tinted(t, use)) return *tinted;
     const TextureUse factor = use == TextureUse::number ? use : TextureUse::unbounded;
     const bool swapped = baker.is_number(t.first) && !baker.is_number(t.second);
     t.first = baker.bake_input(t.first, swapped ? factor : use);
@@ -172,9 +179,10 @@ struct TextureBaker::Clone {
     image.mapping = t.mapping;
     return baker.add(image, use);
   }
-  SpectrumParameter operator()(MeshAttributeTexture t) const {
+  SpectrumParameter operator()(const MeshAttributeTexture& t) const { return attribute_of(t, no_tint); }
+  SpectrumParameter attribute_of(MeshAttributeTexture t, const Tint& tint) const {
     const bool plain = use == TextureUse::number || use == TextureUse::vector;
-    t.name = baker.slot_of({t.name, plain ? use : TextureUse::reflectance});
+    t.name = baker.slot_of({t.name, plain ? use : TextureUse::reflectance, nullptr, tint});
     if (use != TextureUse::illuminant) return baker.add(t, use);
     return lit(t);
   }
@@ -202,6 +210,24 @@ struct TextureBaker::Clone {
   }
   SourceLocation where() const { return location(baker.scene_, baker.scene_.textures[id.value].origin); }
 };
+
+// A colour given as RGB times an image or attribute of RGB is the product of their numbers, as in programs
+// that know no spectra: the product of two spectra has another colour. Nothing where it is no such product.
+std::optional<SpectrumParameter> TextureBaker::bake_tinted(const ProductTexture& product, TextureUse use) {
+  if (use == TextureUse::number || use == TextureUse::vector) return {};
+  const bool swapped = std::holds_alternative<Id<Texture>>(product.first);
+  const auto* color = std::get_if<Spectrum>(swapped ? &product.second : &product.first);
+  const auto* id = std::get_if<Id<Texture>>(swapped ? &product.first : &product.second);
+  const Tint* tint = color ? rgb_of(*color) : nullptr;
+  const auto is_grey = [](const Tint& t) { return t[0] == t[1] && t[1] == t[2]; };
+  if (!tint || is_grey(*tint) || !id || scene_.textures.at(id->value).is_float) return {};
+  const Clone clone{*this, *id, use};
+  const TextureModel& model = scene_.textures[id->value].model;
+  if (const auto* image = std::get_if<ImageTexture>(&model)) return clone.image_of(*image, *tint);
+  const auto* attribute = std::get_if<MeshAttributeTexture>(&model);
+  if (attribute && std::ranges::max(*tint) <= 1) return clone.attribute_of(*attribute, *tint);
+  return {};
+}
 
 SpectrumParameter TextureBaker::bake_texture(Id<Texture> texture, TextureUse use) {
   const Texture& original = scene_.textures.at(texture.value);

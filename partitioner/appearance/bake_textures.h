@@ -4,6 +4,7 @@
 
 #include <tbb/task_group.h>
 
+#include <array>
 #include <deque>
 #include <exception>
 #include <filesystem>
@@ -23,6 +24,10 @@
 #include "scene/records/scene.h"
 
 namespace vitrail {
+
+// Linear sRGB factors of an image's or attribute's numbers, taken before these become spectra.
+using Tint = std::array<float, 3>;
+inline constexpr Tint no_tint{1, 1, 1};
 
 struct ImageBaking {
   std::filesystem::path cache;  // of baked images, kept by their content; empty: none
@@ -60,6 +65,7 @@ class TextureBaker {
     std::string name;
     TextureUse use;
     std::shared_ptr<const PtexTiles> tiles = nullptr;  // of face_indices: the corners' places among them
+    Tint tint = no_tint;
     bool operator==(const Attribute&) const = default;
   };
   const std::vector<Attribute>& attributes() const { return attributes_; }
@@ -75,10 +81,11 @@ class TextureBaker {
   };
   SpectrumParameter bake_input(const SpectrumParameter& parameter, TextureUse use);
   SpectrumParameter bake_texture(Id<Texture> texture, TextureUse use);
+  std::optional<SpectrumParameter> bake_tinted(const ProductTexture& product, TextureUse use);
   SpectrumParameter bake_ptex(Id<Texture> texture, const PtexTexture& ptex, TextureUse use);
-  std::string bake_file(const ImageTexture& image, TextureUse use, bool all_levels,
+  std::string bake_file(const ImageTexture& image, TextureUse use, const Tint& tint, bool all_levels,
                         const SourceLocation& where);
-  std::string write_file(const ImageTexture& image, TextureUse use, bool all_levels,
+  std::string write_file(const ImageTexture& image, TextureUse use, const Tint& tint, bool all_levels,
                          const SourceLocation& where);
   std::string write_image(const ImageRows& rows, TextureUse use, bool all_levels);
   std::string write_codes(const ImageTexture& image, const ByteRows& rows, const CodedImage& coded,
@@ -107,7 +114,7 @@ class TextureBaker {
   std::vector<TextureFileEntry> files_;
   std::map<std::pair<std::uint32_t, TextureUse>, SpectrumParameter> baked_;
   using ImageKey =
-      std::tuple<std::string, Encoding, float, float, bool, ImageNumber, Primaries, TextureUse, bool>;
+      std::tuple<std::string, Encoding, float, float, bool, ImageNumber, Primaries, TextureUse, Tint, bool>;
   std::map<ImageKey, std::string> images_;
   KnownMeans means_;
   tbb::task_group writers_;  // ends before all that it refers to

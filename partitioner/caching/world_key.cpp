@@ -129,6 +129,7 @@ class WorldAdder : public Adder {
 
   void add(const TextureBaker::Attribute& attribute) {
     add(attribute.name), add(attribute.use);
+    for (const float factor : attribute.tint) add(factor);
     add(attribute.tiles != nullptr);
     if (!attribute.tiles) return;
     add(attribute.tiles->width), add(attribute.tiles->height);

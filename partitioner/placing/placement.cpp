@@ -129,13 +129,16 @@ CornerUvs MeshPlacer::uvs(std::size_t i) const {
   return uv;
 }
 
-CornerValues MeshPlacer::values(std::size_t i, const MeshAttribute& attribute, TextureUse use) const {
+CornerValues MeshPlacer::values(std::size_t i, const MeshAttribute& attribute,
+                                const TextureBaker::Attribute& wanted) const {
   const auto channels = static_cast<std::size_t>(attribute.channels);
   CornerValues corners;
   for (std::size_t k = 0; k < 3; ++k) {
     const float* value = &attribute.values[(attribute.per_face ? i : mesh_.triangles[i][k]) * channels];
-    corners[k] =
-        attribute_value({value[0], value[channels > 1 ? 1 : 0], value[channels > 2 ? 2 : 0]}, use, fitter_);
+    const auto tinted = [&](std::size_t c) {
+      return static_cast<double>(value[std::min(c, channels - 1)] * wanted.tint[c]);
+    };
+    corners[k] = attribute_value({tinted(0), tinted(1), tinted(2)}, wanted.use, fitter_);
   }
   if (placement_.flip) std::swap(corners[1], corners[2]);
   return corners;
@@ -172,7 +175,7 @@ void MeshPlacer::place(std::size_t begin, std::size_t end, PlacedTriangles& out,
       continue;
     }
     for (const MeshAttribute& attribute : mesh_.attributes)
-      if (attribute.name == wanted.name) put([&](std::size_t i) { return values(i, attribute, wanted.use); });
+      if (attribute.name == wanted.name) put([&](std::size_t i) { return values(i, attribute, wanted); });
   }
   if (placement_.standing) stand(*placement_.standing, out, at, at + (end - begin));
 }

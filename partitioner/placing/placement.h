@@ -72,7 +72,8 @@ class MeshPlacer {
   Triangle triangle(std::size_t i) const;
   CornerNormals normals(std::size_t i, const Triangle& placed) const;
   CornerUvs uvs(std::size_t i) const;
-  CornerValues values(std::size_t i, const MeshAttribute& attribute, TextureUse use) const;
+  CornerValues values(std::size_t i, const MeshAttribute& attribute,
+                      const TextureBaker::Attribute& wanted) const;
   CornerValues tile_places(std::size_t i, const PtexTiles& tiles) const;
   [[noreturn]] void reject(std::size_t i) const;
 

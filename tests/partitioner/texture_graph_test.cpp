@@ -324,6 +324,36 @@ TEST(TextureGraph, AttributesOfMeshes) {
   EXPECT_EQ(textures.number(wear, at), 0);
 }
 
+// Their spectra would multiply to another colour: teal times yellow has a quarter more red.
+TEST(TextureGraph, AColorTimesAnImageIsTheProductOfTheirNumbers) {
+  test::BakedScene s;
+  write_exr_image(s.directory / "yellow.exr", {1, 1, 3, {0.8f, 0.7f, 0.1f}});
+  ImageTexture image = s.image("yellow.exr");
+  image.encoding = Encoding::linear;
+  const Id<Texture> yellow = s.add(image), vertices = s.add(MeshAttributeTexture{"color"});
+  const Spectrum teal = color(0.2, 0.7, 0.7), bright = color(4, 1, 2);
+  const Id<Texture> of_image = s.add(ProductTexture{teal, yellow}),
+                    swapped = s.add(ProductTexture{yellow, teal}),
+                    bright_image = s.add(ProductTexture{bright, yellow}),
+                    of_vertices = s.add(ProductTexture{teal, vertices});
+  TextureBaker& baker = s.bake();
+  const SpectrumParameter a = baker.bake(of_image, TextureUse::reflectance),
+                          b = baker.bake(swapped, TextureUse::illuminant),
+                          c = baker.bake(bright_image, TextureUse::unbounded),
+                          plain = baker.bake(yellow, TextureUse::reflectance);
+  baker.bake(of_vertices, TextureUse::reflectance);
+  EXPECT_EQ(baker.attributes(), (std::vector<TextureBaker::Attribute>{
+                                    {"color", TextureUse::reflectance, nullptr, Tint{0.2f, 0.7f, 0.7f}}}));
+  const Textures textures = s.look_up();
+  const auto at = [&](const SpectrumParameter& p) {
+    return textures.spectrum(p, at_uv(0.5, 0.5), some_wavelengths);
+  };
+  test::expect_near(at(a), reflectance_from_rgb({0.16, 0.49, 0.07}), 2e-3);
+  test::expect_near(at(b), emission_from_rgb({0.16, 0.49, 0.07}), 2e-3);
+  test::expect_near(at(c), unbounded_from_rgb({3.2, 0.7, 0.2}), 8e-3);
+  test::expect_near(at(plain), reflectance_from_rgb({0.8, 0.7, 0.1}), 2e-3);
+}
+
 TEST(TextureGraph, UvAsAColor) {
   test::BakedScene s;
   const Id<Texture> uv = s.add(UvTexture{});
