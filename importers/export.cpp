@@ -15,6 +15,7 @@
 #include "importers/ply/write/write_ply_scene.h"
 #include "importers/povray/write/write_povray.h"
 #include "importers/writing/embedded_images.h"
+#include "importers/writing/scaled_normals.h"
 #include "scene/records/nesting.h"
 
 namespace vitrail {
@@ -102,11 +103,16 @@ Diagnostics export_scene(const Scene& scene, const std::filesystem::path& out) {
   const Format& format = format_of(out);
   const bool nested = has_nested_instances(scene);
   const bool embedded = !format.holds_images && has_embedded_images(scene);
+  const bool scaled_maps = !format.holds_images && has_scaled_normals(scene);
   std::optional<Scene> changed;
   if (nested) changed = without_nested_instances(scene);
   if (embedded) {
     if (!changed) changed = scene;
     extract_images(*changed, out);
+  }
+  if (scaled_maps) {
+    if (!changed) changed = scene;
+    write_scaled_normals(*changed, out);
   }
   Diagnostics diagnostics = format.write(changed ? *changed : scene, out);
   if (nested) note_nested_instances(scene, diagnostics);

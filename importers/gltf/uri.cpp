@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/gltf/uri.h"
+#include "importers/reading/named_file.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +20,7 @@ std::filesystem::path file_from_uri(const std::string& uri, const std::filesyste
       name += uri[i];
     }
   }
-  return (folder / name).lexically_normal();
+  return named_file(name, folder);
 }
 
 std::string uri_of(const std::string& name) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "importers/reading/lamp_power.h"
 #include "scene/geometry/bounds.h"
 #include "scene/shapes/deferred_mesh.h"
 #include "scene/shapes/quadric_places.h"
@@ -83,14 +84,25 @@ void add_default_view(ImportedScene& imported, const std::filesystem::path& file
 }
 
 void add_default_light(ImportedScene& imported, const std::filesystem::path& file) {
+  // What lights less shows as black: 16 of 255 or less.
+  constexpr double least = 0.005;
   Scene& scene = imported.scene;
-  if (!scene.lights.empty() || !scene.area_lights.empty()) return;
-  // A white surface that faces the sun has radiance 1; the sky alone would show no shape.
-  constexpr double sky = 0.2, sun = (1 - sky) * std::numbers::pi;
-  scene.lights.push_back({InfiniteLight{emission_from_rgb({sky, sky, sky})}});
+  const bool has_lamps = !scene.lights.empty() || !scene.area_lights.empty();
+  if (has_lamps && brightness_of_lamps(scene, world_bounds(scene)) >= least) return;
+  // A white surface that faces the sun shows 1. The sky alone would show no shape, and before it no white
+  // one: what turns to the camera gets more than the sky has.
+  constexpr double sky = 0.1, lamp = 0.1, sun = 1 - sky - lamp;
+  const double white = 1 / scene.film.imaging_ratio;
+  const auto grey = [&](double value) {
+    return emission_from_rgb({value * white, value * white, value * white});
+  };
+  const Transform to_world = std::visit([](const auto& c) { return c.camera_to_world; }, scene.camera);
+  scene.lights.push_back({InfiniteLight{grey(sky)}});
+  scene.lights.push_back({DistantLight{normalize(Vector3d{0.5, -1, -0.7}), grey(sun * std::numbers::pi)}});
   scene.lights.push_back(
-      {DistantLight{normalize(Vector3d{0.5, -1, -0.7}), emission_from_rgb({sun, sun, sun})}});
-  imported.diagnostics.push_back({Fidelity::approximated, sky_is_added, {file.string()}});
+      {DistantLight{normalize(transform_vector(to_world, {0, 0, 1})), grey(lamp * std::numbers::pi)}});
+  imported.diagnostics.push_back(
+      {Fidelity::approximated, has_lamps ? sky_is_added_to_lamps : sky_is_added, {file.string()}});
 }
 
 }  // namespace vitrail

@@ -153,8 +153,9 @@ void note_lamps(ImportedScene& imported) {
 void replace_sky(ImportedScene& imported, const GivenSky& sky) {
   Scene& scene = imported.scene;
   // Where there was no light, the scene loses none.
-  const bool was_added =
-      std::erase_if(imported.diagnostics, [](const Diagnostic& d) { return d.message == sky_is_added; }) > 0;
+  const bool was_added = std::erase_if(imported.diagnostics, [](const Diagnostic& d) {
+                           return d.message == sky_is_added || d.message == sky_is_added_to_lamps;
+                         }) > 0;
   std::vector<Light> kept;
   for (Light& light : scene.lights) {
     if (!traits_of(light.model).is_far()) {

@@ -10,6 +10,7 @@
 
 #include "images/file_part.h"
 #include "importers/bytes/text_cursor.h"
+#include "scene/records/texture_inputs.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -67,8 +68,14 @@ class Replacer {
 
   // 0.5 would be a normal without a length.
   void normal_maps() {
+    const auto is_missing_map = [&](Id<Texture> map) {
+      bool missing = missing_.contains(map.value);
+      for_texture_inputs(scene_.textures[map.value].model,
+                         [&](Id<Texture> input) { missing = missing || missing_.contains(input.value); });
+      return missing;
+    };
     for (Material& material : scene_.materials)
-      if (material.normal_map && missing_.contains(material.normal_map->value)) material.normal_map.reset();
+      if (material.normal_map && is_missing_map(*material.normal_map)) material.normal_map.reset();
   }
 
   void tables() {

@@ -51,15 +51,17 @@ ImageRows rows_of(const ImageTexture& texture, const ImageLayout& layout, Textur
           }};
 }
 
-// The rows in three channels, each times its factor.
-ImageRows tinted(ImageRows rows, const Tint& tint) {
+// The rows in three channels, each times its factor; of vectors, the components that the numbers stand for.
+ImageRows tinted(ImageRows rows, const Tint& tint, TextureUse use) {
   if (tint == no_tint) return rows;
-  const auto times_tint = [tint](const Image& values) {
+  const float zero = use == TextureUse::vector ? 0.5f : 0;
+  const auto times_tint = [tint, zero](const Image& values) {
     Image product = black_image(values.width, values.height, 3);
     const auto channels = static_cast<std::size_t>(values.channels);
     for (std::size_t i = 0; i < values.pixels(); ++i)
       for (std::size_t c = 0; c < 3; ++c)
-        product.values[3 * i + c] = tint[c] * values.values[channels * i + (channels < 3 ? 0 : c)];
+        product.values[3 * i + c] =
+            zero + tint[c] * (values.values[channels * i + (channels < 3 ? 0 : c)] - zero);
     return product;
   };
   rows.read = [read = std::move(rows.read), times_tint](const std::function<void(Image)>& visit) {
@@ -150,7 +152,7 @@ std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, 
   facts.other_primaries =
       use != TextureUse::number && use != TextureUse::vector && ignores_primaries(image, layout);
   ImageRows rows =
-      tinted(rows_of(use == TextureUse::number ? without_choice(image) : image, layout, use), tint);
+      tinted(rows_of(use == TextureUse::number ? without_choice(image) : image, layout, use), tint, use);
   rows.read = [&, read = rows.read](const std::function<void(Image)>& visit) {
     facts.broken = 0;  // the last reading is of all rows
     read([&](Image values) {

@@ -8,6 +8,7 @@
 
 #include "images/ptex_means.h"
 #include "images/texture_values.h"
+#include "scene/models/normal_map.h"
 #include "scene/records/pixel_place.h"
 #include "scene/records/texture_inputs.h"
 #include "scene/spectra/matrix_r.h"
@@ -106,18 +107,6 @@ bool TextureBaker::reads_attribute(const FloatParameter& baked) const {
   return vitrail::reads_attribute(textures_, baked);
 }
 
-Id<Texture> TextureBaker::bake_vector(Id<Texture> texture) {
-  if (std::holds_alternative<ImageTexture>(scene_.textures.at(texture.value).model))
-    return std::get<Id<Texture>>(bake_texture(texture, TextureUse::vector));
-  diagnostics_.push_back({Fidelity::dropped,
-                          "a normal map that is no image is left out",
-                          location(scene_, scene_.textures[texture.value].origin),
-                          {}});
-  ImageTexture flat;
-  flat.filename = write_image(rows_of({1, 1, 3, {0.5f, 0.5f, 1}}), TextureUse::vector, false);
-  return add(flat, TextureUse::vector);
-}
-
 SpectrumParameter TextureBaker::bake_input(const SpectrumParameter& parameter, TextureUse use) {
   if (const auto* texture = std::get_if<Id<Texture>>(&parameter)) return bake_texture(*texture, use);
   return as_used(std::get<Spectrum>(parameter), use, scene_.settings.rgb);
@@ -210,6 +199,23 @@ struct TextureBaker::Clone {
   }
   SourceLocation where() const { return location(baker.scene_, baker.scene_.textures[id.value].origin); }
 };
+
+Id<Texture> TextureBaker::bake_vector(Id<Texture> texture) {
+  if (const auto map = normal_map_of(scene_.textures, texture)) {
+    const auto [known, is_new] = baked_.try_emplace({texture.value, TextureUse::vector});
+    if (is_new)
+      known->second = Clone{*this, map->image, TextureUse::vector}.image_of(
+          std::get<ImageTexture>(scene_.textures[map->image.value].model), map->factors);
+    return std::get<Id<Texture>>(known->second);
+  }
+  diagnostics_.push_back({Fidelity::dropped,
+                          "a normal map that is no image is left out",
+                          location(scene_, scene_.textures[texture.value].origin),
+                          {}});
+  ImageTexture flat;
+  flat.filename = write_image(rows_of({1, 1, 3, {0.5f, 0.5f, 1}}), TextureUse::vector, false);
+  return add(flat, TextureUse::vector);
+}
 
 // A colour given as RGB times an image or attribute of RGB is the product of their numbers, as in programs
 // that know no spectra: the product of two spectra has another colour. Nothing where it is no such product.

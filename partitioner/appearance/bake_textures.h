@@ -25,7 +25,8 @@
 
 namespace vitrail {
 
-// Linear sRGB factors of an image's or attribute's numbers, taken before these become spectra.
+// Linear sRGB factors of an image's or attribute's numbers, taken before these become spectra. Of a normal
+// map: of the components of (rgb·2 − 1).
 using Tint = std::array<float, 3>;
 inline constexpr Tint no_tint{1, 1, 1};
 

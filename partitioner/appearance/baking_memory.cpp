@@ -12,6 +12,7 @@
 #include "images/png_rows.h"
 #include "images/texture_values.h"
 #include "partitioner/appearance/bake_codes.h"
+#include "scene/models/normal_map.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {
@@ -38,7 +39,9 @@ std::uint64_t most_pixels(const std::string& file) {
 std::vector<bool> textures_of_values(const Scene& scene) {
   std::vector<bool> of_values(scene.textures.size());
   for (const Material& material : scene.materials)
-    if (material.normal_map) of_values.at(material.normal_map->value) = true;
+    if (const auto map =
+            material.normal_map ? normal_map_of(scene.textures, *material.normal_map) : std::nullopt)
+      of_values.at(map->image.value) = true;
   const bool any_shines = std::ranges::any_of(scene.area_lights, [](const AreaLight& light) {
     return std::holds_alternative<Id<Texture>>(light.radiance);
   });

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "images/image_files.h"
 #include "importers/readers.h"
 #include "importers/reading/default_view.h"
 #include "scene/spectra/color.h"
@@ -96,11 +97,18 @@ TEST(ImportScene, ShowsAllOfGeometryAloneUnderASky) {
   EXPECT_GT(seen(imported.scene, {100, 5, 0}).y, seen(imported.scene, {100, 0, 0}).y) << "+y is up";
   EXPECT_GT(seen(imported.scene, {101, 0, 0}).x, seen(imported.scene, {100, 0, 0}).x)
       << "and +x right: not mirrored";
-  ASSERT_EQ(imported.scene.lights.size(), 2u);
-  // Together 1 where a white surface faces the sun, and dimmer elsewhere, so that shapes can be seen.
+  ASSERT_EQ(imported.scene.lights.size(), 3u);
+  // Together 1 where a white surface faces sun and camera, and dimmer elsewhere, so that shapes can be seen.
   const double sky = luminance(std::get<InfiniteLight>(imported.scene.lights.at(0).model).radiance);
   const DistantLight& sun = std::get<DistantLight>(imported.scene.lights.at(1).model);
-  EXPECT_NEAR(sky + luminance(sun.irradiance) / std::numbers::pi, 1, 1e-3);
+  const DistantLight& from_camera = std::get<DistantLight>(imported.scene.lights.at(2).model);
+  EXPECT_NEAR(sky + luminance(sun.irradiance) / std::numbers::pi +
+                  luminance(from_camera.irradiance) / std::numbers::pi,
+              1, 1e-3);
+  EXPECT_GT(luminance(from_camera.irradiance), 0) << "white turned to the camera is no sky";
+  const Vector3d view =
+      transform_vector(std::get<PerspectiveCamera>(imported.scene.camera).camera_to_world, {0, 0, 1});
+  EXPECT_NEAR(dot(from_camera.direction, normalize(view)), 1, 1e-9);
   EXPECT_LT(sky, 0.5);
   EXPECT_LT(sun.direction.y, 0) << "it shines down";
 }
@@ -198,6 +206,40 @@ TEST(ImportScene, GoesOnWithoutLostFiles) {
     for (const Texture& texture : imported.scene.textures)
       EXPECT_FALSE(std::holds_alternative<ImageTexture>(texture.model));
   }
+}
+
+// Of a plate that is half as high as the box around it is wide; its lamp has the emission Ke and its map.
+double lights_of(const TemporaryFolder& folder, const std::string& emission) {
+  folder.write("a.mtl", "newmtl a\nKd .8 .2 .1\n" + emission);
+  return static_cast<double>(
+      import_scene(
+          folder.write(
+              "a.obj",
+              "mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt "
+              "0 1\nf 1/1 2/2 3/3 4/4\n"))
+          .scene.lights.size());
+}
+
+TEST(DefaultLight, IsAddedWhereLampsHaveNoPower) {
+  const TemporaryFolder folder;
+  write_exr_image(folder.path() / "black.exr", black_image(2, 2, 3));
+  Image one_white = black_image(2, 2, 3);
+  one_white.values[0] = one_white.values[1] = one_white.values[2] = 1;
+  write_exr_image(folder.path() / "corner.exr", one_white);
+  EXPECT_EQ(lights_of(folder, ""), 3);
+  EXPECT_EQ(lights_of(folder, "Ke 1 1 1\n"), 0);
+  EXPECT_EQ(lights_of(folder, "Ke .001 .001 .001\n"), 3) << "black in a picture of 8 bits";
+  EXPECT_EQ(lights_of(folder, "Ke .1 .1 .1\n"), 0);
+  EXPECT_EQ(lights_of(folder, "Ke 1 1 1\nmap_Ke black.exr\n"), 3);
+  EXPECT_EQ(lights_of(folder, "Ke 1 1 1\nmap_Ke corner.exr\n"), 0) << "a quarter shines";
+  EXPECT_EQ(lights_of(folder, "Ke .01 .01 .01\nmap_Ke corner.exr\n"), 3);
+}
+
+TEST(DefaultLight, SaysWhy) {
+  const TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl a\nKe 1e-4 1e-4 1e-4\n");
+  const std::string obj = "mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  EXPECT_TRUE(mentions(import_scene(folder.write("a.obj", obj)).diagnostics, "lamps light nearly nothing"));
 }
 
 // The view of a box is that of the quadrics in it: an ellipsoid, half a sphere, a disk that lies askew, and

@@ -10,6 +10,7 @@
 
 #include "images/file_part.h"
 #include "importers/gltf/uri.h"
+#include "importers/reading/named_file.h"
 
 namespace vitrail::gltf {
 
@@ -57,6 +58,7 @@ constexpr std::array known_extensions{
     Known{"KHR_materials_specular"},
     Known{"KHR_materials_transmission"},
     Known{"KHR_materials_unlit"},
+    Known{"KHR_materials_variants"},
     Known{"KHR_materials_volume"},
     Known{"KHR_mesh_quantization"},
     Known{"KHR_texture_transform"},
@@ -77,8 +79,11 @@ const Known* known(const std::string& name) {
   return found == known_extensions.end() ? nullptr : found;
 }
 
-bool read_file(std::vector<unsigned char>* out, std::string*, const std::string& name, void*) {
-  const InputBytes bytes(name);
+// `name` is in the folder whose name `folder` points to.
+bool read_file(std::vector<unsigned char>* out, std::string*, const std::string& name, void* folder) {
+  const std::string& parent = *static_cast<const std::string*>(folder);
+  const bool is_within = name.size() > parent.size() && name.starts_with(parent);
+  const InputBytes bytes(is_within ? named_file(name.substr(parent.size() + 1), parent) : name);
   out->assign(bytes.begin(), bytes.end());
   return true;
 }
@@ -113,14 +118,14 @@ Document::Document(const std::filesystem::path& file)
 
 void Document::load() {
   tinygltf::TinyGLTF loader;
+  std::string folder = file_.parent_path().string();
   loader.SetFsCallbacks({[](const std::string&, void*) { return true; },
-                         [](const std::string& name, void*) { return name; }, read_file, nullptr, nullptr});
+                         [](const std::string& name, void*) { return name; }, read_file, nullptr, &folder});
   loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*,
                            int, void*) { return true; },
                         nullptr);
   std::string error, warning;
   bool loaded = false;
-  const std::string folder = file_.parent_path().string();
   const auto size = static_cast<unsigned>(bytes_.size());
   try {
     loaded = is_binary_ ? loader.LoadBinaryFromMemory(&model_, &error, &warning,

@@ -81,7 +81,8 @@ class SceneReader {
     if (!is_visible(to_world, index)) return;
     for (const Part& part : parts) {
       Shape shape;
-      shape.mesh = part.mesh, shape.material = part.surface.material, shape.area_light = part.surface.light;
+      shape.mesh = part.mesh, shape.material = material_of(part, to_world);
+      shape.area_light = part.surface.light;
       shape.opacity = part.surface.opacity, shape.interior = part.surface.interior;
       shape.object_to_world = to_world;
       shape.flip_orientation = swaps_handedness(to_world);
@@ -89,6 +90,12 @@ class SceneReader {
       shape.origin = document_.origin("nodes", index);
       shapes.push_back(std::move(shape));
     }
+  }
+
+  // Mirroring a node mirrors its (u,v) too.
+  Id<Material> material_of(const Part& part, const Transform& to_world) {
+    const bool turned = part.surface.has_normal_map && part.has_mirrored_uvs != swaps_handedness(to_world);
+    return turned ? meshes_.materials().turned_over(part.surface.material) : part.surface.material;
   }
 
   void add_instance(int mesh, const Transform& to_world, int index) {
@@ -194,6 +201,11 @@ class SceneReader {
     };
     for (const std::string& name : document_.unknown_extensions())
       say(Fidelity::dropped, fmt::format("the extension {}", name));
+    if (const tinygltf::Value* variants = extension(model_.extensions, "KHR_materials_variants"))
+      say(Fidelity::dropped,
+          fmt::format(
+              "KHR_materials_variants: {} variants; the materials that the meshes name themselves are shown",
+              variants->Has("variants") ? variants->Get("variants").ArrayLen() : 0));
     if (!model_.animations.empty())
       say(Fidelity::approximated,
           fmt::format("{} animations: the scene is as it stands without them", model_.animations.size()));

@@ -8,6 +8,7 @@
 
 #include "importers/gltf/read/extension_values.h"
 #include "importers/gltf/units.h"
+#include "scene/models/normal_map.h"
 
 namespace vitrail::gltf {
 
@@ -52,12 +53,14 @@ Surface MaterialBuilder::build() {
     info.extensions = m_.normalTexture.extensions;
     material.normal_map = textures_.color(info, {Encoding::linear}, index_, uv_set_);
     surface.has_normal_map = true;
-    if (m_.normalTexture.scale != 1)
-      approximated(fmt::format("the normal map's scale of {:g} counts as 1", m_.normalTexture.scale));
+    if (const auto steepness = static_cast<float>(m_.normalTexture.scale); steepness != 1)
+      material.normal_map =
+          textures_.add(scaled_normal_map({*material.normal_map, {steepness, steepness, 1}}), false, index_);
   }
   if (m_.occlusionTexture.index >= 0)
     note(Fidelity::dropped, "occlusionTexture: paths find out what is dark");
   light(surface);
+  surface.has_color_map = m_.pbrMetallicRoughness.baseColorTexture.index >= 0;
   surface.opacity = opacity();
   surface.interior = interior();
   scene_.materials.push_back(std::move(material));

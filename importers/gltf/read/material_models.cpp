@@ -21,6 +21,20 @@ double eta_of_reflectance(double f0) { return (1 + std::sqrt(f0)) / (1 - std::sq
 
 bool is_zero(const FloatParameter& parameter) { return parameter == FloatParameter{0.0f}; }
 
+// What lets a colour through at a distance: the logarithm of its spectrum. Spectra of the logarithms of its
+// numbers would let another colour through.
+Spectrum absorption(RGB color, double distance) {
+  constexpr double least = 1e-4;  // what is darker absorbs no more
+  const SigmoidSpectrum through = reflectance_from_rgb(color);
+  const auto coefficient = [&](double nm) {
+    return -std::log(std::clamp(evaluate(through, nm), least, 1.0)) / distance;
+  };
+  if (is_constant(through)) return ConstantSpectrum{static_cast<float>(coefficient(lambda_min_nm))};
+  std::vector<SpectrumSample> samples;
+  for (int i = 0; i < table_size; ++i) samples.push_back({lambda_min_nm + i, coefficient(lambda_min_nm + i)});
+  return tabulate(samples, true);
+}
+
 }  // namespace
 
 MaterialModel MaterialBuilder::model() {
@@ -182,11 +196,8 @@ std::optional<Id<Medium>> MaterialBuilder::interior() const {
   const double distance = gltf::number(*v, "attenuationDistance", 0);  // none: infinitely far
   const RGB c = color(*v, "attenuationColor", {1, 1, 1});
   if (distance <= 0 || c == RGB{1, 1, 1}) return {};
-  const auto coefficient = [&](double share) { return -std::log(std::clamp(share, 1e-4, 1.0)) / distance; };
   Medium medium;
-  medium.coefficients = AbsorptionScattering{
-      Spectrum{unbounded_from_rgb({coefficient(c.r), coefficient(c.g), coefficient(c.b)})},
-      Spectrum{ConstantSpectrum{0}}};
+  medium.coefficients = AbsorptionScattering{absorption(c, distance), Spectrum{ConstantSpectrum{0}}};
   medium.origin = document_.origin("materials", index_);
   scene_.media.push_back(std::move(medium));
   return Id<Medium>{static_cast<std::uint32_t>(scene_.media.size() - 1)};

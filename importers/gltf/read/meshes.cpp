@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "importers/gltf/read/primitive.h"
+#include "importers/gltf/read/tangents.h"
+#include "scene/shapes/mesh_parts.h"
 
 namespace vitrail::gltf {
 
@@ -21,16 +23,6 @@ std::vector<T> triples(const std::vector<float>& values) {
 
 bool are_finite(const std::vector<float>& values) {
   return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
-}
-
-// Where (u,v) run the other way round than on the surface: there the third axis of a normal map is turned.
-bool has_mirrored_uvs(const TriangleMesh& mesh) {
-  if (mesh.uvs.empty() || mesh.normals.empty()) return false;
-  return std::ranges::any_of(mesh.triangles, [&](const auto& t) {
-    const Point2f a = mesh.uvs[t[0]], b = mesh.uvs[t[1]], c = mesh.uvs[t[2]];
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >
-           0;  // v runs down: a map as it is turns left
-  });
 }
 
 }  // namespace
@@ -91,29 +83,62 @@ void Meshes::add_part(int index, const tinygltf::Primitive& primitive, const Pos
 
   const int channels = reader.color_channels();
   const Surface& surface = materials_.surface(primitive.material, channels, index);
+  add_uvs(index, reader, surface, mesh);
+  if (channels > 0) add_colors(index, reader, surface, mesh);
+  keep(index, reader, surface, std::move(mesh), parts);
+}
+
+void Meshes::add_uvs(int index, const PrimitiveReader& reader, const Surface& surface, TriangleMesh& mesh) {
   mesh.missing_uv = MissingUv::zero;
-  if (const std::string set = fmt::format("TEXCOORD_{}", surface.uv_set); reader.has(set)) {
-    const std::vector<float> uv = reader.attribute(set, 2);
-    if (are_finite(uv))
-      for (std::size_t i = 0; i < uv.size(); i += 2) mesh.uvs.push_back({uv[i], uv[i + 1]});
-    else
-      note(Fidelity::dropped, index, set + ", which is not finite");
+  const std::string set = fmt::format("TEXCOORD_{}", surface.uv_set);
+  if (!reader.has(set)) return;
+  const std::vector<float> uv = reader.attribute(set, 2);
+  if (!are_finite(uv)) return note(Fidelity::dropped, index, set + ", which is not finite");
+  for (std::size_t i = 0; i < uv.size(); i += 2) mesh.uvs.push_back({uv[i], uv[i + 1]});
+}
+
+void Meshes::add_colors(int index, const PrimitiveReader& reader, const Surface& surface,
+                        TriangleMesh& mesh) {
+  const auto channels = static_cast<std::size_t>(reader.color_channels());
+  const std::vector<float> colors = reader.attribute("COLOR_0", static_cast<int>(channels));
+  MeshAttribute color{vertex_color, false, 3, {}}, alpha{vertex_alpha, false, 1, {}};
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const float value = std::isfinite(colors[i]) ? std::clamp(colors[i], 0.0f, 1.0f) : 0;
+    (channels == 4 && i % 4 == 3 ? alpha : color).values.push_back(value);
   }
-  if (channels > 0) {
-    const std::vector<float> colors = reader.attribute("COLOR_0", channels);
-    MeshAttribute color{vertex_color, false, 3, {}}, alpha{vertex_alpha, false, 1, {}};
-    for (std::size_t i = 0; i < colors.size(); ++i) {
-      const float value = std::isfinite(colors[i]) ? std::clamp(colors[i], 0.0f, 1.0f) : 0;
-      (channels == 4 && i % 4 == 3 ? alpha : color).values.push_back(value);
-    }
-    mesh.attributes.push_back(std::move(color));
-    if (channels == 4) mesh.attributes.push_back(std::move(alpha));
-  }
-  if (surface.has_normal_map && has_mirrored_uvs(mesh))
+  bool is_grey = true;
+  for (std::size_t i = 0; i < color.values.size(); i += 3)
+    is_grey = is_grey && color.values[i] == color.values[i + 1] && color.values[i] == color.values[i + 2];
+  if (surface.has_color_map && !is_grey)
     note(Fidelity::approximated, index,
-         "its normal map counts, where (u,v) are mirrored, as if they were not");
-  scene_.meshes.push_back(memory_.keep(std::move(mesh), {}));
-  parts.push_back({{static_cast<std::uint32_t>(scene_.meshes.size() - 1)}, surface});
+         "the colours of its vertices and of its texture are multiplied as spectra, not as numbers");
+  mesh.attributes.push_back(std::move(color));
+  if (channels == 4) mesh.attributes.push_back(std::move(alpha));
+}
+
+// With a normal map, apart by the sides of (u,v).
+void Meshes::keep(int index, const PrimitiveReader& reader, const Surface& surface, TriangleMesh mesh,
+                  std::vector<Part>& parts) {
+  const auto add = [&](TriangleMesh part, bool has_mirrored_uvs) {
+    scene_.meshes.push_back(memory_.keep(std::move(part), {}));
+    parts.push_back({{static_cast<std::uint32_t>(scene_.meshes.size() - 1)}, surface, has_mirrored_uvs});
+  };
+  if (!surface.has_normal_map || mesh.uvs.empty()) return add(std::move(mesh), false);
+  std::vector<float> tangents;
+  if (reader.has("TANGENT")) tangents = reader.attribute("TANGENT", 4);
+  if (!are_finite(tangents)) {
+    note(Fidelity::dropped, index, "tangents that are not finite");
+    tangents.clear();
+  }
+  constexpr double most_turn_deg = 10;
+  if (const double turn = tangents.empty() ? 0 : turn_of_tangents_deg(mesh, tangents); turn > most_turn_deg)
+    note(Fidelity::approximated, index,
+         fmt::format("its normal map goes along u: its tangents are {:.0f} degrees from there on average",
+                     turn));
+  const SidesOfUv sides = sides_of_uv(mesh, tangents);
+  if (sides.mirrored.empty() || sides.straight.empty()) return add(std::move(mesh), sides.straight.empty());
+  add(only_triangles(mesh, sides.straight), false);
+  add(only_triangles(mesh, sides.mirrored), true);
 }
 
 }  // namespace vitrail::gltf

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "importers/gltf/read/materials.h"
+#include "importers/gltf/read/primitive.h"
 #include "scene/geometry/transform.h"
 #include "scene/shapes/deferred_mesh.h"
 
@@ -16,6 +17,7 @@ namespace vitrail::gltf {
 struct Part {
   Id<TriangleMesh> mesh;
   Surface surface;
+  bool has_mirrored_uvs = false;  // its normal map is to be turned over
 };
 
 // What bends a mesh where a node uses it.
@@ -38,10 +40,14 @@ class Meshes {
   const std::vector<Part>& parts(int mesh);
   std::vector<Part> posed_parts(int mesh, const Pose& pose);
 
-  const Materials& materials() const { return materials_; }
+  Materials& materials() { return materials_; }
 
  private:
   void add_part(int mesh, const tinygltf::Primitive& primitive, const Pose& pose, std::vector<Part>& parts);
+  void add_uvs(int mesh, const PrimitiveReader& reader, const Surface& surface, TriangleMesh& to);
+  void add_colors(int mesh, const PrimitiveReader& reader, const Surface& surface, TriangleMesh& to);
+  void keep(int mesh, const PrimitiveReader& reader, const Surface& surface, TriangleMesh parts_of,
+            std::vector<Part>& parts);
   void note(Fidelity fidelity, int mesh, const std::string& what);
 
   const Document& document_;

@@ -202,11 +202,14 @@ void MaterialWriter::transmit(double amount, bool solid) {
   if (most <= 0) return;
   // What is left after the distance in which the colour that is absorbed most falls to a quarter.
   const double distance = std::log(4) / most;
-  const auto left = [&](double s) {
-    return std::exp(-std::max(s, 0.0) * static_cast<double>(medium.scale) * distance);
-  };
+  std::vector<SpectrumSample> left;
+  for (int i = 0; i < table_size; ++i) {
+    const double nm = lambda_min_nm + i;
+    const double s = std::max(evaluate(*absorbed, nm), 0.0) * static_cast<double>(medium.scale);
+    left.push_back({nm, std::exp(-s * distance)});
+  }
   volume["attenuationDistance"] = tinygltf::Value(distance);
-  volume["attenuationColor"] = list({left(sigma.r), left(sigma.g), left(sigma.b)});
+  volume["attenuationColor"] = list(factor_rgb(tabulate(left, true)));
 }
 
 void MaterialWriter::opacity(const FloatParameter& parameter) {

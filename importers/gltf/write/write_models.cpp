@@ -7,6 +7,7 @@
 #include "importers/gltf/write/values.h"
 #include "importers/gltf/write/write_materials.h"
 #include "importers/writing/export_colors.h"
+#include "scene/models/normal_map.h"
 
 namespace vitrail::gltf {
 
@@ -17,9 +18,11 @@ void MaterialWriter::put(Id<Material> id) {
   notes_.begin(RecordKind::material, material.origin);
   if (material.displacement) notes_.dropped("displacement: glTF has normal maps alone");
   if (!material.normal_map) return;
-  if (const ImageTexture* image = image_of(FloatParameter{*material.normal_map})) {
-    const tinygltf::TextureInfo info = pictures_.colors(*image, true);
+  if (const auto map = normal_map_of(scene_.textures, *material.normal_map)) {
+    const auto& image = std::get<ImageTexture>(scene_.textures[map->image.value].model);
+    const tinygltf::TextureInfo info = pictures_.colors(image, true);
     out_.normalTexture.index = info.index, out_.normalTexture.extensions = info.extensions;
+    out_.normalTexture.scale = static_cast<double>(map->factors[0]);  // that along v is turned over by (u,v)
   } else {
     notes_.dropped("normal map that is no image");
   }

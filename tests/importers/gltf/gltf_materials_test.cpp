@@ -7,6 +7,8 @@
 #include "images/image_files.h"
 #include "importers/gltf/units.h"
 #include "importers/writing/export_colors.h"
+#include "scene/models/normal_map.h"
+#include "scene/spectra/spectrum.h"
 #include "tests/importers/gltf/gltf_text.h"
 #include "tests/support/png.h"
 
@@ -44,6 +46,33 @@ TEST(GltfMaterials, GlassIsASheetOrASolidThatAbsorbs) {
   const auto& c = std::get<AbsorptionScattering>(solid.scene.media.at(0).coefficients);
   EXPECT_NEAR(evaluate(std::get<Spectrum>(c.sigma_a), 550), std::log(4) / 2, 1e-6)
       << "a quarter is left of 2";
+}
+
+// attenuationColor is what is left at attenuationDistance, and its square at twice that.
+TEST(GltfMaterials, AttenuationLeavesItsColourAtItsDistance) {
+  const ImportedScene solid = square_of(
+      R"({"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0},"extensions":{"KHR_materials_transmission":{"transmissionFactor":1},)"
+      R"("KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":2,"attenuationColor":[0.9,0.3,0.1]}}})");
+  const Spectrum sigma =
+      std::get<Spectrum>(std::get<AbsorptionScattering>(solid.scene.media.at(0).coefficients).sigma_a);
+  std::vector<SpectrumSample> left;
+  for (int i = 0; i < table_size; ++i) {
+    const double nm = lambda_min_nm + i;
+    EXPECT_GE(evaluate(sigma, nm), 0) << nm;
+    left.push_back({nm, std::exp(-2 * evaluate(sigma, nm))});
+  }
+  const RGB color = factor_rgb(tabulate(left, true));
+  EXPECT_NEAR(color.r, 0.9, 0.002);
+  EXPECT_NEAR(color.g, 0.3, 0.002);
+  EXPECT_NEAR(color.b, 0.1, 0.002);
+}
+
+TEST(GltfMaterials, RequiredVariantsAreToldAndLeftOut) {
+  const ImportedScene imported = square_of(
+      "{}", R"(,"extensionsUsed":["KHR_materials_variants"],"extensionsRequired":["KHR_materials_variants"],)"
+            R"("extensions":{"KHR_materials_variants":{"variants":[{"name":"a"},{"name":"b"}]}})");
+  EXPECT_EQ(imported.scene.shapes.size(), 1u);
+  EXPECT_TRUE(mentions(imported.diagnostics, "2 variants"));
 }
 
 TEST(GltfMaterials, DispersionHasItsAbbeNumber) {
@@ -112,6 +141,52 @@ TEST_F(GltfImages, AreReadFromFilesBuffersAndText) {
     ASSERT_EQ(stored.image.width, 2) << texture.filename;
     EXPECT_EQ(stored.image.values, (std::vector<float>{1, 0, 0, 1, 0, 0, 1, 0})) << texture.filename;
   }
+}
+
+TEST_F(GltfImages, NamesMayComeFromWindows) {
+  for (const char* uri : {"A%20B.PNG", "textures\\\\a%20b.png", "C:%5Cmodels%5Ca%20b.png"}) {
+    const ImportedScene imported = read(fmt::format("{{\"uri\":\"{}\"}}", uri), textured, one_texture);
+    EXPECT_EQ(std::get<ImageTexture>(imported.scene.textures.at(0).model).filename,
+              (folder_.path() / "a b.png").string());
+  }
+}
+
+NormalMap map_of(const Scene& scene, const Shape& shape) {
+  return normal_map_of(scene.textures, *scene.materials.at(shape.material.value).normal_map).value();
+}
+
+constexpr const char* bumpy = R"({"normalTexture":{"index":0,"scale":2}})";
+
+TEST_F(GltfImages, NormalMapsHaveAScale) {
+  const ImportedScene imported = read(R"({"uri":"a%20b.png"})", bumpy, one_texture);
+  EXPECT_EQ(map_of(imported.scene, imported.scene.shapes.at(0)).factors, (std::array<float, 3>{2, 2, 1}));
+}
+
+// A square whose second half has its (u,v) mirrored: that half is a shape of its own, whose map is turned
+// over.
+TEST_F(GltfImages, NormalMapsTurnOverWhereUvAreMirrored) {
+  const auto factors = [&](const std::vector<float>& uv, const std::string& place) {
+    GltfText file;
+    file.add_square();
+    file.floats(uv, 2);
+    const std::string mesh =
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":3},"indices":1,"material":0}]}])";
+    const ImportedScene imported = read_gltf(folder_.write(
+        "scene.gltf",
+        file.text(mesh + R"(,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0)" + place + R"(}],"materials":[)" +
+                  R"({"normalTexture":{"index":0}}],"images":[{"uri":"a%20b.png"}])" + one_texture)));
+    std::vector<float> along_v;
+    for (const Shape& shape : imported.scene.shapes)
+      along_v.push_back(map_of(imported.scene, shape).factors[1]);
+    return along_v;
+  };
+  const std::vector<float> straight{0, 1, 1, 1, 1, 0, 0, 0}, mirrored{1, 1, 0, 1, 0, 0, 1, 0},
+      both{0, 1, 1, 1, 1, 0, 2, 1};
+  EXPECT_EQ(factors(straight, ""), (std::vector<float>{1}));
+  EXPECT_EQ(factors(mirrored, ""), (std::vector<float>{-1}));
+  EXPECT_EQ(factors(both, ""), (std::vector<float>{1, -1}));
+  EXPECT_EQ(factors(straight, R"(,"scale":[-1,1,1])"), (std::vector<float>{-1})) << "a node that mirrors";
+  EXPECT_EQ(factors(mirrored, R"(,"scale":[-1,1,1])"), (std::vector<float>{1}));
 }
 
 TEST_F(GltfImages, CutoffsAreSteps) {
