@@ -32,7 +32,8 @@ struct Builder {
   Scene& scene;
   Report& report;
   std::map<const Object*, Id<Material>> materials;
-  std::array<std::optional<Id<Material>>, 2> default_materials{};  // of shapes without a bsdf; 1: that shine
+  // Of shapes without a bsdf; 1: that shine; 2: that bound a medium in old files.
+  std::array<std::optional<Id<Material>>, 3> default_materials{};
   // One for each of the scene's materials (scene/records/material_traits.h).
   std::vector<MaterialTraits> traits;
   std::vector<bool> sided;

@@ -31,6 +31,7 @@ void mark_old_meanings(Object& object) {
   // Where models of daylight have their zenith; +z since version 3.
   if (object.tag == "emitter" && (type == "sky" || type == "sun" || type == "sunsky")) mark("y_is_up");
   if (object.tag == "shape" && type == "ply") mark("colors_in_srgb");
+  if (object.tag == "shape" && type != "shapegroup" && type != "instance") mark("media_have_no_surface");
   if (object.tag == "texture" && type == "bitmap") mark("gamma_of_file");
 }
 

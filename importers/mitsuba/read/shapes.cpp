@@ -26,13 +26,17 @@ const std::vector<std::string> parameters{
 
 // What the programs that write Mitsuba's files call records without a name.
 
-// Mitsuba's lamps reflect nothing unless they are given a bsdf.
+// Mitsuba's lamps reflect nothing unless they are given a bsdf. Before version 2 what bounds a medium has no
+// surface unless it is given one.
 Id<Material> default_material(Builder& builder, const Object& shape) {
-  const bool shines = !shape.children("emitter").empty();
-  std::optional<Id<Material>>& known = builder.default_materials[shines];
+  const bool shines = !shape.children("emitter").empty(),
+             bounds = shape.boolean("media_have_no_surface", false, builder.report) && !shines &&
+                      !shape.children("medium").empty();
+  std::optional<Id<Material>>& known = builder.default_materials[shines ? 1 : bounds ? 2 : 0];
   if (!known) {
     Material material;
-    material.model = shines ? DiffuseMaterial{.reflectance = ConstantSpectrum{0}} : DiffuseMaterial{};
+    if (shines) material.model = DiffuseMaterial{.reflectance = ConstantSpectrum{0}};
+    if (bounds) material.model = InterfaceMaterial{};
     material.two_sided = false;
     material.origin = shape.origin;
     known = append(builder, std::move(material));
@@ -42,6 +46,7 @@ Id<Material> default_material(Builder& builder, const Object& shape) {
 
 Id<Material> material_of(Builder& builder, const Object& shape, const ShapeGeometry& geometry) {
   const auto bsdfs = shape.children("bsdf");
+  shape.ignore({"media_have_no_surface"});
   if (geometry.bsdf) return add_material(builder, *std::get<ObjectPtr>(geometry.bsdf->value));
   if (geometry.part) {
     builder.report.approximated(fmt::format("obj: no bsdf has the name of its material \"{}\": diffuse, .5",

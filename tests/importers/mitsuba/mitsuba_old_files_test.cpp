@@ -22,6 +22,27 @@ TEST_F(MitsubaLoad, OldSpellings) {
   EXPECT_EQ(board.mapping, (TextureMapping{UvMapping{4, 0, 0, 0, 2, 1}})) << "cells are half a unit";
 }
 
+// What bounds a medium there has no surface unless it is given one; since version 2 it has the usual one.
+TEST_F(MitsubaLoad, OldMediaHaveNoSurface) {
+  const auto materials = [&](const char* version, const char* more) {
+    const std::string scene = fmt::format(
+        "<scene version=\"{}\"><medium type=\"homogeneous\" id=\"smoke\"/><shape type=\"cube\"><ref "
+        "name=\"interior\" "
+        "id=\"smoke\"/>{}</shape><shape type=\"sphere\"/></scene>",
+        version, more);
+    const ImportedScene imported = read_mitsuba(folder_.write("scene.xml", scene));
+    std::vector<bool> is_nothing;
+    for (const Shape& shape : imported.scene.shapes)
+      is_nothing.push_back(
+          std::holds_alternative<InterfaceMaterial>(imported.scene.materials.at(shape.material.value).model));
+    for (const Diagnostic& d : imported.diagnostics) EXPECT_EQ(d.message.find("surface"), std::string::npos);
+    return is_nothing;
+  };
+  EXPECT_EQ(materials("0.6.0", ""), (std::vector<bool>{true, false}));
+  EXPECT_EQ(materials("0.5.0", "<bsdf type=\"diffuse\"/>"), (std::vector<bool>{false, false}));
+  EXPECT_EQ(materials("3.0.0", ""), (std::vector<bool>{false, false}));
+}
+
 // As Mitsuba 3.9 translates them: a run of capitals is one word.
 TEST_F(MitsubaLoad, OldAcronyms) {
   const std::string old =
