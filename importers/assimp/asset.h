@@ -65,7 +65,8 @@ struct AssetCamera {
   std::size_t node = 0;
   Point3d position;  // in its node's space
   Vector3d direction, up;
-  double horizontal_fov_deg = 0, aspect = 0;  // 0: not given
+  double horizontal_fov_deg = 0, vertical_fov_deg = 0, aspect = 0;  // 0: not given
+  double half_width = 0, half_height = 0;                           // of an orthographic one; 0: it is none
 };
 
 struct Asset {

@@ -150,13 +150,13 @@ AssetCamera camera_of(const aiCamera& in, std::size_t node) {
 std::optional<double> units_of_blender(const aiScene& scene) {
   constexpr std::string_view blender = "Blender (stable FBX IO) - ";
   aiString generator;
-  double centimetres = 1;
+  float centimetres = 1;
   if (!scene.mMetaData || !scene.mMetaData->Get(AI_METADATA_SOURCE_GENERATOR, generator) ||
       !std::string_view(generator.C_Str()).starts_with(blender) ||
       std::strtod(generator.C_Str() + blender.size(), nullptr) < 2.8)
     return {};
   scene.mMetaData->Get("UnitScaleFactor", centimetres);
-  return centimetres > 0 ? std::optional(100 / centimetres) : std::nullopt;
+  return centimetres > 0 ? std::optional(100 / static_cast<double>(centimetres)) : std::nullopt;
 }
 
 // assimp takes the grey .8 of another template where Blender leaves out a lamp's colour, which is white.
@@ -166,24 +166,48 @@ void brighten_white_lamps(Asset& asset) {
       for (double& c : light.color) c /= 0.8;
 }
 
-// Nodes in the order of the file. Lights and cameras stand in the nodes of their names.
+// Nodes in the order of the file. Lights and cameras stand in the nodes of their names. Those that assimp
+// made of parts of a transform are parts of the next one.
 void add_nodes(const aiScene& scene, Asset& asset) {
-  std::vector<std::pair<const aiNode*, std::size_t>> open{{scene.mRootNode, 0}};
+  struct Open {
+    const aiNode* node;
+    std::size_t parent;
+    aiMatrix4x4 before;
+  };
+  std::vector<Open> open{{scene.mRootNode, 0, {}}};
   while (!open.empty()) {
-    const auto [node, parent] = open.back();
+    const auto [node, parent, before] = open.back();
     open.pop_back();
+    const aiMatrix4x4 to_parent = before * node->mTransformation;
+    const bool is_part =
+        std::string_view(node->mName.C_Str()).find("_$AssimpFbx$_") != std::string_view::npos;
+    if (is_part && node->mNumMeshes == 0 && node != scene.mRootNode) {
+      for (unsigned i = node->mNumChildren; i-- > 0;) open.push_back({node->mChildren[i], parent, to_parent});
+      continue;
+    }
     const std::size_t index = asset.nodes.size();
     asset.nodes.push_back({node->mName.C_Str(),
                            parent,
-                           transform_of(node->mTransformation),
+                           transform_of(to_parent),
                            {node->mMeshes, node->mMeshes + node->mNumMeshes}});
     for (unsigned i = 0; i < scene.mNumLights; ++i)
       if (scene.mLights[i]->mName == node->mName) asset.lights.push_back(light_of(*scene.mLights[i], index));
     for (unsigned i = 0; i < scene.mNumCameras; ++i)
       if (scene.mCameras[i]->mName == node->mName)
         asset.cameras.push_back(camera_of(*scene.mCameras[i], index));
-    for (unsigned i = node->mNumChildren; i-- > 0;) open.emplace_back(node->mChildren[i], index);
+    for (unsigned i = node->mNumChildren; i-- > 0;) open.push_back({node->mChildren[i], index, {}});
   }
+}
+
+// FBX states how many centimetres its unit has. A light's attenuation is by the file's unit.
+void in_metres(const aiScene& scene, Asset& asset) {
+  float centimetres = 0;
+  if (!scene.mMetaData || !scene.mMetaData->Get("UnitScaleFactor", centimetres) || !(centimetres > 0)) return;
+  const double unit = static_cast<double>(centimetres) / 100;
+  for (std::size_t row = 0; row < 3; ++row)
+    for (double& v : asset.nodes.front().to_parent.m[row]) v *= unit;
+  for (AssetLight& light : asset.lights) light.linear /= unit, light.quadratic /= unit * unit;
+  if (asset.units_of_blender) asset.units_of_blender = 1;
 }
 
 }  // namespace
@@ -195,8 +219,9 @@ void add_nodes(const aiScene& scene, Asset& asset) {
 extern "C" std::string vitrail_read_asset(const std::string& file, vitrail::assimp::Asset& asset) {
   using namespace vitrail::assimp;
   Assimp::Importer importer;
-  // Pivots of FBX as nodes of their own would hide which mesh stands where.
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+  // With the parts of FBX's transforms as nodes of their own: joined by assimp, PostRotation turns the wrong
+  // way.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
   unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices;
   // assimp loses normals by vertices of FBX, as Blender writes them of what is smooth all over.
   constexpr float crease_deg = 60;
@@ -216,6 +241,7 @@ extern "C" std::string vitrail_read_asset(const std::string& file, vitrail::assi
   asset.animations = scene->mNumAnimations;
   asset.units_of_blender = units_of_blender(*scene);
   add_nodes(*scene, asset);
+  if (has_suffix(file, "fbx")) in_metres(*scene, asset);
   if (asset.units_of_blender) brighten_white_lamps(asset);
   // COLLADA has one angle and an exponent, of which assimp makes another angle.
   if (has_suffix(file, "dae"))

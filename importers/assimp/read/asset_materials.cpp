@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 #include "images/file_part.h"
@@ -65,7 +66,7 @@ class MaterialReader {
     map.wrap = image.clamps ? Wrap::clamp : image.mirrors ? Wrap::mirror : Wrap::repeat;
     if (map.filename.empty())
       note(Fidelity::dropped,
-           fmt::format("material '{}': {}, an image in the file that is no picture of its own", mtl.name,
+           fmt::format("material '{}': {}, an image in the file that is neither PNG, JPEG nor WebP", mtl.name,
                        keyword));
     else
       mtl.maps.emplace(keyword, std::move(map));
@@ -73,7 +74,10 @@ class MaterialReader {
 
   // The part of this file that has these bytes.
   std::string part_with(const std::string& bytes) const {
-    if (bytes.empty()) return {};
+    const auto* const first = reinterpret_cast<const std::byte*>(bytes.data());
+    constexpr std::array read_within{".png", ".jpg", ".webp"};  // as image_files.cpp has them
+    const std::string suffix = picture_suffix({first, first + std::min<std::size_t>(bytes.size(), 64)});
+    if (std::ranges::find(read_within, suffix) == read_within.end()) return {};
     const InputBytes all(file_);
     const char* at =
         std::search(all.begin(), all.end(), std::boyer_moore_horspool_searcher(bytes.begin(), bytes.end()));

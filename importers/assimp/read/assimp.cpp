@@ -7,12 +7,18 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <string_view>
 
 #include "importers/assimp/asset.h"
 #include "importers/assimp/read/asset_file.h"
 #include "importers/assimp/read/asset_lights.h"
 #include "importers/assimp/read/asset_materials.h"
+#include "importers/assimp/read/collada_cameras.h"
+#include "importers/assimp/read/fbx_facts.h"
+#include "importers/bytes/input_bytes.h"
 #include "importers/reading/default_view.h"
+#include "importers/reading/named_file.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -61,6 +67,7 @@ class SceneReader {
         else if (is_visible(node))
           add_shape(imported_.scene.shapes, mesh, node, to_world_[node]);
       }
+    mend_by_file();
     for (const AssetLight& light : asset_.lights) add_light(light);
     take_camera();
     note_whole_file();
@@ -72,6 +79,50 @@ class SceneReader {
  private:
   void note(Fidelity fidelity, std::string what, RecordKind kind = RecordKind::any) {
     imported_.diagnostics.push_back({fidelity, std::move(what), {file_}, {}, kind});
+  }
+
+  // What the file itself says better than assimp.
+  void mend_by_file() {
+    const std::string suffix = std::filesystem::path(file_).extension().string();
+    const auto is = [&](const char* wanted) {
+      return std::ranges::equal(suffix, std::string_view(wanted),
+                                [](char a, char b) { return lower_case(a) == b; });
+    };
+    if (is(".dae") && !asset_.cameras.empty()) {
+      const std::vector<AssetCamera> cameras = collada_cameras(file_);
+      if (cameras.size() != asset_.cameras.size())
+        return note(Fidelity::approximated,
+                    "its cameras are instances of instances: their angles may be others", RecordKind::camera);
+      for (std::size_t i = 0; i < cameras.size(); ++i) {
+        AssetCamera& camera = asset_.cameras[i];
+        camera.horizontal_fov_deg = cameras[i].horizontal_fov_deg;
+        camera.vertical_fov_deg = cameras[i].vertical_fov_deg;
+        camera.half_width = cameras[i].half_width, camera.half_height = cameras[i].half_height;
+        camera.aspect = cameras[i].aspect;
+      }
+    }
+    if (is(".fbx") && !(asset_.cameras.empty() && asset_.lights.empty())) {
+      const InputBytes bytes(file_);
+      const FbxFacts facts = fbx_facts({bytes.begin(), bytes.size()});
+      targets_ = facts.targets;
+      if (facts.has_orthographic_camera && !asset_.cameras.empty())
+        note(Fidelity::approximated, "an orthographic camera: it is a perspective one", RecordKind::camera);
+    }
+  }
+
+  // The direction from a place to what the node's camera or light looks at, if it looks at a node.
+  std::optional<Vector3d> to_target(std::size_t node, Point3d from) {
+    const auto target = targets_.find(asset_.nodes[node].name);
+    if (target == targets_.end()) return {};
+    const auto found = std::ranges::find(asset_.nodes, target->second, &AssetNode::name);
+    if (found != asset_.nodes.end()) {
+      const Transform& there = to_world_[static_cast<std::size_t>(found - asset_.nodes.begin())];
+      const Vector3d direction = transform_point(there, Point3d{}) - from;
+      if (length(direction) > 0) return direction;
+    }
+    note(Fidelity::dropped,
+         fmt::format("what '{}' looks at: it looks as its node stands", asset_.nodes[node].name));
+    return {};
   }
 
   Id<TriangleMesh> keep(std::size_t mesh) {
@@ -125,7 +176,8 @@ class SceneReader {
     }
     const Transform& to_world = to_world_[in.node];
     const Point3d position = transform_point(to_world, in.position);
-    const Vector3d direction = transform_vector(to_world, in.direction);
+    const Vector3d direction =
+        to_target(in.node, position).value_or(transform_vector(to_world, in.direction));
     if (in.kind != AssetLight::Kind::point && !(length(direction) > 0)) return;
     const LightScale scale = scale_of_light(in, asset_.units_of_blender);
     const Spectrum spectrum = emission_from_rgb(
@@ -171,16 +223,25 @@ class SceneReader {
     Scene& scene = imported_.scene;
     const Point3d eye = transform_point(to_world, in.position);
     // look_at puts +x left of who looks along −z with +y up: turned, so that the picture is not mirrored.
-    const Transform frame =
-        look_at(eye, eye + transform_vector(to_world, in.direction), transform_vector(to_world, in.up)) *
-        scale({-1, 1, 1});
+    const std::optional<Vector3d> target = to_target(in.node, eye);
+    const Vector3d direction = target.value_or(transform_vector(to_world, in.direction)),
+                   up = target ? Vector3d{0, 1, 0} : transform_vector(to_world, in.up);
+    const Transform frame = look_at(eye, eye + direction, up) * scale({-1, 1, 1});
     if (!is_invertible(frame)) throw Error("its camera has no direction", {file_});
-    const double fov_deg =
-        in.horizontal_fov_deg > 0 && in.horizontal_fov_deg < 179 ? in.horizontal_fov_deg : usual_fov_deg;
-    const double wide = std::tan(fov_deg / 2 * std::numbers::pi / 180);
     if (in.aspect > 1e-3 && in.aspect < 1e3) set_aspect(scene.film, in.aspect);
-    const double tall = wide * scene.film.height / scene.film.width;
-    scene.camera = PerspectiveCamera{frame, {-wide, wide, -tall, tall}, {}};
+    const double aspect = static_cast<double>(scene.film.width) / scene.film.height;
+    const auto half_of = [](double fov_deg) { return std::tan(fov_deg / 2 * std::numbers::pi / 180); };
+    const auto is_angle = [](double fov_deg) { return fov_deg > 0 && fov_deg < 179; };
+    double wide = half_of(usual_fov_deg);
+    if (is_angle(in.vertical_fov_deg)) wide = aspect * half_of(in.vertical_fov_deg);
+    if (is_angle(in.horizontal_fov_deg)) wide = half_of(in.horizontal_fov_deg);
+    if (in.half_height > 0) wide = in.half_height * aspect;
+    if (in.half_width > 0) wide = in.half_width;
+    const ScreenWindow screen{-wide, wide, -wide / aspect, wide / aspect};
+    if (in.half_width > 0 || in.half_height > 0)
+      scene.camera = OrthographicCamera{frame, screen, {}};
+    else
+      scene.camera = PerspectiveCamera{frame, screen, {}};
     if (asset_.cameras.size() > 1 && chosen == 0)
       note(Fidelity::approximated,
            fmt::format("the first of {} cameras: --camera 1 takes the next", asset_.cameras.size()),
@@ -215,6 +276,7 @@ class SceneReader {
   std::vector<Transform> to_world_;   // by node
   std::map<std::size_t, Id<TriangleMesh>> meshes_;
   std::map<std::size_t, Id<Prototype>> prototypes_;
+  std::map<std::string, std::string> targets_;  // of nodes, by name
   bool are_lights_noted_ = false;
 };
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/assimp/read/assimp.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "importers/import.h"
 #include "scene/records/scene.h"
@@ -197,6 +200,106 @@ TEST_F(Assimp, TheCameraLooksAsTheFileSays) {
   ImportOptions second;
   second.camera = 1;
   EXPECT_THROW(read(text, second), UsageError);
+}
+
+// Of a file whose camera's element and optics are so.
+TEST_F(Assimp, CamerasOfColladaHaveTheirAngles) {
+  const auto camera_of = [&](const std::string& names, const std::string& optics) {
+    return read(collada(phong("") + triangle + "<library_cameras><camera " + names +
+                            "><optics><technique_common>" + optics +
+                            "</technique_common></optics></camera></library_cameras>",
+                        node("n", "") + R"(<node id="view"><instance_camera url="#c"/></node>)"))
+        .scene.camera;
+  };
+  const double half = std::tan(std::numbers::pi / 6);
+  const auto perspective = [&](const std::string& names, const std::string& angles) {
+    return std::get<PerspectiveCamera>(camera_of(names, "<perspective>" + angles + "</perspective>")).screen;
+  };
+  for (const char* names : {R"(id="c")", R"(id="c" name="c")"}) {
+    EXPECT_NEAR(perspective(names, "<xfov>60</xfov>").x1, half, 1e-6) << names;
+    EXPECT_NEAR(perspective(names, "<yfov>60</yfov>").y1, half, 1e-6) << names;
+    const ScreenWindow wide = perspective(names, "<yfov>60</yfov><aspect_ratio>2</aspect_ratio>");
+    EXPECT_NEAR(wide.x1, 2 * half, 1e-6) << names;
+    const auto flat = std::get<OrthographicCamera>(
+        camera_of(names, "<orthographic><xmag>2</xmag><ymag>1</ymag></orthographic>"));
+    EXPECT_NEAR(flat.screen.x1, 2, 1e-6) << names;
+    EXPECT_NEAR(flat.screen.y1, 1, 1e-6) << names;
+  }
+}
+
+// An FBX of text: a quad in z = 0, a camera 5 m before it, a sun; more properties and connections.
+std::string fbx(double centimetres, const std::string& camera, const std::string& sun,
+                const std::string& more = "", const std::string& connections = "") {
+  const auto model = [](int id, const char* name, const char* kind, const std::string& properties) {
+    return fmt::format("Model: {}, \"Model::{}\", \"{}\" {{\n Version: 232\n Properties70:  {{\n{} }}\n}}\n",
+                       id, name, kind, properties);
+  };
+  const std::string place = "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,0,500\n";
+  return "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n FBXHeaderVersion: 1003\n FBXVersion: 7300\n}\n"
+         "GlobalSettings:  {\n Version: 1000\n Properties70:  {\n" +
+         fmt::format("P: \"UnitScaleFactor\", \"double\", \"Number\", \"\",{}\n", centimetres) +
+         " }\n}\nObjects:  {\n"
+         "Geometry: 1, \"Geometry::q\", \"Mesh\" {\n Vertices: *12 {\n a: "
+         "-100,-100,0,100,-100,0,100,100,0,-100,100,0\n }\n"
+         " PolygonVertexIndex: *4 {\n a: 0,1,2,-4\n }\n GeometryVersion: 124\n}\n"
+         "NodeAttribute: 2, \"NodeAttribute::c\", \"Camera\" {\n TypeFlags: \"Camera\"\n Properties70:  {\n"
+         "P: \"FieldOfView\", \"FieldOfView\", \"\", \"A\",40\n" +
+         more +
+         " }\n}\n"
+         "NodeAttribute: 3, \"NodeAttribute::l\", \"Light\" {\n TypeFlags: \"Light\"\n Properties70:  {\n"
+         "P: \"LightType\", \"enum\", \"\", \"\",1\nP: \"Intensity\", \"Number\", \"\", \"A\",100\n }\n}\n" +
+         model(11, "q", "Mesh", "") + model(12, "cam", "Camera", place + camera) +
+         model(13, "sun", "Light", place + sun) +
+         model(14, "aim", "Null", "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",300,0,500\n") +
+         "}\nConnections:  {\n C: \"OO\",11,0\n C: \"OO\",12,0\n C: \"OO\",13,0\n C: \"OO\",14,0\n C: "
+         "\"OO\",1,11\n C: "
+         "\"OO\",2,12\n C: \"OO\",3,13\n" +
+         connections + "}\n";
+}
+
+std::string turned(const char* angles) {
+  return fmt::format(
+      "P: \"PostRotation\", \"Vector3D\", \"\", \"\",{}\nP: \"RotationActive\", \"bool\", \"\", \"\",1\n",
+      angles);
+}
+
+// As FBX's own programs write them: the rotation behind the others has the camera look along −z, the sun too.
+TEST_F(Assimp, CamerasAndLightsOfFbxTurnByTheirPostRotation) {
+  const Scene scene =
+      import_scene(folder_.write("a.fbx", fbx(1, turned("0,-90,0"), turned("-90,0,0")))).scene;
+  const Transform& view = std::get<PerspectiveCamera>(scene.camera).camera_to_world;
+  EXPECT_NEAR(transform_vector(view, {0, 0, 1}).z, -1, 1e-6);
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_NEAR(std::get<DistantLight>(scene.lights[0].model).direction.z, -1, 1e-6);
+}
+
+TEST_F(Assimp, FbxIsInMetres) {
+  const auto right = [&](double centimetres) {
+    const Scene scene = import_scene(folder_.write("a.fbx", fbx(centimetres, "", ""))).scene;
+    const Point3f corner = scene.meshes.at(0).positions.at(1);
+    const Point3d eye = transform_point(std::get<PerspectiveCamera>(scene.camera).camera_to_world, {0, 0, 0});
+    EXPECT_NEAR(eye.z, 5 * centimetres, 1e-5);
+    return std::abs(transform_point(scene.shapes.at(0).object_to_world, cast<double>(corner)).x);
+  };
+  EXPECT_NEAR(right(1), 1, 1e-6);
+  EXPECT_NEAR(right(100), 100, 1e-4);
+  EXPECT_NEAR(right(2.54), 2.54, 1e-5);
+}
+
+TEST_F(Assimp, CamerasAndLightsOfFbxLookAtTheirTargets) {
+  const ImportedScene imported = import_scene(folder_.write(
+      "a.fbx", fbx(1, turned("0,-90,0"), "", "",
+                   " C: \"OP\",14,12, \"LookAtProperty\"\n C: \"OP\",11,13, \"LookAtProperty\"\n")));
+  const Transform& view = std::get<PerspectiveCamera>(imported.scene.camera).camera_to_world;
+  EXPECT_NEAR(transform_vector(view, {0, 0, 1}).x, 1, 1e-6) << "at what is right of it";
+  EXPECT_NEAR(std::get<DistantLight>(imported.scene.lights.at(0).model).direction.z, -1, 1e-6);
+}
+
+TEST_F(Assimp, AnOrthographicCameraOfFbxIsTold) {
+  const std::string projection = "P: \"CameraProjectionType\", \"enum\", \"\", \"\",";
+  EXPECT_TRUE(says(import_scene(folder_.write("a.fbx", fbx(1, "", "", projection + "1\n"))), "orthographic"));
+  EXPECT_FALSE(
+      says(import_scene(folder_.write("b.fbx", fbx(1, "", "", projection + "0\n"))), "orthographic"));
 }
 
 TEST_F(Assimp, BrokenFilesAreRefused) {

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Facts of an FBX file that assimp does not hand on, of text and of binary files.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace vitrail::assimp {
+
+struct FbxFacts {
+  // The names of the nodes that cameras and lights look at (3ds Max), by the names of their own nodes.
+  std::map<std::string, std::string> targets;
+  bool has_orthographic_camera = false;
+};
+FbxFacts fbx_facts(std::string_view bytes);
+
+}  // namespace vitrail::assimp
