@@ -31,8 +31,14 @@ ImportedScene read_obj_scene(ReadRequest request) {
 ImportedScene read_stl_scene(ReadRequest request) {
   const std::filesystem::path& file = request.file;
   ImportedScene imported;
-  imported.scene.materials.push_back({DiffuseMaterial{}});
-  imported.scene.meshes.push_back(request.memory.keep(read_stl(file), [file] { return read_stl(file); }));
+  TriangleMesh mesh = read_stl(file);
+  DiffuseMaterial material;
+  if (!mesh.attributes.empty()) {
+    imported.scene.textures.push_back({MeshAttributeTexture{mesh.attributes.front().name}});
+    material.reflectance = Id<Texture>{0};
+  }
+  imported.scene.materials.push_back({material});
+  imported.scene.meshes.push_back(request.memory.keep(std::move(mesh), [file] { return read_stl(file); }));
   imported.scene.shapes.push_back({});
   return imported;
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstring>
 
 #include "scene/system/diagnostics.h"
@@ -52,6 +54,55 @@ TEST(Stl, TextAndBinaryAreTheSameWeldedMesh) {
   EXPECT_EQ(text.positions.size(), 4u);
   EXPECT_EQ(text.triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {1, 3, 2}}));
   EXPECT_EQ(text, binary);
+}
+
+// As programs write them: a facet a line, all on one, capitals, a mark before UTF-8.
+TEST(Stl, TextHasAnyLines) {
+  const TemporaryFolder folder;
+  const std::string usual = text_of(facet("0 0 0", "1 0 0", "0 1 0") + facet("1 0 0", "1 1 .5", "0 1 0"));
+  const TriangleMesh mesh = read_stl(folder.write("a.stl", usual));
+  std::string one_line = usual, capitals = usual, no_normals;
+  std::ranges::replace(one_line, '\n', ' ');
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  no_normals = "solid\n";
+  for (const char* corners :
+       {"vertex 0 0 0 vertex 1 0 0 vertex 0 1 0", "vertex 1 0 0 vertex 1 1 .5 vertex 0 1 0"})
+    no_normals += std::string("facet outer loop ") + corners + " endloop endfacet\n";
+  for (const std::string& text : {one_line, capitals, no_normals, "\xef\xbb\xbf" + usual})
+    EXPECT_EQ(read_stl(folder.write("b.stl", text)), mesh) << text;
+}
+
+TEST(Stl, BytesMayFollowTheFacets) {
+  const TemporaryFolder folder;
+  std::string bytes = binary_of({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const TriangleMesh mesh = read_stl(folder.write("a.stl", bytes));
+  EXPECT_EQ(read_stl(folder.write("b.stl", bytes + "trailing")), mesh);
+}
+
+TEST(Stl, NoFacetsAreNoPicture) {
+  EXPECT_EQ(error_of("solid a\nendsolid a\n"), "0: it has no facets that enclose an area");
+  EXPECT_EQ(error_of(binary_of({})), "0: it has no facets that enclose an area");
+}
+
+TEST(Stl, FacetsHaveColours) {
+  const TemporaryFolder folder;
+  const std::vector<float> two{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  const auto colors = [&](std::string bytes, unsigned first, unsigned second) {
+    bytes[84 + 48] = static_cast<char>(first & 255), bytes[84 + 49] = static_cast<char>(first >> 8);
+    bytes[134 + 48] = static_cast<char>(second & 255), bytes[134 + 49] = static_cast<char>(second >> 8);
+    const TriangleMesh mesh = read_stl(folder.write("a.stl", bytes));
+    return mesh.attributes.empty() ? std::vector<float>{} : mesh.attributes[0].values;
+  };
+  const std::string plain = binary_of(two);
+  std::string with_default = plain;
+  with_default.replace(0, 10, std::string("COLOR=\x00\xff\x00\xff", 10));
+  EXPECT_EQ(colors(plain, 0, 0), std::vector<float>{});
+  EXPECT_EQ(colors(plain, 0xfc00, 0x801f), (std::vector<float>{1, 0, 0, 0, 0, 1})) << "VisCAM";
+  EXPECT_EQ(colors(plain, 0xfc00, 0), (std::vector<float>{1, 0, 0, .5f, .5f, .5f}));
+  EXPECT_EQ(colors(with_default, 0x8000, 0x001f), (std::vector<float>{0, 1, 0, 1, 0, 0})) << "Materialise";
+  std::string text = text_of(facet("0 0 0", "1 0 0", "0 1 0"));
+  text.replace(text.find("endfacet"), 8, "endfacet color 31744");
+  EXPECT_EQ(read_stl(folder.write("c.stl", text)).attributes.at(0).values, (std::vector<float>{1, 0, 0}));
 }
 
 TEST(Stl, MistakesHaveTheirPlace) {
