@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/appearance/bake_media.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -33,6 +35,28 @@ void read_values(Grid& grid) {
   if (!in) throw Error("the file ends before the grid that its header announces", {grid.filename});
 }
 
+// "cell 3,0,1 of 4 × 4 × 4": of the value of that place in the grid.
+std::string cell_of(const Grid& grid, std::size_t value) {
+  const std::size_t cell = value / static_cast<std::size_t>(grid.channels),
+                    nx = static_cast<std::size_t>(grid.nx), ny = static_cast<std::size_t>(grid.ny);
+  return fmt::format("cell {},{},{} of {} × {} × {}", cell % nx, cell / nx % ny, cell / nx / ny, grid.nx,
+                     grid.ny, grid.nz);
+}
+
+// What programs that filter write below 0 counts as 0.
+void no_negatives(Grid& grid, std::vector<std::string>& notes) {
+  std::size_t negative = 0, first = 0;
+  for (std::size_t i = 0; i < grid.values.size(); ++i) {
+    if (!std::isfinite(grid.values[i]))
+      throw Error(fmt::format("a grid has a value that is not finite, in {}", cell_of(grid, i)));
+    if (grid.values[i] < 0 && negative++ == 0) first = i;
+  }
+  if (negative == 0) return;
+  notes.push_back(fmt::format("{} values of its grid are below 0 and count as 0, the first, {:g}, in {}",
+                              negative, grid.values[first], cell_of(grid, first)));
+  for (float& v : grid.values) v = std::max(v, 0.0f);
+}
+
 // False where the grid cannot be read.
 bool bake_grid(Grid& grid, std::vector<std::string>& notes) {
   if (!grid.filename.empty()) {
@@ -47,8 +71,7 @@ bool bake_grid(Grid& grid, std::vector<std::string>& notes) {
   }
   grid.filename.clear();
   grid.field.clear();
-  for (const float v : grid.values)
-    if (!std::isfinite(v) || v < 0) throw Error("a grid has a value that is negative or not finite");
+  no_negatives(grid, notes);
   return true;
 }
 

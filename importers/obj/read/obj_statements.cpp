@@ -176,7 +176,7 @@ float StatementReader::component() {
   const double value = cursor_.number("a component");
   if (std::abs(value) <= std::numeric_limits<float>::max()) return static_cast<float>(value);
   note("not finite", Fidelity::dropped,
-       "components of normals or texture coordinates that are not finite: 0");
+       "components of normals, texture coordinates or colours that are not finite: 0");
   return 0;
 }
 
@@ -189,7 +189,7 @@ void StatementReader::read_position() {
   std::array<double, 4> values{};
   std::size_t more = 0;
   for (; !at_end(); ++more) {
-    const double value = finite_number("a vertex's weight or colour");
+    const auto value = static_cast<double>(component());
     if (more < values.size()) values[more] = value;
   }
   const bool has_weight = more == 1 || more == 4;

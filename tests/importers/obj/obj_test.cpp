@@ -282,6 +282,13 @@ TEST_F(Obj, AttributesThatAreNotFiniteAreLostAlone) {
   EXPECT_THAT(imported.diagnostics, says("not finite: 0"));
 }
 
+TEST_F(Obj, ColoursThatAreNotFiniteAreLostAlone) {
+  const ImportedScene imported = read("v 0 0 0 nan nan nan\nv 1 0 0 1 -1.#IND 0\nv 0 1 0 1 0 0\nf 1 2 3\n");
+  EXPECT_EQ(imported.scene.meshes.at(0).attributes.at(0).values,
+            (std::vector<float>{0, 0, 0, 1, 0, 0, 1, 0, 0}));
+  EXPECT_THAT(imported.diagnostics, says("not finite: 0"));
+}
+
 TEST_F(Obj, MarksLetterCasesAndPathsOfOtherSystems) {
   const MaterialModel red = DiffuseMaterial{reflectance_from_rgb({1, 0, 0})};
   const std::string mark = "\xef\xbb\xbf", faces = square + "usemtl m\nf 1 2 3\n";
