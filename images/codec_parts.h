@@ -2,9 +2,15 @@
 // The functions of ImageCodec that have files of their own. For the module alone.
 #pragma once
 
+#include <OpenImageIO/imageio.h>
+
 #include "images/image_codec.h"
+#include "images/radiance_header.h"
 
 namespace vitrail {
+
+// The header of the file, where it is one of Radiance's; else what changes nothing.
+RadianceHeader radiance_header_of(const OIIO::ImageInput& in, const std::string& file);
 
 std::string encode_picture(const std::string& file, const PictureFile& picture, const void* pixels,
                            std::vector<std::byte>& bytes);

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "images/codec_parts.h"
+#include "images/radiance_header.h"
 
 namespace vitrail {
 
@@ -141,14 +142,17 @@ class OpenPicture {
       wanted.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     }
     in_ = OIIO::ImageInput::open(source.file, &wanted);
+    if (in_ && source.bytes.empty()) radiance_ = radiance_header_of(*in_, source.file);
   }
   explicit operator bool() const { return in_ != nullptr; }
   OIIO::ImageInput& operator*() const { return *in_; }
   OIIO::ImageInput* operator->() const { return in_.get(); }
+  const RadianceHeader& radiance() const { return radiance_; }
 
  private:
   std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;  // outlives what reads it
   std::unique_ptr<OIIO::ImageInput> in_;
+  RadianceHeader radiance_;
 };
 
 std::string read_picture(const PictureSource& source, ImageLayout& layout, Image* image) {
@@ -160,12 +164,16 @@ std::string read_picture(const PictureSource& source, ImageLayout& layout, Image
   layout = {spec.width, spec.height, static_cast<int>(channels.size()), are_integers(channels, spec),
             chromaticities_of(spec)};
   note_memory(*in, layout);
+  const RadianceHeader& radiance = in.radiance();
+  if (radiance.is_turned()) layout.whole_bytes *= 2, layout.rows_bytes = layout.whole_bytes;
+  if (radiance.is_transposed) std::swap(layout.width, layout.height);
   if (!image) return {};
   const auto stride = static_cast<std::size_t>(spec.nchannels);
   std::vector<float> values(spec.image_pixels() * stride);
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
     return reason(in->geterror());
-  *image = taken(values, stride, 0, channels, layout.width, layout.height);
+  *image = taken(values, stride, 0, channels, spec.width, spec.height);
+  undo(radiance, image->values, image->width, image->height, image->channels);
   if (is_multiplied(*in)) divide_by_alpha(*image);
   return {};
 }
@@ -175,6 +183,12 @@ std::string read_picture_rows(const PictureSource& source, ImageLayout& layout,
   if (std::string problem = read_picture(source, layout, nullptr); !problem.empty()) return problem;
   const OpenPicture in(source);
   if (!in) return reason(OIIO::geterror());
+  if (in.radiance().is_turned()) {
+    Image whole;
+    if (std::string problem = read_picture(source, layout, &whole); !problem.empty()) return problem;
+    visit(std::move(whole));
+    return {};
+  }
   const OIIO::ImageSpec& spec = in->spec();
   const std::vector<int> channels = channels_of(spec);
   const auto [first, last] = std::minmax_element(channels.begin(), channels.end());
@@ -206,6 +220,7 @@ std::string read_picture_rows(const PictureSource& source, ImageLayout& layout,
     }
     if (!done) return reason(in->geterror());
     Image band = taken(values, stride, begin, channels, layout.width, rows);
+    undo(in.radiance(), band.values, band.width, band.height, band.channels);
     if (is_multiplied(*in)) divide_by_alpha(band);
     visit(std::move(band));
   }

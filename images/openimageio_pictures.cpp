@@ -2,9 +2,12 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <fstream>
 #include <span>
+#include <utility>
 
 #include "images/codec_parts.h"
+#include "images/radiance_header.h"
 
 namespace vitrail {
 
@@ -45,6 +48,16 @@ OIIO::ImageSpec spec_of(const PictureFile& picture) {
 
 }  // namespace
 
+RadianceHeader radiance_header_of(const OIIO::ImageInput& in, const std::string& file) {
+  if (std::string_view(in.format_name()) != "hdr") return {};
+  constexpr std::size_t most = 1 << 16;
+  std::string head(most, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  return radiance_header(head);
+}
+
 std::string encode_picture(const std::string& file, const PictureFile& picture, const void* pixels,
                            std::vector<std::byte>& bytes) {
   const OIIO::ImageSpec spec = spec_of(picture);
@@ -69,6 +82,9 @@ std::string decode_picture(const std::string& file, PictureFile& picture, std::v
   picture.width = spec.width, picture.height = spec.height;
   picture.x = spec.x, picture.y = spec.y;
   picture.full_width = spec.full_width, picture.full_height = spec.full_height;
+  const RadianceHeader radiance = radiance_header_of(*in, file);
+  undo(radiance, values, picture.width, picture.height, spec.nchannels);
+  if (radiance.is_transposed) std::swap(picture.full_width, picture.full_height);
   picture.are_integers = !spec.format.is_floating_point();
   picture.bits = static_cast<int>(8 * spec.format.size());
   picture.channels.clear();

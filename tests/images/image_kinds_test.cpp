@@ -240,6 +240,35 @@ TEST_F(ImageKinds, FloatsByteByByte) {
   expect_pixel(hdr, 1, 0, {0, 0, 4}, 0.04, "hdr");
 }
 
+// As Radiance's programs write them: rows from below, columns for rows, values that an exposure multiplied.
+TEST_F(ImageKinds, RadianceIsTurnedUpright) {
+  // A dark, a bright and a brighter grey from the left; below them four times that.
+  const std::vector<float> upright{.25f, .5f, 1, 1, 2, 4};
+  const auto pixels = [](const std::vector<int>& exponents) {
+    Bytes bytes;
+    for (const int exponent : exponents) {
+      const Bytes pixel = bytes_of({128, 128, 128, 128 + exponent});
+      bytes.insert(bytes.end(), pixel.begin(), pixel.end());
+    }
+    return bytes;
+  };
+  const auto values = [&](const std::string& lines, const std::vector<int>& exponents) {
+    const Image image = read(write("a.hdr", "#?RADIANCE\n" + lines + pixels(exponents)));
+    EXPECT_EQ(std::pair(image.width, image.height), std::pair(3, 2)) << lines;
+    std::vector<float> red;
+    for (std::size_t i = 0; i < image.pixels(); ++i)
+      red.push_back(std::exp2(std::round(std::log2(image.values[3 * i]))));
+    return red;
+  };
+  const std::string kind = "FORMAT=32-bit_rle_rgbe\n\n";
+  EXPECT_EQ(values(kind + "-Y 2 +X 3\n", {-1, 0, 1, 1, 2, 3}), upright);
+  EXPECT_EQ(values(kind + "+Y 2 +X 3\n", {1, 2, 3, -1, 0, 1}), upright);
+  EXPECT_EQ(values(kind + "-Y 2 -X 3\n", {1, 0, -1, 3, 2, 1}), upright);
+  EXPECT_EQ(values(kind + "+X 3 -Y 2\n", {-1, 1, 0, 2, 1, 3}), upright);
+  EXPECT_EQ(values(kind + "-X 3 +Y 2\n", {3, 1, 2, 0, 1, -1}), upright);
+  EXPECT_EQ(values("EXPOSURE=2\nEXPOSURE= 2\n" + kind + "-Y 2 +X 3\n", {1, 2, 3, 3, 4, 5}), upright);
+}
+
 TEST_F(ImageKinds, ExrInEveryWay) {
   // Only a window of the picture is there, beyond its left upper corner.
   OIIO::ImageSpec window(2, 1, 3, OIIO::TypeDesc::FLOAT);

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the header of a Radiance picture (.hdr) says of its pixels, which OpenImageIO hands out as they are
+// stored.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace vitrail {
+
+struct RadianceHeader {
+  float exposure = 1;  // the pixels were multiplied by it
+  // Rows of the file are columns; they go from right to left, or from the bottom up.
+  bool is_transposed = false, from_right = false, from_below = false;
+  bool is_turned() const { return is_transposed || from_right || from_below; }
+};
+
+// `bytes`: the beginning of the file. What is missing is as usual: exposure 1, "-Y height +X width".
+RadianceHeader radiance_header(std::string_view bytes);
+
+// Puts the pixels of a file of `width` × `height` into rows from the top, each from the left, and takes the
+// exposure away. Where the header transposes, width and height change places.
+void undo(const RadianceHeader& header, std::vector<float>& values, int& width, int& height, int channels);
+
+}  // namespace vitrail
