@@ -50,11 +50,14 @@ void measure(Comparison& c, const ZTestInput& input) {
       mean_error(squared_error);
       c.value = psnr_of_mse(c.value);
       return;
-    case Metric::bitwise:
+    case Metric::bitwise: {
+      const std::vector<double> beside = std::move(c.error_map);
       c.error_map = difference_map(*input.image, *input.reference);
+      for (std::size_t p = 0; p < beside.size(); ++p) c.error_map[p] = std::max(c.error_map[p], beside[p]);
       c.value = mean_of_valid(c.error_map);
       if (!c.threshold) c.threshold = 0;
       return;
+    }
     case Metric::ssim:
       c.error_map = ssim_map(*input.image, *input.reference);
       c.value = mean_of_valid(c.error_map);
@@ -83,10 +86,10 @@ bool means_agree(const Comparison& c) {
 }  // namespace
 
 Comparison compare(const ZTestInput& input, Metric metric, std::optional<double> threshold,
-                   std::optional<double> mean_within, std::vector<double> flip_map,
+                   std::optional<double> mean_within, std::vector<double> given_map,
                    std::optional<WelchTest> welch) {
   Comparison c;
-  c.error_map = std::move(flip_map);
+  c.error_map = std::move(given_map);
   c.welch = std::move(welch);
   c.metric = metric;
   c.threshold = threshold;

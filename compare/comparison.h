@@ -50,10 +50,11 @@ struct Comparison {
 
 // The images of `input` by a metric; its variances are needed by ztest alone. Without a threshold, ztest has
 // ztest_tolerated, bitwise 0, welch its allowed distance, and the others pass. FLIP looks at a pixel's
-// neighbours: where pixels are left out, `flip_map` is that of the whole images without them (flip.h); empty:
-// hdr_flip of the images given. `welch`: the test of that name, which is not made here.
+// neighbours: where pixels are left out, `given_map` is that of the whole images without them (flip.h);
+// empty: hdr_flip of the images given. For bitwise it is 1 at pixels that differ in more than their colours.
+// `welch`: the test of that name, which is not made here.
 Comparison compare(const ZTestInput& input, Metric metric, std::optional<double> threshold,
-                   std::optional<double> mean_within = std::nullopt, std::vector<double> flip_map = {},
+                   std::optional<double> mean_within = std::nullopt, std::vector<double> given_map = {},
                    std::optional<WelchTest> welch = std::nullopt);
 
 // A few lines for people; one JSON object for programs (numbers that are not finite become null).

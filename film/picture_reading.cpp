@@ -71,10 +71,12 @@ void read_spectrum(Picture& picture, const PictureFile& file, const std::vector<
   picture.spectrum = select_channels(file, values, channels);
 }
 
-// Layers of sums, which are floats. Ids are read as floats, too, and of those not all have 32 bits.
+// Layers of sums, which are floats; alpha may be integers. Ids are read as floats, too, and of those not all
+// have 32 bits.
 void read_layers(Picture& picture, const PictureFile& file, const std::vector<float>& values) {
   for (const LayerKind& kind : layer_kinds)
-    for (std::size_t i = 0; i < kind.sums && !file.are_integers; ++i)
+    for (std::size_t i = 0; i < kind.sums && (!file.are_integers || std::string_view(kind.name) == "alpha");
+         ++i)
       if (const int channel = channel_named(file, kind.channels[i]); channel >= 0)
         picture.layers.push_back(
             {kind.channels[i], false, select_channels(file, values, std::span(&channel, 1)).values, {}});
@@ -99,7 +101,13 @@ Picture read_picture(const std::filesystem::path& path) {
   };
   const auto at_least_1 = [](double v) { return std::isfinite(v) ? std::max(v, 1.0) : 1; };
   Picture picture;
-  picture.rgb = select_channels(file, values, color_channels(file));
+  const std::array<int, 3> colors = color_channels(file);
+  if (const PictureFile::Channel& first = file.channels.at(static_cast<std::size_t>(colors[0]));
+      first.is_id && first.name != "R")
+    throw Error(fmt::format("its channel \"{}\" holds whole numbers of 32 bits, which are ids and no light",
+                            first.name),
+                {path.string()});
+  picture.rgb = select_channels(file, values, colors);
   if (file.are_integers)
     for (float& v : picture.rgb.values) v = static_cast<float>(srgb_decode(static_cast<double>(v)));
   if (const int variance = channel_named(file, "Variance.Y"); variance >= 0)

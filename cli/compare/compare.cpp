@@ -103,7 +103,7 @@ int run(const CompareArguments& options) {
           neighbours_of_mean(image, reference)};
   Comparison comparison =
       compare(test, *metric, options.fail_above, options.mean_within,
-              without(flip_map(options, image.rgb, reference.rgb), mask),
+              without(given_map(options, image, reference), mask),
               metric == Metric::welch ? std::optional(welch_test_of(image, reference)) : std::nullopt);
   const std::size_t compared = comparison.error_map.size();
   const std::vector<double> map = spread(comparison.error_map, mask);

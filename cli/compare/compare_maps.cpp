@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/compare/compare_maps.h"
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
 #include "cli/compare/compare_variances.h"
 #include "compare/comparison_page.h"
 #include "compare/error_images.h"
@@ -19,12 +23,28 @@ void write_map(const std::filesystem::path& file, const Image& numbers, const Im
   write_picture(file, picture);
 }
 
+const std::vector<float>* alpha_of(const Picture& picture) {
+  const auto found = std::ranges::find(picture.layers, "A", &PictureChannel::name);
+  return found == picture.layers.end() ? nullptr : &found->values;
+}
+
+std::vector<double> alpha_differences(const Picture& image, const Picture& reference) {
+  const auto *a = alpha_of(image), *b = alpha_of(reference);
+  if (!a || !b || a->size() != b->size()) return {};
+  std::vector<double> differs(a->size());
+  for (std::size_t p = 0; p < differs.size(); ++p)
+    differs[p] = std::bit_cast<std::uint32_t>((*a)[p]) != std::bit_cast<std::uint32_t>((*b)[p]) ? 1 : 0;
+  return differs;
+}
+
 }  // namespace
 
-std::vector<double> flip_map(const CompareArguments& options, const Image& image, const Image& reference) {
+std::vector<double> given_map(const CompareArguments& options, const Picture& image,
+                              const Picture& reference) {
+  if (options.metric == "bitwise") return alpha_differences(image, reference);
   if (options.metric != "flip") return {};
-  return of_low_range(options) ? ldr_flip(image, reference, options.pixels_per_degree)
-                               : hdr_flip(image, reference, options.pixels_per_degree);
+  return of_low_range(options) ? ldr_flip(image.rgb, reference.rgb, options.pixels_per_degree)
+                               : hdr_flip(image.rgb, reference.rgb, options.pixels_per_degree);
 }
 
 void write_maps(const CompareArguments& options, const Comparison& c, const Picture& image,

@@ -7,8 +7,10 @@
 
 namespace vitrail {
 
-// FLIP of each pixel, where that is the metric; else empty.
-std::vector<double> flip_map(const CompareArguments& arguments, const Image& image, const Image& reference);
+// What `compare` takes beside the colours of each pixel: FLIP where that is the metric; for bitwise, 1 where
+// alpha differs, if both pictures have it. Else it is empty.
+std::vector<double> given_map(const CompareArguments& arguments, const Picture& image,
+                              const Picture& reference);
 
 // What --heatmap, --signed-map and --html ask for. The comparison's map has a value a pixel of the images.
 void write_maps(const CompareArguments& arguments, const Comparison& comparison, const Picture& image,

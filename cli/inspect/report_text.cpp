@@ -22,8 +22,12 @@ bool is_table(const Report& j) { return j.is_array() && !j.empty() && j[0].is_ob
 struct Words {
   std::string folder;  // with its last slash; empty: none
   std::string shortened(std::string text) const {
+    const auto begins_a_path = [&](std::size_t at) {
+      return at == 0 || std::string_view(" \"'(=:,").find(text[at - 1]) != std::string_view::npos;
+    };
     if (!folder.empty())
-      for (std::size_t at; (at = text.find(folder)) != std::string::npos;) text.erase(at, folder.size());
+      for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;)
+        begins_a_path(at) ? void(text.erase(at, folder.size())) : void(++at);
     return text;
   }
   std::string of(const std::string& key, const Report& j) const;

@@ -123,6 +123,19 @@ TEST_F(InspectJson, ALampHasAShapeAndAMaterial) {
   EXPECT_TRUE(lights[1]["shape"].is_null() && lights[1]["material"].is_null());
 }
 
+// A folder of a short name is within many a path.
+TEST_F(InspectJson, PathsLoseTheFolderOfTheSceneAlone) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path folder = directory / "s";
+  std::filesystem::create_directories(folder / "mas" / "x");
+  std::ofstream(folder / "a.obj")
+      << "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
+  std::ofstream(folder / "a.mtl") << "newmtl m\nmap_Kd mas/x/gone.png\n";
+  const std::string text =
+      run(fmt::format("cd '{}' && {} s/a.obj", directory.path().string(), vitrail("inspect"))).output;
+  EXPECT_THAT(text, HasSubstr("mas/x/gone.png"));
+}
+
 TEST_F(InspectJson, TheTextBeginsWithASummary) {
   const std::string text = run(fmt::format("{} '{}'", vitrail("inspect"), scene_)).output;
   EXPECT_THAT(text, StartsWith("size: "));

@@ -52,6 +52,27 @@ TEST_F(ImagePrograms, DevelopMergesSeedsInAnyOrder) {
   EXPECT_NEAR(picture.rgb.values[0], 2, 1e-5);
 }
 
+TEST_F(ImagePrograms, BitwiseLooksAtAlpha) {
+  Picture picture;
+  picture.rgb = black_image(2, 1, 3);
+  picture.window = {0, 2, 0, 1};
+  picture.full_width = 2, picture.full_height = 1;
+  const auto write = [&](const char* name, float alpha) {
+    picture.layers = {{"A", false, {1, alpha}, {}}};
+    write_picture(directory_ / name, picture);
+    return quoted(name);
+  };
+  for (const char* kind : {".exr", ".png"}) {
+    const std::string a = write(("a" + std::string(kind)).c_str(), 1),
+                      b = write(("b" + std::string(kind)).c_str(), .5f);
+    EXPECT_EQ(compare(a + ' ' + a + " --metric bitwise").status, 0);
+    const CommandResult differs = compare(a + ' ' + b + " --metric bitwise");
+    EXPECT_EQ(differs.status, 1) << kind;
+    EXPECT_THAT(differs.output, HasSubstr("0.5")) << "one of two pixels";
+    EXPECT_EQ(compare(a + ' ' + b + " --metric mse --fail-above 0").status, 0) << "colours alone";
+  }
+}
+
 TEST_F(ImagePrograms, FilmsThatAreNotFinishedAreNamedOrRefused) {
   const std::string a = film("a.film", 1);
   FilmProgress progress;
