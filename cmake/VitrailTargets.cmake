@@ -78,12 +78,12 @@ function(vitrail_program verb)
   set_property(GLOBAL APPEND PROPERTY VITRAIL_VERBS ${verb})
 endfunction()
 
-# vitrail_test(NAME LABEL l SOURCES … LIBRARIES … [TIMEOUT s] [ALONE]): tests of these sources, registered with ctest, and the
+# vitrail_test(NAME LABEL l SOURCES … LIBRARIES … [TIMEOUT s] [COST s] [ALONE]): tests of these sources, registered with ctest, and the
 # program test_NAME that runs them. All tests of a folder of tests/ are linked into one program, test_in_FOLDER, of which
 # test_NAME is a link: it looks up which files are NAME's. ALONE: a program of its own. The limit of time is one that only
-# a hang reaches.
+# a hang reaches. COST: about how long the test takes; the longest begin first, so that none is left alone at the end.
 function(vitrail_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "ALONE" "LABEL;TIMEOUT" "SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALONE" "LABEL;TIMEOUT;COST" "SOURCES;LIBRARIES")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 600)
   endif()
@@ -112,6 +112,9 @@ function(vitrail_test name)
   target_link_libraries(${program} PRIVATE ${arg_LIBRARIES})
   add_test(NAME ${name} COMMAND ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/test_${name})
   set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
+  if(arg_COST)
+    set_tests_properties(${name} PROPERTIES COST ${arg_COST})
+  endif()
 endfunction()
 
 # Release tests release's libraries; the tests' own lines compile in five sixths of the time without the dearest passes.

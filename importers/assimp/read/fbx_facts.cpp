@@ -60,7 +60,9 @@ void add_target_of_text(std::string_view bytes, std::size_t at, FbxFacts& facts)
   const std::string_view line = line_around(bytes, at);
   const std::size_t first = line.find("\"OP\""), comma = line.find(',', first);
   if (first == std::string_view::npos || comma == std::string_view::npos) return;
-  const std::size_t second = line.find(',', comma + 1), third = line.find(',', second + 1);
+  const std::size_t second = line.find(',', comma + 1);
+  if (second == std::string_view::npos) return;
+  const std::size_t third = line.find(',', second + 1);
   if (third == std::string_view::npos) return;
   const auto trimmed = [&](std::size_t from, std::size_t to) {
     while (from < to && line[from] == ' ') ++from;
@@ -109,7 +111,9 @@ FbxFacts fbx_facts(std::string_view bytes) {
   constexpr std::string_view look_at = "LookAtProperty", projection = "CameraProjectionType";
   const bool is_binary = bytes.starts_with("Kaydara FBX Binary");
   FbxFacts facts;
+  int left = 1000;  // each looks for two names in all of the file
   each(bytes, look_at, [&](std::size_t at) {
+    if (left-- <= 0) return;
     is_binary ? add_target_of_binary(bytes, at, facts) : add_target_of_text(bytes, at, facts);
   });
   facts.targets.erase("");
