@@ -219,7 +219,7 @@ TEST(KeptInstances, OutOfCore) {
       films.render(films.bundle("flat.vit", {.domains = 1, .flatten = true}), 1, 2);
   const TemporaryDirectory directory;
   const PartitionStats stats =
-      partition(scene, directory / "kept.vit", {.domains = 16, .memory_bytes = 46 * mib});
+      partition(scene, directory / "kept.vit", {.domains = 16, .memory_bytes = 56 * mib});
   EXPECT_GT(stats.buckets, 1u);
   EXPECT_GT(stats.instances, 60u);
   const nlohmann::json kept = films.render(directory / "kept.vit", 1, 2);
