@@ -156,7 +156,7 @@ TEST_F(OnePictureOfMotion, OutOfCore) {
                            1.0f,
                            translate({0, 0, -6}) * scale({4, 4, 1})});
   const std::string film = render(bundle("whole.vit", {.domains = 1}), 1);
-  const auto parts = bundle("parts.vit", {.domains = 16, .memory_bytes = std::uint64_t{46} << 20});
+  const auto parts = bundle("parts.vit", {.domains = 16, .memory_bytes = std::uint64_t{56} << 20});
   EXPECT_GT(stats_.buckets, 1u);
   EXPECT_EQ(render(parts, 1), film);
 }
