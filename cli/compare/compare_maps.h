@@ -7,8 +7,8 @@
 
 namespace vitrail {
 
-// What `compare` takes beside the colours of each pixel: FLIP where that is the metric; for bitwise, 1 where
-// alpha differs, if both pictures have it. Else it is empty.
+// This is what `compare` takes beside the colours of each pixel: FLIP where that is the metric; for bitwise,
+// 1 where alpha differs, if both pictures have it. Else it is empty.
 std::vector<double> given_map(const CompareArguments& arguments, const Picture& image,
                               const Picture& reference);
 

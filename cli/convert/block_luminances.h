@@ -14,7 +14,7 @@ struct SmallPicture {
   static constexpr int block = 8;
 };
 
-// Of each pixel of a small picture.
+// These are the luminances of the pixels of a small picture, row by row.
 struct Luminances {
   std::vector<double> means;
   std::vector<double> noise;  // standard errors; empty: not known
@@ -24,13 +24,13 @@ struct Luminances {
 // Throws Error where it has another size.
 std::vector<double> block_luminances(const std::filesystem::path& picture, SmallPicture size);
 
-// Whether `a` shows what `b` shows: beyond four or five standard errors of what is known of their noise, the
-// means differ by no more than `tolerance`, each pixel by no more than five times that. A dark pixel counts
-// as a twentieth of the mean.
+// Says whether `a` shows what `b` shows. The means may differ by `tolerance` and four standard errors, each
+// pixel by five times as much and five of its own; noise that is not known is none. A dark pixel counts as a
+// twentieth of the mean.
 //
-//   {"luminance_ratio": 1.0003, "mean_noise": 0.0007, "worst_pixel": 0.004, "pixel_noise": 0.002,
-//   "tolerance":
-//    0.02, "passed": true}
+//   {"luminance_ratio": 1.0003, "worst_pixel": 0.004, "tolerance": 0.02, "passed": true, "mean_noise":
+//   0.0007,
+//    "pixel_noise": 0.002}
 //
 // Both black: passed, without a ratio. Values of `a` that are no numbers: not passed, with "said".
 nlohmann::ordered_json compare_luminances(const Luminances& a, const Luminances& b, double tolerance);

@@ -2,14 +2,15 @@
 #include "cli/convert/own_picture.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
+#include <utility>
 
 #include "cli/common/run_program.h"
 #include "scene/system/diagnostics.h"
@@ -67,23 +68,34 @@ std::string resized(std::string text, SmallPicture size) {
   return is_sized ? std::regex_replace(text, crop, "") : "";
 }
 
+// A file that is gone whichever way its scope is left.
+struct RemovedAtEnd {
+  fs::path file;
+  explicit RemovedAtEnd(fs::path path) : file(std::move(path)) {}
+  RemovedAtEnd(const RemovedAtEnd&) = delete;
+  RemovedAtEnd& operator=(const RemovedAtEnd&) = delete;
+  ~RemovedAtEnd() {
+    std::error_code ignored;
+    fs::remove(file, ignored);
+  }
+};
+
 // Twice, by two seeds, whose difference is the noise.
 OwnPicture by_pbrt(const std::string& program, const fs::path& scene, SmallPicture size,
                    const TemporaryFolder& folder) {
   const std::string text = resized(text_of(scene.string()), size);
   if (text.empty()) return {{}, "its main file does not say how large its picture is", false};
-  const fs::path copy = scene.parent_path() / fmt::format(".{}-{}", scene.stem().string(), "compared.pbrt");
-  std::ofstream(copy) << text;
+  const RemovedAtEnd copy{scene.parent_path() /
+                          fmt::format(".{}-{}-compared.pbrt", scene.stem().string(), ::getpid())};
+  std::ofstream(copy.file) << text;
   OwnPicture pictures[2];
   for (int seed = 0; seed < 2; ++seed) {
     const std::string picture = folder.file(fmt::format("{}-{}.exr", scene.stem().string(), seed));
     pictures[seed] = run_to_show({program, "--quiet", "--spp", "16", "--seed", std::to_string(seed),
-                                  "--outfile", picture, copy.string()},
+                                  "--outfile", picture, copy.file.string()},
                                  picture, size, folder);
     if (pictures[seed].luminances.means.empty()) break;
   }
-  std::error_code ignored;
-  fs::remove(copy, ignored);
   for (const OwnPicture& picture : pictures)
     if (picture.luminances.means.empty()) return picture;
   Luminances& both = pictures[0].luminances;
@@ -109,9 +121,8 @@ OwnPicture by_mitsuba(const std::string& python, const fs::path& scene, SmallPic
       python,
       {scene.string(), "-", std::to_string(size.width), std::to_string(size.height), std::to_string(samples)},
       folder);
-  if (answer.is_missing || answer.json.empty()) return {{}, answer.said, answer.is_missing};
-  const auto found = nlohmann::json::parse(answer.json);
-  const auto& spectral = found.at("variants").back();
+  if (answer.json.is_null()) return {{}, answer.said, answer.is_missing};
+  const auto& spectral = answer.json.at("variants").back();
   if (!spectral.contains("luminances")) return {{}, spectral.value("said", "nothing was said"), false};
   return {{spectral.at("luminances"), spectral.at("noise")}, {}, false};
 }
@@ -144,10 +155,10 @@ Answer ask_mitsuba(const std::string& python, const std::vector<std::string>& wo
   all.insert(all.end(), words.begin(), words.end());
   const ForeignEnd end = run_foreign(all, said, errors);
   if (!end.found) return {{}, python + " is not there", true};
-  const auto result = nlohmann::json::parse(text_of(said), nullptr, false);
+  auto result = nlohmann::ordered_json::parse(text_of(said), nullptr, false);
   if (end.status != 0 || !result.is_object()) return {{}, last_words(errors), false};
   if (result.contains("missing")) return {{}, result.at("missing"), true};
-  return {result.dump(), {}, false};
+  return {std::move(result), {}, false};
 }
 
 std::string last_words(const std::string& file) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -30,15 +31,17 @@ struct OwnPicture {
 OwnPicture own_picture(const std::filesystem::path& scene, const std::string& program, SmallPicture size,
                        const TemporaryFolder& folder);
 
-// What mitsuba_peer.inc answers as JSON, or the words of a program that fails. `words` follow the script.
+// This is what mitsuba_peer.inc answers, or null and the words of a program that fails.
 struct Answer {
-  std::string json, said;
+  nlohmann::ordered_json json;
+  std::string said;
   bool is_missing = false;
 };
+// Runs the script with `words` as its arguments.
 Answer ask_mitsuba(const std::string& python, const std::vector<std::string>& words,
                    const TemporaryFolder& folder);
 
-// The line of a program's words that says what is wrong: the last that has the word, else the last.
+// Returns the line of a program's words that says what is wrong: the last that has "Error", else the last.
 std::string last_words(const std::string& file);
 
 }  // namespace vitrail

@@ -110,7 +110,7 @@ Json asked(const PeerCheck& check, const std::string& python, SmallPicture size,
                                      std::to_string(size.height), std::to_string(samples)},
                                     folder);
   if (answer.is_missing) return {{"missing", answer.said}};
-  if (!answer.json.empty()) return Json::parse(answer.json);
+  if (!answer.json.is_null()) return answer.json;
   return {{"variants", {{{"variant", "any"}, {"loads", false}, {"passed", false}, {"said", answer.said}}}}};
 }
 
@@ -241,6 +241,8 @@ std::string variant_in_words(const std::string& name, const Json& v) {
 Json check_in_peer(const PeerCheck& check, const FilmSettings& film) {
   const OwnProgram& peer = peer_of(check.out);
   const std::string program = check.program.empty() ? peer.usual : check.program;
+  if (!check.program_of_input.empty() && own_program(check.in) == &peer)
+    throw UsageError("--peer-of-input: input and output are of one program; name it by --peer");
   const TemporaryFolder folder;
   Json found{{"name", peer.name}};
   if (std::string_view(peer.name) == "Mitsuba")

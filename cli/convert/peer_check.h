@@ -14,8 +14,8 @@ namespace vitrail {
 struct PeerCheck {
   std::filesystem::path in, out;
   std::vector<std::string> options;  // of reading `in`
-  // Of what was written and, of another format, of the input: Python with Mitsuba, povray or pbrt; empty: the
-  // usual one on the path.
+  // These are asked about what was written and, where it is of another format, about the input: a Python with
+  // Mitsuba, povray or pbrt. Empty ones are the usual ones on the path.
   std::string program, program_of_input;
 };
 

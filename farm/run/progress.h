@@ -40,7 +40,7 @@ class Progress {
 void print_start(const RenderOptions& options, const Manifest& manifest, const Goal& goal, int ranks,
                  int threads);
 void print_end(const RenderOptions& options, const RenderStats& stats);
-// Where more than a hundredth of the sunlight in glass met faces that are not parallel, which only
+// Says so where more than a hundredth of the sunlight in glass met faces that are not parallel, which only
 // photons pass.
 void print_wedges(const RenderOptions& options, const TraceCounters& traced);
 

@@ -32,7 +32,8 @@ struct Builder {
   Scene& scene;
   Report& report;
   std::map<const Object*, Id<Material>> materials;
-  // Of shapes without a bsdf; 1: that shine; 2: that bound a medium in old files.
+  // These are given to shapes without a bsdf: 1 to those that shine, 2 to those that bound a medium in old
+  // files.
   std::array<std::optional<Id<Material>>, 3> default_materials{};
   // One for each of the scene's materials (scene/records/material_traits.h).
   std::vector<MaterialTraits> traits;

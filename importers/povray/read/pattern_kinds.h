@@ -16,7 +16,7 @@ std::optional<PatternTexture::Kind> pattern_kind(Word word);
 PatternTexture record_of(const Pattern& pattern);
 // `none` is what the pattern has by default.
 PatternTexture::Wave wave_of(Word wave, Word pattern);
-// Whether `turbulence` does something else to it than a warp of turbulence.
+// Returns whether `turbulence` does something else to it than a warp of turbulence.
 bool is_turbulent_by_itself(PatternTexture::Kind kind);
 // Whether noise shows in it.
 bool is_of_noise(const PatternTexture& texture);

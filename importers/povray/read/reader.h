@@ -80,7 +80,7 @@ class Reader {
   [[noreturn]] void fail(const std::string& message, const Place& place);
   // Of objects, textures and brackets within each other.
   [[noreturn]] void too_deep(const Place& place);
-  // Of things that are declared of each other (levels.h).
+  // Throws Error: things are declared of each other to more levels than `most` (levels.h).
   [[noreturn]] void too_many_levels(int most);
   int function_levels = 0;  // the most of a function that was read for the object that is
   [[noreturn]] void unexpected(const Token& token, const std::string& wanted);
