@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "importers/mitsuba/read/bsdf_models.h"
 #include "importers/mitsuba/read/index_of_refraction.h"
 #include "importers/reading/suggestion.h"
@@ -10,10 +12,26 @@ namespace vitrail::mitsuba {
 
 namespace {
 
+// Mitsuba takes the number in its rgb variants; its spectral ones bring it into [0,1] as a reflectance.
+void note_numbers_above_one(Builder& b, const Object& o, const char* name, const SpectrumParameter& value) {
+  const auto* spectrum = std::get_if<Spectrum>(&value);
+  const auto* colour = spectrum ? std::get_if<RgbUnboundedSpectrum>(spectrum) : nullptr;
+  if (colour && std::ranges::max(colour->rgb) > 1)
+    b.report.approximated(
+        fmt::format("{} above 1 as an rgb: as it is, as in Mitsuba's rgb variants; its spectral ones take 1",
+                    name),
+        place_of(o, name));
+}
+
+SpectrumParameter index_part(Builder& b, const Object& o, const char* name, float otherwise) {
+  const SpectrumParameter value =
+      spectrum_parameter(b, o, name, Quantity::unbounded, ConstantSpectrum{otherwise});
+  note_numbers_above_one(b, o, name, value);
+  return value;
+}
+
 Metal metal_of(Builder& b, const Object& o) {
-  if (o.has("eta") || o.has("k"))
-    return ComplexIndex{spectrum_parameter(b, o, "eta", Quantity::unbounded, ConstantSpectrum{0}),
-                        spectrum_parameter(b, o, "k", Quantity::unbounded, ConstantSpectrum{1})};
+  if (o.has("eta") || o.has("k")) return ComplexIndex{index_part(b, o, "eta", 0), index_part(b, o, "k", 1)};
   const std::string name = o.text("material", "none", b.report);
   if (name == "none") return PerfectReflector{};
   const std::string eta = fmt::format("metal-{}-eta", name), k = fmt::format("metal-{}-k", name);

@@ -155,6 +155,13 @@ LightModel directional(Builder& builder, const Object& emitter) {
   const Vector3d along = unit(direction);
   if (!(length(along) > 0))
     builder.report.fail("the direction of a light has no length", place_of(emitter, "direction"));
+  if (const double size = length(direction); !emitter.has("direction") && std::abs(size - 1) > 1e-3)
+    builder.report.approximated(
+        fmt::format(
+            "to_world scales a directional light by {:.4g}: the irradiance holds as it is given; Mitsuba "
+            "multiplies what diffuse surfaces have of it",
+            size),
+        place_of(emitter, "to_world"));
   return DistantLight{along, emission(builder, emitter, "irradiance")};
 }
 

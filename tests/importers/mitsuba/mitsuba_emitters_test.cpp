@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights from Mitsuba's emitters: by definition, and back from what write_mitsuba writes.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <numbers>
@@ -38,6 +39,10 @@ class MitsubaEmitters : public testing::Test {
       if (words.empty() || d.message.find(words) == std::string::npos) ADD_FAILURE() << d.message;
   }
   void read_text(const std::string& xml) { read(load_objects_of_text(xml)); }
+  void read_file(const std::string& elements) {
+    diagnostics_ = read_mitsuba(folder_.write("file.xml", "<scene version='3.0.0'>" + elements + "</scene>"))
+                       .diagnostics;
+  }
   template <class T>
   T light(const std::string& xml) {
     read_text(xml);
@@ -142,6 +147,31 @@ TEST_F(MitsubaEmitters, WrittenAreaLightsComeBack) {
   }
   EXPECT_EQ(written_and_read(original).area_lights, original.area_lights);
   expect_only("directionalarea");
+}
+
+// Mitsuba gives diffuse surfaces that many times the light; a metal has it as it is given.
+TEST_F(MitsubaEmitters, AScaledDirectionIsTold) {
+  const std::string begin = "<emitter type='directional'><transform name='to_world'>",
+                    end = "<rotate x='1' angle='120'/></transform></emitter>";
+  read_file(begin + end);
+  EXPECT_THAT(diagnostics_, testing::Not(says("scales a directional light")));
+  read_file(begin + "<scale value='5'/>" + end);
+  EXPECT_THAT(diagnostics_, says("scales a directional light by 5"));
+}
+
+// Numbers of an index may be above 1: the rgb variants take them, the spectral ones clamp them.
+TEST_F(MitsubaEmitters, AnIndexAboveOneIsTold) {
+  const auto metal = [&](const char* k) {
+    read_file(
+        fmt::format("<shape type='sphere'><bsdf type='conductor'><rgb name='eta' value='.2,.9,1'/>"
+                    "<rgb name='k' value='{}'/></bsdf></shape>",
+                    k));
+  };
+  metal(".5,.2,1");
+  EXPECT_THAT(diagnostics_, testing::Not(says("above 1 as an rgb")));
+  metal("3.5,2.4,1.8");
+  EXPECT_THAT(diagnostics_, says("k above 1 as an rgb"));
+  EXPECT_THAT(diagnostics_, testing::Not(says("eta above 1")));
 }
 
 TEST_F(MitsubaEmitters, PlacesByTransform) {
