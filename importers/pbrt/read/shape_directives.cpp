@@ -6,6 +6,7 @@
 #include <set>
 
 #include "importers/pbrt/read/directives.h"
+#include "importers/pbrt/read/turning_motion.h"
 #include "scene/records/material_traits.h"
 
 namespace vitrail::pbrt {
@@ -165,6 +166,8 @@ void Interpreter::object_instance(const Place& place) {
   if (slot == next) scene_.prototypes.push_back({});
   auto& instances = current_object_ ? scene_.prototypes[*current_object_].instances : scene_.instances;
   const Placing& at = placing(place);
+  if (at.motion && turns(scene_.motions[at.motion->value]))
+    context_.report.approximated(turned_by_camera, place);
   instances.push_back({Id<Prototype>{slot}, at.at_open, origin(place), at.motion});
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "importers/pbrt/read/mesh_fronts.h"
+#include "importers/pbrt/read/turning_motion.h"
 #include "importers/pbrt/write/write_curves.h"
 #include "importers/pbrt/write/write_images.h"
 #include "importers/writing/placed_quadric.h"
@@ -141,7 +142,16 @@ class ShapeWriter {
         uv_uses_of_curves_(w.scene, true),
         hair_(with_hair(w.scene.materials, true)) {}
 
-  void write(const Shape& shape) {
+  // Where pbrt has it in a space of its own, before its transform.
+  bool is_placed(const Shape& shape) {
+    if (const auto quadric = placed_quadric(w_.scene, shape, QuadricUv::pbrt, uv_uses_))
+      if (const auto as = written(*quadric, shape.area_light.has_value(), uvs_show_[shape.mesh.value]))
+        return as->to_world != Transform{};
+    return shape.object_to_world != Transform{};
+  }
+
+  // `moving`: the instance that moves it, of a shape that has no transform of its own.
+  void write(const Shape& shape, const Instance* moving = nullptr) {
     const ShapeSurface surface = surface_of(w_, shape);
     Parameters p(w_, "shape", shape.origin, RecordKind::shape);
     w_.begin("AttributeBegin");
@@ -153,7 +163,10 @@ class ShapeWriter {
     if (shape.area_light) w_.line(area_light(*shape.area_light));
     const bool curves = is_of_curves(w_.scene, shape) && !shape.area_light;
     const Written as = curves ? Written{{}, shape.object_to_world} : surface_written(shape, p);
-    w_.transform(as.to_world);
+    if (moving)
+      w_.transforms(w_.scene.motions.at(moving->motion->value), moving->origin, RecordKind::instance);
+    else
+      w_.transform(as.to_world);
     if (as.reversed) w_.line("ReverseOrientation");
     if (surface.alpha != FloatParameter{1.0f}) p.number("alpha", surface.alpha);
     if (curves) {
@@ -240,18 +253,41 @@ class ShapeWriter {
   std::map<std::uint32_t, std::string> area_lights_;  // their directives
 };
 
-// pbrt leaves out area lights in objects: what shines is written with every instance.
-void write_instance(Writer& w, ShapeWriter& shapes, const Instance& instance) {
-  const Prototype& prototype = w.scene.prototypes.at(instance.prototype.value);
+// Of each instance that turns, whether its shapes are written where they are, each with the motion: those
+// that the file has as shapes, with no transform of their own.
+std::vector<bool> moved_as_shapes(const Scene& scene, ShapeWriter& shapes) {
+  std::vector<bool> result;
+  for (const Instance& instance : scene.instances) {
+    const Prototype& prototype = scene.prototypes[instance.prototype.value];
+    result.push_back(
+        instance.motion && turns(scene.motions.at(instance.motion->value)) && prototype.name.empty() &&
+        std::ranges::none_of(prototype.shapes, [&](const Shape& shape) { return shapes.is_placed(shape); }));
+  }
+  return result;
+}
+
+void write_object_instance(Writer& w, const Instance& instance) {
   w.begin("AttributeBegin");
-  if (instance.motion)
-    w.transforms(w.scene.motions.at(instance.motion->value), instance.origin, RecordKind::instance);
-  else
+  if (instance.motion) {
+    const Motion& motion = w.scene.motions.at(instance.motion->value);
+    w.transforms(motion, instance.origin, RecordKind::instance);
+    if (turns(motion)) w.approximated(turned_by_camera, instance.origin, RecordKind::instance);
+  } else {
     w.transform(instance.prototype_to_world);
+  }
   w.line("ObjectInstance " + in_quotes(w.objects.at(instance.prototype.value)));
   w.end("AttributeEnd");
+}
+
+// pbrt leaves out area lights in objects: what shines is written with every instance.
+void write_instance(Writer& w, ShapeWriter& shapes, const Instance& instance, bool as_shapes) {
+  const Prototype& prototype = w.scene.prototypes.at(instance.prototype.value);
+  if (!as_shapes) write_object_instance(w, instance);
   for (const Shape& of : prototype.shapes) {
-    if (!of.area_light) continue;
+    if (!of.area_light) {
+      if (as_shapes) shapes.write(of, &instance);
+      continue;
+    }
     Shape shape = of;
     shape.object_to_world = instance.prototype_to_world * of.object_to_world;
     if (swaps_handedness(instance.prototype_to_world)) shape.flip_orientation = !shape.flip_orientation;
@@ -265,14 +301,20 @@ void write_instance(Writer& w, ShapeWriter& shapes, const Instance& instance) {
 
 void write_shapes(Writer& w) {
   ShapeWriter shapes(w);
+  const std::vector<bool> as_shapes = moved_as_shapes(w.scene, shapes);
+  std::vector<bool> is_object(w.scene.prototypes.size(), true);
+  for (std::size_t i = 0; i < as_shapes.size(); ++i)
+    if (as_shapes[i]) is_object[w.scene.instances[i].prototype.value] = false;
   for (std::size_t i = 0; i < w.scene.prototypes.size(); ++i) {
+    if (!is_object[i]) continue;
     w.begin("ObjectBegin " + in_quotes(w.objects[i]));
     for (const Shape& shape : w.scene.prototypes[i].shapes)
       if (!shape.area_light) shapes.write(shape);
     w.end("ObjectEnd");
   }
   for (const Shape& shape : w.scene.shapes) shapes.write(shape);
-  for (const Instance& instance : w.scene.instances) write_instance(w, shapes, instance);
+  for (std::size_t i = 0; i < as_shapes.size(); ++i)
+    write_instance(w, shapes, w.scene.instances[i], as_shapes[i]);
 }
 
 }  // namespace vitrail::pbrt

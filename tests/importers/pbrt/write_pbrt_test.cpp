@@ -32,14 +32,30 @@ TEST(WritePbrt, Motion) {
       "shutterclose\" .7 ";
   const std::string world =
       "WorldBegin ObjectBegin \"a\" " + triangle +
-      "ObjectEnd AttributeBegin ActiveTransform EndTime Rotate 50 1 2 3 Translate 1 2 3 ActiveTransform All "
-      "Scale "
-      "2 1 1 ObjectInstance \"a\" AttributeEnd AttributeBegin ActiveTransform StartTime Translate 0 0 7.1 "
+      "ObjectEnd AttributeBegin ActiveTransform EndTime Translate 1 2 3 ActiveTransform All Scale 2 1 1 "
+      "ObjectInstance \"a\" AttributeEnd AttributeBegin ActiveTransform StartTime Translate 0 0 7.1 "
       "ActiveTransform All " +
       triangle + triangle + " AttributeEnd " + triangle;
   expect_exact(camera + "Film \"rgb\" \"float iso\" 250 " + world);
   expect_exact("Film \"rgb\" " + world);
   expect_exact(camera + "Film \"rgb\" WorldBegin " + triangle);
+}
+
+// pbrt moves a shape that turns as it is moved here, and an instance about its camera: a shape stays one.
+TEST(WritePbrt, MotionThatTurns) {
+  const std::string turning =
+      "AttributeBegin ActiveTransform StartTime Translate -1 0 0 ActiveTransform EndTime Translate 1 0 0 "
+      "Rotate 40 0 1 0 ActiveTransform All ";
+  expect_exact_world(turning + triangle + " AttributeEnd " + turning +
+                     " Shape \"sphere\" \"float radius\" .8 AttributeEnd");
+  const RoundTrip shapes = round_trip("Film \"rgb\" WorldBegin " + turning + triangle +
+                                      " Shape \"sphere\" \"float radius\" .8 AttributeEnd");
+  EXPECT_THAT(shapes.text, testing::Not(testing::HasSubstr("Object")));
+  const RoundTrip instance = expect_reported(
+      "ObjectBegin \"a\" " + triangle + "ObjectEnd " + turning + "ObjectInstance \"a\" AttributeEnd",
+      "pbrt turns it about its camera");
+  EXPECT_TRUE(mentions(instance.first.diagnostics, "pbrt turns it about its camera"));
+  EXPECT_EQ(test::difference(instance.first.scene, instance.second.scene), "");
 }
 
 // Keyframes of other times are looked up at those that are written.
