@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "film/develop.h"
@@ -26,6 +27,17 @@ Measured over_rows(const std::vector<double>& rows) {
   return result;
 }
 
+// Of one value in the sum of the squared differences from the mean.
+double share_of_greatest(const std::vector<double>& values) {
+  double mean = 0, squares = 0, greatest = 0;
+  for (const double x : values) mean += x / static_cast<double>(values.size());
+  for (const double x : values) {
+    const double square = (x - mean) * (x - mean);
+    squares += square, greatest = std::max(greatest, square);
+  }
+  return squares > 0 ? greatest / squares : 0;
+}
+
 }  // namespace
 
 std::vector<SensorReading> sensor_readings(const Film& film) {
@@ -45,11 +57,13 @@ std::vector<SensorReading> sensor_readings(const Film& film) {
   std::vector<SensorReading> readings;
   for (int x = 0; x < film.width(); ++x) {
     SensorReading reading;
-    std::vector<double> illuminance, melanopic, irradiance;
+    std::vector<double> illuminance, melanopic, irradiance, halves;
     for (int y = 0; y < film.height(); ++y) {
       const auto pixel = static_cast<std::uint32_t>(pixel_place(x, y, film.width()));
       if (film.samples(pixel) == 0) continue;
       reading.samples += film.samples(pixel);
+      const double light = film.mean(pixel).y, apart = std::sqrt(film.variance_of_mean(pixel));
+      halves.insert(halves.end(), {light - apart, light + apart});  // of two groups of samples
       illuminance.push_back(photometric(film.mean(pixel).y));
       double edi = 0, watts = 0;
       for (std::size_t b = 0; b < melanopic_of_bin.size(); ++b) {
@@ -60,6 +74,7 @@ std::vector<SensorReading> sensor_readings(const Film& film) {
       melanopic.push_back(edi);
       irradiance.push_back(watts);
     }
+    reading.greatest_share = share_of_greatest(halves);
     reading.illuminance_lx = over_rows(illuminance);
     reading.melanopic_edi_lx = over_rows(melanopic);
     reading.irradiance_w_m2 = over_rows(irradiance);

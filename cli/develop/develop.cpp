@@ -46,6 +46,22 @@ nlohmann::json sensors_of(const Exposed& film) {
   return sensors;
 }
 
+// Where light is found seldom, the error that is told is as uncertain as the mean.
+void warn_of_tails(const std::vector<SensorReading>& readings, const nlohmann::json& sensors) {
+  constexpr double most = 0.5;
+  const auto has_tail = [](const SensorReading& r) { return r.greatest_share > most; };
+  const auto first = std::ranges::find_if(readings, has_tail);
+  if (first == readings.end()) return;
+  const nlohmann::json& at = sensors[static_cast<std::size_t>(first - readings.begin())];
+  say("vitrail: the stated error is too small at {} of {} sensors, first at {} {} {}: one in 32 of the "
+      "samples "
+      "makes more than half of the scatter, as light is found seldom and strong. Give more --spp, or "
+      "--integrator "
+      "photon\n",
+      std::ranges::count_if(readings, has_tail), readings.size(), at[0].get<double>(), at[1].get<double>(),
+      at[2].get<double>());
+}
+
 void write_table(const std::string& output, const Exposed& film) {
   const nlohmann::json sensors = sensors_of(film);
   std::string text =
@@ -62,6 +78,7 @@ void write_table(const std::string& output, const Exposed& film) {
   AtomicFile file(output);
   file.write(std::as_bytes(std::span(text)));
   file.commit();
+  warn_of_tails(readings, sensors);
 }
 
 void denoise_by_guides(Picture& picture, const Denoiser& denoiser, bool quiet) {

@@ -166,12 +166,11 @@ PhotonKey photons_of(const PictureSettings& picture, const Manifest& m) {
   if (m.requirements.media)
     throw UsageError(
         "--integrator photon does not render media, and the scene has some: use --integrator path");
-  if (!picture.sensors.empty())
-    throw UsageError(
-        "with photon mapping the samples of --sensors would share photons, and their errors would be "
-        "unknown: use --integrator path");
   PhotonKey key;
   key.photons = o.photons.value_or(default_photons(m.film));
+  // Each row of sensors has as many (PhotonPass::Part).
+  if (std::holds_alternative<SensorCamera>(m.camera))
+    key.photons = (key.photons + sensor_rows - 1) / sensor_rows * sensor_rows;
   key.first_radius = o.first_radius.value_or(default_radius(m, key.photons));
   key.alpha = o.alpha.value_or(2.0 / 3);
   return key;

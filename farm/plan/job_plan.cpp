@@ -9,6 +9,7 @@
 #include "farm/plan/job_manifest.h"
 #include "film/picture_memory.h"
 #include "tracer/photons/photon_map.h"
+#include "tracer/photons/sensor_discs.h"
 
 namespace vitrail {
 
@@ -27,10 +28,16 @@ std::uint64_t map_bytes(const PixelRect& crop) {
          (held_and_more + finding_them);
 }
 
+// Of sensors that photons measure at.
+std::uint64_t disc_bytes(const Manifest& m, const FilmKey& key) {
+  const auto* camera = std::get_if<SensorCamera>(&m.camera);
+  return camera && key.photons.photons > 0 ? camera->sensors.size() * SensorDiscs::bytes_a_sensor : 0;
+}
+
 std::uint64_t base_bytes(const Manifest& m, const RenderOptions& options, const JobPlan& plan, int ranks) {
   const WorkPlan work = make_work_plan(m.film.crop, plan.goal.samples, {}, plan.goal.one_by_one);
   return plan.scene.resident + (plan.goal.adaptive ? map_bytes(m.film.crop) : 0) + list_bytes(work, ranks) +
-         table_bytes(m.domains.size(), plan.threads) + connection_bytes(ranks) +
+         table_bytes(m.domains.size(), plan.threads) + connection_bytes(ranks) + disc_bytes(m, plan.key) +
          (options.outputs.profile.empty() ? 0 : profile_bytes(m.domains.size(), plan.threads)) +
          (options.outputs.trace.empty() ? 0 : Timeline::most_bytes(ranks));
 }

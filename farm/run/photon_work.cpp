@@ -1,11 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/run/photon_work.h"
 
+#include "scene/models/sensor_file.h"
+
 namespace vitrail {
 
 namespace {
 
-Point3d eye_of(const Manifest& m) {
+std::vector<Sensor> sensors_of(const RenderScene& scene) {
+  std::vector<Sensor> sensors;
+  if (std::holds_alternative<SensorCamera>(scene.manifest.camera))
+    for (int x = 0; x < scene.manifest.film.width; ++x) sensors.push_back(*scene.camera.sensor(x));
+  return sensors;
+}
+
+// Where the light is to go that is seen.
+Point3d eye_of(const Manifest& m, const SensorDiscs& discs) {
+  if (std::holds_alternative<SensorCamera>(m.camera)) return discs.middle();
   const Transform& t =
       std::visit([](const auto& camera) -> const Transform& { return camera.camera_to_world; }, m.camera);
   return {t.m[0][3], t.m[1][3], t.m[2][3]};
@@ -18,7 +29,8 @@ PhotonWork::PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size
     : questions(most_question_bytes),
       scene_(scene),
       key_(key),
-      emission_(scene.lights, scene.manifest.bounds, eye_of(scene.manifest)),
+      discs_(sensors_of(scene)),
+      emission_(scene.lights, scene.manifest.bounds, eye_of(scene.manifest, discs_)),
       map_(most_landed),
       homes_(std::move(homes)),
       rank_(rank),
@@ -30,6 +42,10 @@ PhotonWork::PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size
   pass_.emission = &emission_;
   pass_.map = &map_;
   pass_.answers = &answers_;
+  if (std::holds_alternative<SensorCamera>(scene.manifest.camera)) {
+    pass_.sensors = &discs_;
+    pass_.parts.resize(sensor_rows);
+  }
 }
 
 std::vector<std::uint64_t> PhotonWork::chunks_of_this_rank() const {
@@ -48,9 +64,10 @@ void PhotonWork::begin_flying(std::uint32_t iteration) {
   pass_.flying = true;
   pass_.iteration = iteration;
   pass_.radius = radius_of(key_, iteration);
-  pass_.wavelength_number = wavelength_number(scene_.seed, iteration);
-  pass_.time_number = time_number(scene_.seed, iteration);
-  pass_.wavelengths = sample_wavelengths(pass_.wavelength_number);
+  for (std::uint32_t part = 0; part < pass_.parts.size(); ++part) {
+    const float number = wavelength_number(scene_.seed, iteration, part);
+    pass_.parts[part] = {number, time_number(scene_.seed, iteration, part), sample_wavelengths(number)};
+  }
   // Where a point is rounded to float decides nothing.
   reach_ = pass_.radius * (1 + 1e-6);
 }

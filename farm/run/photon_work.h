@@ -49,6 +49,7 @@ class PhotonWork {
  private:
   const RenderScene& scene_;
   PhotonKey key_;
+  SensorDiscs discs_;  // none, of a picture
   Emission emission_;
   PhotonMap map_;
   PhotonPass pass_;

@@ -105,6 +105,43 @@ TEST_F(Daylight, IlluminanceIsAsPrinted) {
   EXPECT_EQ(sensors, 5);
 }
 
+// A small lamp through a ball of glass, beside its image: some seeds find it once or twice, and say so. On
+// the open side the lamp is found by connections: nothing is said of that sensor.
+TEST_F(Daylight, WarnsOfLightThatIsFoundSeldom) {
+  std::ofstream(directory_ / "ball.pbrt") << R"(
+Integrator "path" "integer maxdepth" 5
+Camera "perspective"
+WorldBegin
+Material "diffuse" "rgb reflectance" [0 0 0]
+Shape "trianglemesh" "integer indices" [0 1 2] "point3 P" [-8 -8 -.5 8 -8 -.5 0 8 -.5]
+AttributeBegin
+Translate 0 0 1.2
+Material "dielectric" "float eta" 1.5
+Shape "sphere" "float radius" .5
+AttributeEnd
+AreaLightSource "diffuse" "rgb L" [400 400 400]
+Shape "trianglemesh" "integer indices" [0 2 1 0 3 2] "point3 P" [-.15 -.15 3 .15 -.15 3 .15 .15 3 -.15 .15 3]
+)";
+  std::ofstream(directory_ / "one.txt") << "6 0 0  0 0 1\n.3 0 0  0 0 1\n";
+  ASSERT_EQ(verb("partition", "ball.pbrt -o ball.vit --quiet").status, 0);
+  int warned = 0;
+  for (int seed = 0; seed < 8; ++seed) {
+    const CommandResult done =
+        verb("render", fmt::format("ball.vit --sensors one.txt -o one.csv --spp 64 --force --seed {}", seed));
+    ASSERT_EQ(done.status, 0) << done.output;
+    if (done.output.find("stated error") == std::string::npos) continue;
+    ++warned;
+    EXPECT_THAT(done.output, HasSubstr("too small at 1 of 2 sensors, first at 0.3 0 0"));
+  }
+  EXPECT_GE(warned, 1);
+  EXPECT_LT(warned, 8);
+  const CommandResult photons = verb("render",
+                                     "ball.vit --sensors one.txt -o one.csv --spp 16 --force "
+                                     "--integrator photon --photons 100000 --photon-radius 0.1");
+  EXPECT_EQ(photons.status, 0) << photons.output;
+  EXPECT_THAT(photons.output, Not(HasSubstr("stated error")));
+}
+
 TEST_F(Daylight, FalseColorsHaveAScale) {
   ASSERT_EQ(verb("render", fmt::format("scene.pbrt --sky {} -o a.film --spp 4 --quiet", paris)).status, 0);
   EXPECT_EQ(verb("develop", "a.film -o lum.png --false-color auto").status, 0);

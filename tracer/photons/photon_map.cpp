@@ -46,6 +46,11 @@ std::uint64_t PhotonMap::row(int axis, double coordinate) const {
   return static_cast<std::uint64_t>(std::clamp(cell, 0.0, 2 * most_cells - 1));
 }
 
+std::uint64_t PhotonMap::cell_of(const float (&p)[3]) const {
+  const auto at = [&](int axis) { return row(axis, static_cast<double>(p[axis])); };
+  return (at(2) << cell_bits | at(1)) << cell_bits | at(0);
+}
+
 void PhotonMap::build(double radius, const Bounds3f& bounds) {
   radius_ = radius;
   edge_ = 2 * radius;
@@ -56,10 +61,7 @@ void PhotonMap::build(double radius, const Bounds3f& bounds) {
           edge_,
           (static_cast<double>(bounds.upper[axis]) - static_cast<double>(bounds.lower[axis])) / most_cells);
   }
-  for (Placed& p : photons_) {
-    const auto at = [&](int axis) { return row(axis, static_cast<double>(p.photon.p[axis])); };
-    p.cell = (at(2) << cell_bits | at(1)) << cell_bits | at(0);
-  }
+  for (Placed& p : photons_) p.cell = cell_of(p.photon.p);
   std::ranges::sort(photons_, [](const Placed& a, const Placed& b) {
     if (a.cell != b.cell) return a.cell < b.cell;
     if (a.photon.number != b.photon.number) return a.photon.number < b.photon.number;

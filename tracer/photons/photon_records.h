@@ -12,7 +12,8 @@
 namespace vitrail {
 
 #pragma pack(push, 1)
-// Where a photon met a surface at which light is gathered.
+// Where a photon met a surface at which light is gathered. One that crossed the disc of a sensor has the
+// sensor's name (sensor_discs.h) in the place of its own point and direction.
 struct Photon {
   float p[3];
   DirectionCode direction;  // the way it travelled
@@ -28,7 +29,7 @@ struct Photon {
 };
 
 // What light a point of a diffuse surface, or of one below a smooth coat, gets that photons bring, and what
-// of it goes to the camera.
+// of it goes to the camera. Of a sensor, whose name are `p` and `out`, the normals and the shape are unused.
 struct Gather {
   float p[3];
   DirectionCode out, geometric, shading;  // towards the camera; normals on the side that is lit

@@ -14,6 +14,8 @@ inline bool gathers(const Scattering& scattering) {
 }
 void gather(Tracing& tracing, const CameraPath& path, const Interaction& at, const Scattering& scattering,
             Vector3d out);
+// The same at a sensor where a path begins.
+void gather_at_sensor(Tracing& tracing, const CameraPath& path, const Sensor& sensor);
 // What the map has for a path, wherever that ended.
 void answer(Tracing& tracing, const Gather& question);
 

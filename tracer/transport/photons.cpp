@@ -30,19 +30,30 @@ void begin(const Tracing& tracing, PhotonPath& photon) {
   const PhotonPass& pass = *tracing.photons;
   photon.key = photon_key(tracing.scene.seed, pass.iteration, photon.number);
   photon.seed = sample_seed(photon.key);
-  photon.time_s = time_of(tracing, photon.key);
-  photon.wavelengths = pass.wavelengths;
+  const PhotonPass::Part& part = pass.parts[pass.part_of_photon(photon.number)];
+  photon.time_s = tracing.requirements().motion ? time_at(tracing, part.time_number) : 0;
+  photon.wavelengths = part.wavelengths;
 }
 
-void land(Tracing& tracing, const PhotonPath& photon, const Interaction& at) {
+void land(Tracing& tracing, const PhotonPath& photon, Point3f p, DirectionCode direction) {
   Photon landed;
-  const Point3f p = cast<float>(at.p);
   landed.p[0] = p.x, landed.p[1] = p.y, landed.p[2] = p.z;
-  landed.direction = photon.direction;
+  landed.direction = direction;
   for (std::size_t i = 0; i < hero_count; ++i) landed.power[i] = photon.throughput.v[i];
   landed.number = photon.number;
   landed.depth = Photon::code_of(photon.depth, photon.dispersed);
   tracing.outbox.photons.push_back(landed);
+}
+
+// At the sensors whose discs it crosses on its way to what it has met.
+void land_at_sensors(Tracing& tracing, const PhotonPath& photon) {
+  const PhotonPass& pass = *tracing.photons;
+  pass.sensors->for_each_crossed(cast<double>(photon.ray.origin), cast<double>(photon.ray.direction),
+                                 photon.hit.t, pass.radius, [&](const SensorDiscs::Disc& disc) {
+                                   PhotonPath there = photon;
+                                   if (leave_pane(there) && !is_connected_to(tracing, there))
+                                     land(tracing, there, disc.name.p, disc.name.facing);
+                                 });
 }
 
 // One that scatters no more: whether it goes on behind the surface.
@@ -112,7 +123,8 @@ bool shade_event(Tracing& tracing, PhotonPath& photon, const Event& event) {
   }
   if ((at.front || !event.kind.smooth_dielectric) && !leave_pane(photon)) return false;
   // Before chance decides what of the surface is met: it decides once more for the path that gathers.
-  if (event.kind.diffuse && !is_connected_to(tracing, photon)) land(tracing, photon, at);
+  if (event.kind.diffuse && !tracing.photons->sensors && !is_connected_to(tracing, photon))
+    land(tracing, photon, cast<float>(at.p), photon.direction);
   if (misses(photon, opacity_at(tracing, event.surface, at))) {
     pass_straight(tracing, photon, at, nullptr);
     return true;
@@ -143,6 +155,7 @@ void follow(Tracing& tracing, PhotonPath& photon, std::optional<Arrival> at) {
       send(tracing, photon, *elsewhere);
       return;
     }
+    if (tracing.photons->sensors) land_at_sensors(tracing, photon);
     if (!shade(tracing, photon)) {
       ++tracing.counters.died;
       return;

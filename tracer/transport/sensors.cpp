@@ -4,6 +4,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/transport/connect.h"
+#include "tracer/transport/gathering.h"
 #include "tracer/transport/generate.h"
 
 namespace vitrail {
@@ -73,6 +74,7 @@ bool leave_sensor(Tracing& tracing, CameraPath& path, const Sensor& sensor, Shad
   const std::uint32_t candidates = light_candidates(tracing, path, from.p, true);
   if (tracing.scene.lights.can_sample())
     connect_sensor(tracing, path, from, sensor.normal, candidates, shadows);
+  if (tracing.photons) gather_at_sensor(tracing, path, sensor);
   const std::array<float, 4> u = numbers_for_scattering(path);
   const Point2d disk = concentric_disk({static_cast<double>(u[0]), static_cast<double>(u[1])});
   const double cosine = safe_sqrt(1 - disk.x * disk.x - disk.y * disk.y);
@@ -81,7 +83,7 @@ bool leave_sensor(Tracing& tracing, CameraPath& path, const Sensor& sensor, Shad
   path.pdf = density_beside(cosine / pi, candidates);
   path.connected = true;
   ++path.depth;
-  path.only_straight = tracing.settings().direct_only;
+  path.only_straight = tracing.settings().direct_only || tracing.photons;
   depart(path, from, x * disk.x + cross(n, x) * disk.y + n * cosine);
   return path.pdf > 0;
 }

@@ -31,17 +31,31 @@ SampleKey key_of(const Tracing& tracing, std::uint32_t pixel, std::uint32_t samp
   return {tracing.scene.seed, y * static_cast<std::uint32_t>(film.full_width()) + x, sample};
 }
 
+namespace {
+
+// Of an iteration of photons, the part that a sample of the film belongs to; null: none fly.
+const PhotonPass::Part* part_of(const Tracing& tracing, const SampleKey& key) {
+  if (!tracing.photons) return nullptr;
+  const auto row = key.pixel / static_cast<std::uint32_t>(tracing.film.full_width());
+  return &tracing.photons->parts[tracing.photons->part_of_row(static_cast<int>(row))];
+}
+
+}  // namespace
+
 std::array<float, 4> camera_numbers(const Tracing& tracing, const SampleKey& key) {
   const std::array<float, 4> u = sample_4d(key, sample_set::camera);
   const float quarter = std::floor(4 * u[3]);
-  return {u[0], u[1], tracing.photons ? tracing.photons->wavelength_number : number_of_hero(u[2], quarter),
-          4 * u[3] - quarter};
+  const PhotonPass::Part* const shared = part_of(tracing, key);
+  return {u[0], u[1], shared ? shared->wavelength_number : number_of_hero(u[2], quarter), 4 * u[3] - quarter};
 }
 
 double time_of(const Tracing& tracing, const SampleKey& key) {
   if (!tracing.requirements().motion) return 0;
-  const float number =
-      tracing.photons ? tracing.photons->time_number : sample_4d(key, sample_set::time, Wanted::two)[0];
+  const PhotonPass::Part* const shared = part_of(tracing, key);
+  return time_at(tracing, shared ? shared->time_number : sample_4d(key, sample_set::time, Wanted::two)[0]);
+}
+
+double time_at(const Tracing& tracing, float number) {
   const Shutter& shutter = tracing.manifest().shutter;
   return shutter.open_s + static_cast<double>(number) * (shutter.close_s - shutter.open_s);
 }

@@ -109,10 +109,12 @@ struct FilmSample {
 };
 
 SampleKey key_of(const Tracing& tracing, std::uint32_t pixel, std::uint32_t sample);
-// Among photons all paths of an iteration have its wavelengths.
+// Among photons all paths of an iteration's part have its wavelengths.
 std::array<float, 4> camera_numbers(const Tracing& tracing, const SampleKey& key);
-// When a sample sees the scene. Among photons all paths of an iteration see it at once.
+// When a sample sees the scene. Among photons all paths of an iteration's part see it at once.
 double time_of(const Tracing& tracing, const SampleKey& key);
+// After so much, in [0,1), of the time that the shutter is open.
+double time_at(const Tracing& tracing, float number);
 // Of a sample whose numbers for the camera are `camera`.
 SensorWeights sensor_of(const Tracing& tracing, const std::array<float, 4>& camera,
                         const SampledWavelengths& wavelengths);

@@ -135,6 +135,54 @@ TEST_F(OnePictureOfPhotons, KilledAndContinued) {
   }
 }
 
+// Sensors by photons: some close together, so that their discs overlap, one of them twice, and ranks other
+// than those that hold them ask for their light.
+TEST_F(OnePictureOfPhotons, OfSensors) {
+  std::ofstream(directory_ / "sensors.txt")
+      << "plane -0.9 -0.9 -0.99  1.8 0 0  0 1.8 0  9x7\n0 0 -0.9  0 0 1\n0 0 -0.9  0 0 1\n0.1 0 0  0 1 0\n";
+  const auto measure = [&](const std::string& film, int domains, int ranks, const std::string& more) {
+    return fmt::format(
+        "{} '{}' -o '{}' --integrator photon --photons 6000 --quiet --stats '{}' --sensors '{}' {}",
+        mpi_vitrail("render", ranks), bundle(domains), (directory_ / film).string(),
+        (directory_ / (film + ".json")).string(), (directory_ / "sensors.txt").string(), more);
+  };
+  nlohmann::json first;
+  struct Manner {
+    int domains, ranks;
+    const char* options;
+  };
+  for (const Manner& m : {Manner{1, 1, "--threads 1"}, Manner{8, 2, "--threads 2"},
+                          Manner{64, 3, "--threads 2 --domain-memory 1 --shuffle-delivery 5"}}) {
+    const CommandResult done =
+        run(measure("s.film", m.domains, m.ranks, fmt::format("--force --spp 2 {}", m.options)));
+    ASSERT_EQ(done.status, 0) << done.output;
+    const nlohmann::json s = stats("s.film");
+    if (first.is_null()) first = s;
+    for (const char* key :
+         {"photons_emitted", "photons_landed", "photon_gathers", "photons_gathered", "film_hash"})
+      EXPECT_EQ(s[key], first[key]) << key << ": " << m.domains << " domains, " << m.ranks << " ranks";
+    EXPECT_GT(s["photons_gathered"], 100);
+  }
+  EXPECT_EQ(first["photons_emitted"], 2 * 6000);
+  // Killed in iterations and between them.
+  const std::string long_job = "--threads 1 --spp 12";
+  ASSERT_EQ(run(measure("whole.film", 8, 1, long_job)).status, 0);
+  const auto partial = directory_ / "killed.film.partial";
+  int kills = 0;
+  for (int tries = 0; tries < 3; ++tries) {
+    std::error_code none;
+    const auto before = std::filesystem::last_write_time(partial, none);
+    Background job(measure("killed.film", 8, 1 + tries % 2, long_job + " --checkpoint-every 0.02"));
+    while (job.running() && std::filesystem::last_write_time(partial, none) == before)
+      std::this_thread::sleep_for(2ms);
+    for (const pid_t pid : job.ranks()) kills += ::kill(pid, SIGKILL) == 0;
+    job.wait();
+  }
+  EXPECT_GT(kills, 0);
+  ASSERT_EQ(run(measure("killed.film", 8, 2, long_job)).status, 0);
+  EXPECT_EQ(stats("killed.film")["film_hash"], stats("whole.film")["film_hash"]);
+}
+
 TEST_F(OnePictureOfPhotons, RefusesWhatItCannotDo) {
   const auto refused = [&](const std::string& options, int status, const char* words) {
     const CommandResult r = run(command("no.film", 1, 1, options));
