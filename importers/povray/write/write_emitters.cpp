@@ -3,6 +3,7 @@
 #include "importers/povray/write/write_materials.h"
 #include "importers/povray/write/write_pigments.h"
 #include "importers/writing/export_colors.h"
+#include "scene/records/curve_uses.h"
 
 namespace vitrail::povray {
 
@@ -35,7 +36,11 @@ std::string use_of(Context& context, const Shape& shape, const Surface& surface,
                     shape.origin);
   };
   std::string text = there("Material");
-  if (!surface.back.empty()) text += "interior_" + there("Back");
+  // A ray meets a curve once, and the tube in its place where it comes in and where it leaves.
+  if (shape.opacity != FloatParameter{1.0f} && is_of_curves(context.scene, shape))
+    text += "interior_texture { Clear }\n";
+  else if (!surface.back.empty())
+    text += "interior_" + there("Back");
   const std::string interior =
       surface.interior.empty()
           ? ""

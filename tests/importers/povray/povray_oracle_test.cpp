@@ -108,6 +108,23 @@ TEST_F(PovrayOracle, OpacitiesOfShapes) {
   expect_plane(scene, [](double, double) -> std::array<double, 3> { return {.5, .5, .5}; });
 }
 
+// ¾ of a black curve are not there: a ray meets a curve once, and the sweep that is written for it twice.
+TEST_F(PovrayOracle, OpacitiesOfCurves) {
+  Scene scene = empty_povray_scene();
+  add_emitter(scene, square(-5, 5, -5, 5, 0), {.8, .8, .8});
+  const std::vector<CurvePoint> points{{{0, -9, .9}, .8}, {{0, 9, .9}, .8}};
+  scene.shapes.push_back(
+      test::add_curves(scene, placed_curves(linear_segments(points), 0, 1, true, true), QuadricUv::pbrt));
+  scene.shapes.back().material = {static_cast<std::uint32_t>(scene.materials.size())};
+  scene.materials.push_back(Material{diffuse({0, 0, 0})});
+  scene.shapes.back().opacity = 0.25f;
+  scene.settings.max_depth = 4;
+  const PovPicture picture = render_povray(scene, folder_);
+  ASSERT_FALSE(picture.values.empty());
+  for (const int y : {2, 16, 29}) EXPECT_NEAR(picture.at(picture.width / 2, y)[1], 0.6, 0.005) << y;
+  EXPECT_NEAR(picture.at(1, 16)[1], 0.8, 0.005);
+}
+
 // What is behind shows through, brighter by the lamp's radiance; from behind it is alone.
 TEST_F(PovrayOracle, LampsOfNothing) {
   for (const bool flipped : {false, true}) {
