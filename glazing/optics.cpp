@@ -57,13 +57,9 @@ class OpticsReader {
   void take(const Header& header, std::string_view line) {
     const auto& [key, value] = header;
     if (key == "units, wavelength units") {
-      const std::string units = lower(value);
-      if (units.find("nano") != units.npos)
-        to_nm_ = 1;
-      else if (units.find("micro") != units.npos)
-        to_nm_ = 1000;
-      else
-        fail("the wavelengths' unit has to be Microns or Nanometers", line);
+      const std::size_t last = value.find_last_of(" \t,");  // behind the system of units, as in "SI Microns"
+      to_nm_ = nanometres_in(last == value.npos ? value : value.substr(last + 1));
+      if (to_nm_ == 0) fail("the wavelengths' unit has to be Microns or Nanometers", line);
     } else if (key == "thickness") {
       std::string_view rest = value;
       if (!parse_number(next_word(rest), product_.thickness_mm) || product_.thickness_mm < 0)

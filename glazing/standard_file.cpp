@@ -38,7 +38,11 @@ WeightTable read_weights(const fs::path& file) {
       if (!table.empty())
         throw Error("expected a wavelength", {name, lines.number(), 0}, std::string(line.substr(0, 80)));
       const auto [key, unit] = key_and_value(line);
-      if (key == "wavelength units") to_nm = lower(unit).starts_with("nano") ? 1 : 1000;
+      if (key != "wavelength units") continue;
+      to_nm = nanometres_in(unit);
+      if (to_nm == 0)
+        throw Error(fmt::format("knows no unit of wavelength \"{}\": Nanometers and Microns", unit),
+                    {name, lines.number(), 0});
       continue;
     }
     const std::string_view second = next_word(rest);

@@ -92,6 +92,16 @@ std::string_view next_word(std::string_view& rest) {
   return word;
 }
 
+double nanometres_in(std::string_view unit) {
+  const std::string name = lower(trimmed(unit));
+  for (const char* known : {"nm", "nanometer", "nanometers", "nanometre", "nanometres"})
+    if (name == known) return 1;
+  for (const char* known : {"um", "\u00b5m", "\u03bcm", "micron", "microns", "micrometer", "micrometers",
+                            "micrometre", "micrometres"})
+    if (name == known) return 1000;
+  return 0;
+}
+
 bool parse_number(std::string_view word, double& value) {
   if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
   const char* end = word.data() + word.size();

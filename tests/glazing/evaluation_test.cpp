@@ -2,6 +2,8 @@
 // Averages and colours of spectra that have known ones.
 #include "glazing/evaluation.h"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "scene/system/diagnostics.h"
@@ -85,6 +87,21 @@ TEST(Standard, IsReadFromFiles) {
   ASSERT_TRUE(find_method(standard, "TDW")->action);
   EXPECT_EQ(find_method(standard, "TDW")->action->b, 12);
   EXPECT_EQ(find_method(standard, "TKR"), nullptr);
+  for (const auto& [unit, scale] : {std::pair{"nm", 1.0},
+                                    {"NM", 1.0},
+                                    {"nanometres", 1.0},
+                                    {"um", 1e-3},
+                                    {"\u00b5m", 1e-3},
+                                    {"Micrometers", 1e-3}}) {
+    write_text(directory / "sun.ssp",
+               fmt::format("Wavelength Units: {}\n\n{} 1\n{} 3\n", unit, 400 * scale, 600 * scale));
+    EXPECT_NEAR(average(ramp, *find_method(read_standard(directory / "s.std"), "solar")).t, 3.0 / 4, 1e-12)
+        << unit;
+  }
+  write_text(directory / "sun.ssp", "Description: a sun\nWavelength Units: furlongs\n\n400 1\n600 3\n");
+  EXPECT_THAT(
+      [&] { read_standard(directory / "s.std"); },
+      ::testing::ThrowsMessage<Error>(::testing::HasSubstr("knows no unit of wavelength \"furlongs\"")));
   write_text(directory / "bad.std", "Name : SOLAR\nSource Spectrum : none.ssp\n");
   EXPECT_THROW(read_standard(directory / "bad.std"), Error);
   write_text(directory / "empty.std", "nothing\n");
