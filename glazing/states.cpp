@@ -6,6 +6,8 @@
 
 #include "glazing/evaluation.h"
 #include "scene/geometry/portable_math.h"
+#include "scene/spectra/color.h"
+#include "scene/spectra/spectrum.h"
 
 namespace vitrail {
 
@@ -97,6 +99,70 @@ std::optional<OpticalRows> with_width(const OpticalRows& clear, const TintTarget
   return absorbed(clear, target.band_ev, a);
 }
 
+// ---- any spectrum at all
+
+// The eye's, V(λ), to the nanometre; 1 at most.
+double sensitivity(double nm) {
+  const double at = std::round(nm - lambda_min_nm);
+  if (at < 0 || at > table_size - 1) return 0;
+  return std::min(static_cast<double>(cie_1931()[static_cast<std::size_t>(at)][1]), 1.0);
+}
+
+// Absorbance: what light and the rest of the spectrum have of it.
+struct Split {
+  double seen = 0, unseen = 0;
+};
+
+OpticalRows absorbed(const OpticalRows& clear, const Split& a) {
+  OpticalRows rows = clear;
+  for (OpticalRow& row : rows) {
+    const double v = sensitivity(row.nm);
+    row.at.t *= portable_exp(-a.seen * v - a.unseen * (1 - v));
+  }
+  return rows;
+}
+
+// Of the unseen: then 6·10⁻⁶ of it are left, and a band around 555 nm that is not narrower than 29 nm.
+constexpr double most_absorbance = 12;
+
+// That has T_vis, with so much of the unseen: the less light for it the more is absorbed elsewhere.
+OpticalRows with_light(const OpticalRows& clear, double visible_t, double unseen) {
+  const double seen = root(0, 1e4, [&](double x) {
+    return average_of(absorbed(clear, Split{x, unseen}), "PHOTOPIC").t - visible_t;
+  });
+  return absorbed(clear, Split{seen, unseen});
+}
+
+// The most of the unseen that leaves T_vis.
+double most_unseen(const OpticalRows& clear, double visible_t) {
+  return root(0, most_absorbance, [&](double x) {
+    return average_of(absorbed(clear, Split{0, x}), "PHOTOPIC").t - visible_t;
+  });
+}
+
+OpticalRows with_averages(const OpticalRows& clear, const TintTarget& target) {
+  const double unseen = root(0, most_unseen(clear, target.visible_t), [&](double x) {
+    return average_of(with_light(clear, target.visible_t, x), "SOLAR").t - target.solar_t;
+  });
+  return with_light(clear, target.visible_t, unseen);
+}
+
+std::optional<SolarRange> range_of(const OpticalRows& clear, double visible_t) {
+  if (!(visible_t > 0) || visible_t > average_of(clear, "PHOTOPIC").t) return std::nullopt;
+  const auto solar = [&](double unseen) {
+    return average_of(with_light(clear, visible_t, unseen), "SOLAR").t;
+  };
+  return SolarRange{solar(most_unseen(clear, visible_t)), solar(0)};
+}
+
+std::optional<OpticalRows> spectrum_for(const OpticalRows& clear, const TintTarget& target) {
+  for (double width_ev = 0.5; width_ev < 5; width_ev *= 1.15)
+    if (auto rows = with_width(clear, target, width_ev)) return rows;
+  const auto range = range_of(clear, target.visible_t);
+  if (!range || target.solar_t < range->least || target.solar_t > range->greatest) return std::nullopt;
+  return with_averages(clear, target);
+}
+
 }  // namespace
 
 OpticalRows rows_at(const std::vector<StateRows>& states, double at) {
@@ -107,22 +173,21 @@ OpticalRows rows_at(const std::vector<StateRows>& states, double at) {
   return mix(a.rows, b.rows, (at - a.at) / (b.at - a.at));
 }
 
+std::optional<SolarRange> solar_range(const OpticalRows& clear, double visible_t) {
+  return range_of(resampled(clear), visible_t);
+}
+
 std::optional<OpticalRows> tinted(const OpticalRows& clear, const TintTarget& target) {
   const OpticalRows fine = resampled(clear);
-  for (double width_ev = 0.5; width_ev < 5; width_ev *= 1.15) {
-    auto rows = with_width(fine, target, width_ev);
-    if (!rows) continue;
-    if (target.visible_reflectance) {
-      const PaneValues now = average_of(fine, "PHOTOPIC");
-      if (!(std::min(now.rf, now.rb) > 0)) return std::nullopt;
-      for (OpticalRow& row : *rows) {
-        row.at.rf = std::min(row.at.rf * *target.visible_reflectance / now.rf, 1 - row.at.t);
-        row.at.rb = std::min(row.at.rb * *target.visible_reflectance / now.rb, 1 - row.at.t);
-      }
-    }
-    return rows;
+  auto rows = spectrum_for(fine, target);
+  if (!rows || !target.visible_reflectance) return rows;
+  const PaneValues now = average_of(fine, "PHOTOPIC");
+  if (!(std::min(now.rf, now.rb) > 0)) return std::nullopt;
+  for (OpticalRow& row : *rows) {
+    row.at.rf = std::min(row.at.rf * *target.visible_reflectance / now.rf, 1 - row.at.t);
+    row.at.rb = std::min(row.at.rb * *target.visible_reflectance / now.rb, 1 - row.at.t);
   }
-  return std::nullopt;
+  return rows;
 }
 
 double fading_per_s(const Photochromic& p, double temperature_c) {

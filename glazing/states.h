@@ -22,14 +22,22 @@ OpticalRows rows_at(const std::vector<StateRows>& states, double at);
 
 // Light of the clear state through two more absorptions, such that T_vis and T_sol under NFRC 300-2003 are
 // these: a band, Gaussian over the photon's energy around `band_ev` (NaₓWO₃: 1.14 eV, near 1090 nm, so red
-// goes first and the tint is blue), as narrow as can be, and free electrons in the infrared. Reflectances are
-// scaled to `visible_reflectance` where it is given. Empty where nothing has these averages; a clear state
-// that reflects nothing cannot be scaled.
+// goes first and the tint is blue), as narrow as can be, and free electrons in the infrared. Where no band
+// does, the second is absorption in proportion to V(λ), for more of the sun, or to 1 − V(λ), for less of it,
+// and the first is the same at all wavelengths: so everything within `solar_range` has a spectrum.
+// Reflectances are scaled to `visible_reflectance` where it is given. Empty outside of the range; a clear
+// state that reflects nothing cannot be scaled.
 struct TintTarget {
   double visible_t = 0, solar_t = 0;
   std::optional<double> visible_reflectance;
   double band_ev = 1.14;
 };
+// The T_sol that `tinted` can give a T_vis. Empty where the clear state has less light than that, or none is
+// wanted.
+struct SolarRange {
+  double least = 0, greatest = 0;
+};
+std::optional<SolarRange> solar_range(const OpticalRows& clear, double visible_t);
 std::optional<OpticalRows> tinted(const OpticalRows& clear, const TintTarget& target);
 
 // ds/dt = k_d·E·(1−s) − k_f(T)·s: ultraviolet light darkens, warmth fades. k_f follows Arrhenius' law.

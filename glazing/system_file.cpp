@@ -170,6 +170,21 @@ class SystemReader {
     return value;
   }
 
+  static std::string why_not_tinted(const OpticalRows& clear, const TintTarget& target) {
+    const auto range = solar_range(clear, target.visible_t);
+    if (!range)
+      return fmt::format(
+          "\"visible_transmittance\" is {}: it has to be above 0, and not above the clear state's",
+          target.visible_t);
+    if (target.solar_t < range->least || target.solar_t > range->greatest)
+      return fmt::format(
+          "\"solar_transmittance\" is {}: with a visible_transmittance of {} the clear state can have {:.3g} "
+          "to "
+          "{:.3g}",
+          target.solar_t, target.visible_t, range->least, range->greatest);
+    return "a clear state that reflects nothing cannot be given a \"visible_reflectance\"";
+  }
+
   static OpticalRows tinted_rows(const JsonNode& tint, const OpticalRows& clear) {
     tint.only({"visible_transmittance", "solar_transmittance", "visible_reflectance", "band_ev"});
     TintTarget target{unit_number(tint, "visible_transmittance"), unit_number(tint, "solar_transmittance")};
@@ -177,7 +192,7 @@ class SystemReader {
       target.visible_reflectance = unit_number(tint, "visible_reflectance");
     if (tint.find("band_ev")) target.band_ev = positive_or_0(tint, "band_ev");
     auto rows = tinted(clear, target);
-    if (!rows) tint.fail("no band of absorption brings the clear state to these averages");
+    if (!rows) tint.fail(why_not_tinted(clear, target));
     return std::move(*rows);
   }
 

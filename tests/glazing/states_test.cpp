@@ -54,6 +54,32 @@ TEST(States, ABandOfAbsorptionHasThePublishedAverages) {
   EXPECT_FALSE(tinted({{500, {0.8, 0, 0.1}}}, {0.1, 0.08, 0.05}));  // nothing to scale
 }
 
+// Whatever T_sol goes with T_vis, there is a spectrum, and the ends of the range are where it ends.
+TEST(States, EveryPairOfAveragesWithinTheRangeHasASpectrum) {
+  std::vector<std::string> notes;
+  const OpticalRows clear = band_spectrum({{0.399, 0.086, 0.086}, {0.624, 0.099, 0.099}}, notes);
+  for (const double visible : {0.5, 0.1, 0.01}) {
+    const auto range = solar_range(clear, visible);
+    ASSERT_TRUE(range);
+    fmt::print("T_vis {}: T_sol from {:.4g} to {:.4g}\n", visible, range->least, range->greatest);
+    EXPECT_LT(range->least, 0.42 * visible);
+    EXPECT_GT(range->least, 0.1 * visible);
+    EXPECT_GT(range->greatest, 0.6 * visible);
+    for (const double part : {0.001, 0.1, 0.3, 0.5, 0.7, 0.9, 0.999}) {
+      const double solar = range->least + part * (range->greatest - range->least);
+      const auto dark = tinted(clear, {visible, solar, {}});
+      ASSERT_TRUE(dark) << visible << ' ' << solar;
+      EXPECT_NEAR(average_of(*dark, "PHOTOPIC").t, visible, 0.002 * visible) << solar;
+      EXPECT_NEAR(average_of(*dark, "SOLAR").t, solar, 0.002 * solar) << visible;
+      for (const OpticalRow& row : *dark) EXPECT_LE(row.at.t, value_at(clear, row.nm).t);
+    }
+    EXPECT_FALSE(tinted(clear, {visible, 0.99 * range->least, {}}));
+    EXPECT_FALSE(tinted(clear, {visible, 1.01 * range->greatest, {}}));
+  }
+  EXPECT_FALSE(solar_range(clear, 0.7));
+  EXPECT_FALSE(solar_range(clear, 0));
+}
+
 // Against Euler's method in small steps; half-lives; the equilibrium stands still.
 TEST(States, PhotochromicGlassFollowsItsEquation) {
   const Photochromic p{2e-4, 1e-3, 60e3};
