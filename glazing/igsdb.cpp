@@ -30,9 +30,24 @@ PaneKind kind_of(const JsonNode& product) {
   return subtype == "monolithic" && bare ? PaneKind::clear : PaneKind::coated;
 }
 
+// Blinds, shades, frames' materials and photovoltaic layers have spectra too, of what they are made of.
+// Versions before 2 have a glazing's subtype as its type.
+bool is_glazing(const JsonNode& product) {
+  const std::string type = lower(product.text_or("type", "glazing")),
+                    subtype = lower(product.text_or("subtype", ""));
+  for (const char* other :
+       {"shad", "blind", "louver", "weave", "woven", "perforated", "material", "photovoltaic", "pv"})
+    for (const std::string& word : {type, subtype})
+      if (word.find(other) != word.npos) return false;
+  return true;
+}
+
 Product product_of(const JsonNode& json) {
   Product product;
   product.name = json.text_or("name", json.text_or("product_name", ""));
+  if (!is_glazing(json))
+    json.fail(fmt::format("is of the type \"{}\"{}: only glazing is read", json.text_or("type", ""),
+                          json.find("subtype") ? fmt::format(" (\"{}\")", json.text_or("subtype", "")) : ""));
   product.manufacturer = json.text_or("manufacturer_name", json.text_or("manufacturer", ""));
   product.kind = kind_of(json);
   if (const auto measured = json.find("measured_data")) {
@@ -71,7 +86,12 @@ bool is_igsdb(const JsonNode& root) {
 std::vector<Product> igsdb_products(const JsonNode& root) {
   if (!root.is_array()) return {product_of(root)};
   std::vector<Product> products;
-  for (const JsonNode& item : root.items()) products.push_back(product_of(item));
+  for (const JsonNode& item : root.items()) try {
+      products.push_back(product_of(item));
+    } catch (const Error& error) {
+      if (is_glazing(item)) throw;
+      products.push_back({.name = item.text_or("name", item.text_or("product_name", "")), .refused = error});
+    }
   return products;
 }
 

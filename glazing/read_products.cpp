@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "glazing/foreign_file.h"
 #include "glazing/json_node.h"
 #include "glazing/product_formats.h"
 #include "glazing/text_file.h"
@@ -13,6 +14,10 @@ namespace vitrail {
 namespace {
 
 std::vector<Product> products_of(const std::string& text, const std::string& file) {
+  if (const std::string kind = foreign_kind(text, file); !kind.empty())
+    throw Error(
+        fmt::format("this is {}: glazing is read from WINDOW, the IGSDB, EnergyPlus and tables", kind),
+        {file});
   if (is_optics(text)) return optics_products(text, file);
   const std::string_view start = trimmed(text);
   if (start.starts_with("{") || start.starts_with("[")) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/readers.h"
+#include "glazing/foreign_file.h"
 
 #include <fmt/format.h>
 
@@ -150,6 +151,7 @@ const Reader& reader_of(const std::filesystem::path& file) {
   const std::string bytes = first_bytes(file);
   for (const Reader& reader : readers())
     if (reader.sniff && reader.sniff(bytes)) return reader;
+  const std::string kind = foreign_kind(bytes, file.string());
   std::string known, zipped;
   for (const Reader& reader : readers())
     for (const std::string_view each : reader.suffixes) {
@@ -157,9 +159,10 @@ const Reader& reader_of(const std::filesystem::path& file) {
       if (reader.gzipped)
         fmt::format_to(std::back_inserter(zipped), "{}{}", zipped.empty() ? "" : ", ", each);
     }
-  throw Error(
-      fmt::format("unknown format: the name has to end in one of {}; .gz may follow {}", known, zipped),
-      {file.string()});
+  throw Error(fmt::format("{}: the name has to end in one of {}; .gz may follow {}",
+                          kind.empty() ? "unknown format" : fmt::format("this is {} and no scene", kind),
+                          known, zipped),
+              {file.string()});
 }
 
 }  // namespace vitrail

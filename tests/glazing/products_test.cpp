@@ -190,6 +190,14 @@ struct Wrong {
   int line;
 };
 
+// The IGSDB's text, of another type.
+std::string with_type(const std::string& type) {
+  const std::string end = "\"monolithic\"";
+  std::string text = igsdb_text;
+  const std::size_t begin = text.find("\"type\"");
+  return text.replace(begin, text.find(end) + end.size() - begin, type);
+}
+
 TEST(Products, SayWhereAFileIsWrong) {
   std::string bad_row = optics_text, bad_number = igsdb_text, scattering = igsdb_text, percent = table_text;
   bad_row.replace(bad_row.find("0.500 0.8"), 9, "0.500 x.8");
@@ -210,6 +218,13 @@ TEST(Products, SayWhereAFileIsWrong) {
       {"WindowMaterial:Glazing, A, BSDF;\n", "optical data type \"BSDF\"", 1},
       {"\nWindowMaterial:Glazing, A, Spectral, Nowhere;\n", "there is no materialproperty", 2},
       {"WindowMaterial:Glazing, A, Spectral", "has to end with a comma", 1},
+      {"IESNA:LM-63-2002\nTILT=NONE\n", "this is the light of a lamp by direction (IES LM-63)", 0},
+      {"LOCATION,Own,-,-,own,0,48.86,2.35,1.0,40\n", "this is a weather file (EPW)", 0},
+      {"<?xml version=\"1.0\"?>\n<WindowElement>\n", "this is a BSDF as XML", 0},
+      {with_type("\"type\": \"shading\", \"subtype\": \"venetian-blind\""),
+       "is of the type \"shading\" (\"venetian-blind\"): only glazing is read", 0},
+      {with_type("\"type\": \"material\""), "is of the type \"material\": only glazing", 0},
+      {with_type("\"type\": \"glazing\", \"subtype\": \"perforated-screen\""), "(\"perforated-screen\")", 0},
   };
   for (const Wrong& w : wrong) {
     try {
