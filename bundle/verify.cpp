@@ -20,6 +20,7 @@
 #include "bundle/packs.h"
 #include "bundle/texture_file.h"
 #include "scene/system/diagnostics.h"
+#include "scene/system/machine_limits.h"
 
 namespace vitrail {
 
@@ -234,7 +235,7 @@ class Verifier {
       for (std::size_t i = next++; i < jobs_.size(); i = next++) jobs_[i]();
     };
     const std::size_t threads = options_.threads > 0 ? static_cast<std::size_t>(options_.threads)
-                                                     : std::max(1u, std::thread::hardware_concurrency());
+                                                     : static_cast<unsigned>(processors_allowed());
     std::vector<std::jthread> others;
     while (others.size() + 1 < std::min(threads, jobs_.size())) others.emplace_back(worker);
     worker();

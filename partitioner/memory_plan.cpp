@@ -177,9 +177,4 @@ MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
   return plan;
 }
 
-std::uint64_t machine_bytes() {
-  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
-
 }  // namespace vitrail

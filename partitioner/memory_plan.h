@@ -56,6 +56,4 @@ std::uint32_t number_of_domains(const Manifest& manifest, const MemoryNeeds& nee
 // Throws MemoryNeeded where not even one domain or one mesh fits, UsageError for too many domains.
 MemoryPlan plan_memory(const Manifest& manifest, const MemoryNeeds& needs);
 
-std::uint64_t machine_bytes();
-
 }  // namespace vitrail

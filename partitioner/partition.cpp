@@ -27,6 +27,7 @@
 #include "partitioner/spilling/spill_scene.h"
 #include "partitioner/writing/bundle_directory.h"
 #include "scene/shapes/deferred_mesh.h"
+#include "scene/system/machine_limits.h"
 #include "scene/system/resource_usage.h"
 
 namespace vitrail {
@@ -367,7 +368,10 @@ class Partitioner {
 
 }  // namespace
 
-std::uint64_t default_memory_bytes() { return machine_bytes() / 4 * 3; }
+std::uint64_t default_memory_bytes() {
+  const MemoryLimit limit = memory_limit();
+  return limit.is_machine ? limit.bytes / 4 * 3 : limit.bytes / 10 * 9;
+}
 std::uint64_t mesh_bytes_within(std::uint64_t memory_bytes) { return meshes_within(memory_bytes); }
 
 PartitionStats partition(const Scene& scene, const std::filesystem::path& out,

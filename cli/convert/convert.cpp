@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <thread>
 
 #include "cli/common/diagnostics_report.h"
 #include "cli/common/import_arguments.h"
@@ -22,6 +21,7 @@
 #include "importers/writing/packed_files.h"
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/system/input_files.h"
+#include "scene/system/machine_limits.h"
 #include "scene/system/output_place.h"
 #include "scene/system/say.h"
 
@@ -154,7 +154,7 @@ int run_many(const Arguments& a) {
   if (!a.report.empty()) throw UsageError("--to gives every scene its report: leave --report out");
   ManyConversions many{a.files, a.output,     a.format, a.at_once, a.again,           a.check,
                        a.peer,  a.input_peer, a.strict, a.quiet,   reading_options(a)};
-  if (many.at_once == 0) many.at_once = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (many.at_once == 0) many.at_once = processors_allowed();
   return convert_many(many);
 }
 

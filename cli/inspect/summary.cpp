@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "cli/common/sizes.h"
 #include "cli/inspect/inspect.h"
 #include "film/film.h"
+#include "scene/system/machine_limits.h"
 #include "scene/system/progress_line.h"
 
 namespace vitrail {
@@ -41,7 +41,7 @@ Report summary_of(const Manifest& m, std::uint64_t scene_bytes) {
 }
 
 std::string summary_text(const Report& s) {
-  const auto cores = std::max(1u, std::thread::hardware_concurrency());
+  const auto cores = processors_allowed();
   const auto bytes = [&](const char* key) { return format_bytes(s[key].get<std::uint64_t>()); };
   return fmt::format("size: {} triangles and quadrics, {}\n", s["triangles"].get<std::uint64_t>(),
                      bytes("scene_bytes")) +

@@ -30,6 +30,7 @@
 #include "partitioner/least_memory.h"
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/system/input_files.h"
+#include "scene/system/machine_limits.h"
 #include "scene/system/memory_guard.h"
 #include "scene/system/output_place.h"
 #include "scene/system/progress_line.h"
@@ -124,6 +125,9 @@ void interpret(PartitionArguments& a) {
     if (a.keeps_domains) a.options.bundles = folder / "bundles";
   }
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
+  if (const MemoryLimit limit = memory_limit(); a.memory.empty() && !limit.is_machine && !a.quiet)
+    say("vitrail: {:.0f} MiB of memory, as {} gives this job\n",
+        static_cast<double>(a.options.memory_bytes) / (1 << 20), limit.giver);
 }
 
 ProgressManner manner_of(const PartitionArguments& a) {

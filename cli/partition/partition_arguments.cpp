@@ -33,7 +33,8 @@ void declare(CLI::App& app, PartitionArguments& a) {
   app.add_option("--pack", a.pack,
                  "put the sub-domains into few files of at most this size, e.g. 1G; default: a file each");
   app.add_option("--memory", a.memory,
-                 "most memory to use, e.g. 512M; default: three quarters of the machine's. A larger scene "
+                 "most memory to use, e.g. 512M; default: three quarters of the machine's, or what Slurm or "
+                 "a control group gives. A larger scene "
                  "goes through files beside the bundle");
   app.add_flag("--no-sync{false}", a.options.durable, "do not wait until the bundle is on the disk");
   app.add_flag("--no-cache{false}", a.cached, no_cache_help);

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "scene/system/machine_limits.h"
 #include "scene/system/say.h"
 
 namespace vitrail {
@@ -28,10 +29,13 @@ std::uint64_t ranks_of_node() {
   return 1;
 }
 
-std::uint64_t memory_of_node() {
-  constexpr std::uint64_t mib = 1 << 20;
-  if (const std::uint64_t node = number("SLURM_MEM_PER_NODE")) return node * mib;
-  return number("SLURM_MEM_PER_CPU") * number("SLURM_CPUS_ON_NODE") * mib;
+void take_memory(RenderOptions& o, bool say_so) {
+  const MemoryLimit limit = memory_limit();
+  if (limit.is_machine || o.resources.memory_bytes > 0) return;
+  o.resources.memory_bytes = limit.bytes / ranks_of_node() / 10 * 9;
+  if (say_so)
+    say("vitrail: {:.0f} MiB a rank, as {} gives this job\n",
+        static_cast<double>(o.resources.memory_bytes) / (1 << 20), limit.giver);
 }
 
 // What squeue calls the time left: [[days-]hours:]minutes:seconds. 0 for words such as UNLIMITED.
@@ -72,14 +76,8 @@ double time_to_work_s(double left_s) { return std::max(1.0, left_s - std::min(60
 
 void take_limits_of_job(RenderOptions& o, bool rank_0) {
   const bool say_so = rank_0 && !o.outputs.quiet;
+  take_memory(o, say_so);
   if (number("SLURM_JOB_ID") == 0) return;
-  constexpr double mib = 1 << 20;
-  const std::uint64_t memory = memory_of_node() / ranks_of_node() / 10 * 9;
-  if (memory > 0 && o.resources.memory_bytes == 0) {
-    o.resources.memory_bytes = memory;
-    if (say_so)
-      say("vitrail: {:.0f} MiB a rank, as Slurm gives this job\n", static_cast<double>(memory) / mib);
-  }
   if (!rank_0 || o.resources.time_limit_s > 0) return;
   if (const double left_s = time_left_s(); left_s > 0) {
     o.resources.stop_after_s = time_to_work_s(left_s);

@@ -5,9 +5,9 @@
 
 namespace vitrail {
 
-// What Slurm gave the job that this process is of, where the user gives no other: memory, this rank's share
-// of its node's less a tenth for MPI and the system; and, on rank 0,
-// which watches the clock and says both, the time until the job has to have stopped.
+// What Slurm and the control groups give the job that this process is of, where the user gives no other:
+// memory, this rank's share of its node's less a tenth for MPI and the system; and, on rank 0, which watches
+// the clock and says both, the time until Slurm's job has to have stopped.
 void take_limits_of_job(RenderOptions& options, bool rank_0);
 
 }  // namespace vitrail

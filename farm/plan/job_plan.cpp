@@ -3,11 +3,11 @@
 #include "bundle/reflectances/color_words.h"
 
 #include <algorithm>
-#include <thread>
 
 #include "farm/files/timeline.h"
 #include "farm/plan/job_manifest.h"
 #include "film/picture_memory.h"
+#include "scene/system/machine_limits.h"
 #include "tracer/photons/photon_map.h"
 #include "tracer/photons/sensor_discs.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 int threads_of(const RenderOptions& options) {
   if (options.resources.threads > 0) return options.resources.threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return processors_allowed();
 }
 
 // Of an adaptive round's numbers, and what it takes to find them, or those of the round before beside its

@@ -47,10 +47,28 @@ bool launched_by_mpi() {
 
 namespace {
 
-// Of the step that srun started this process in; mpirun's ranks are not srun's tasks.
-int tasks_of_step() {
-  const char* tasks = std::getenv("SLURM_STEP_NUM_TASKS");
-  return tasks && !std::getenv("OMPI_COMM_WORLD_SIZE") ? std::atoi(tasks) : 1;
+int number(const char* variable) {
+  const char* text = std::getenv(variable);
+  return text ? std::atoi(text) : 1;
+}
+
+// Of one process that was started with others and does not know of them.
+void require_no_others() {
+  if (std::getenv("OMPI_COMM_WORLD_SIZE")) return;
+  // Of the step that srun started this process in; mpirun's ranks are not srun's tasks.
+  if (const int tasks = number("SLURM_STEP_NUM_TASKS"); tasks > 1)
+    throw UsageError(fmt::format(
+        "srun started {} tasks that do not know of each other, and each would render everything: start the "
+        "ranks with mpirun, or with srun --mpi=pmix where Slurm and Open MPI have it",
+        tasks));
+  // MPICH and Intel MPI, MVAPICH.
+  for (const char* size : {"PMI_SIZE", "MV2_COMM_WORLD_SIZE"})
+    if (const int ranks = number(size); ranks > 1)
+      throw UsageError(
+          fmt::format("the mpiexec of another MPI started {} processes that do not know of each other, and "
+                      "each would render "
+                      "everything: this program is built with Open MPI, start the ranks with its mpirun",
+                      ranks));
 }
 
 }  // namespace
@@ -61,11 +79,7 @@ std::unique_ptr<Transport> make_transport(int* argc, char*** argv) {
     made = make_mpi_transport(argc, argv);
   else
     made = std::make_unique<SoloTransport>();
-  if (const int tasks = tasks_of_step(); made->size() == 1 && tasks > 1)
-    throw UsageError(fmt::format(
-        "srun started {} tasks that do not know of each other, and each would render everything: start the "
-        "ranks with mpirun, or with srun --mpi=pmix where Slurm and Open MPI have it",
-        tasks));
+  if (made->size() == 1) require_no_others();
   return made;
 }
 

@@ -67,8 +67,8 @@ class Transport {
   virtual void broadcast_from_root(std::span<std::uint32_t> values) = 0;
 };
 
-// Speaks MPI when launched by mpirun or srun, else alone. Throws UsageError where srun started several tasks
-// without telling them of each other.
+// Speaks MPI when launched by mpirun or srun, else alone. Throws UsageError where srun, or the mpiexec of
+// another MPI, started several processes that do not know of each other.
 std::unique_ptr<Transport> make_transport(int* argc, char*** argv);
 bool launched_by_mpi();
 std::unique_ptr<Transport> make_mpi_transport(int* argc, char*** argv);
