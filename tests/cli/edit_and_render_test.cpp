@@ -90,6 +90,22 @@ TEST_F(EditAndRender, APictureIsReplacedByThatOfTheEditedScene) {
   }
 }
 
+// The image library takes 135 MiB, whatever it writes; PNG and OpenEXR do without it.
+TEST_F(EditAndRender, PicturesByTheImageLibraryAreCounted) {
+  edit({});
+  for (const char* picture : {"x.png", "x.exr"}) {
+    const CommandResult made = render(fmt::format("-o {} --spp 1 --memory 40M", picture));
+    EXPECT_EQ(made.status, 0) << made.output;
+  }
+  for (const char* picture : {"x.jpg", "x.tif"}) {
+    const CommandResult refused = render(fmt::format("-o {} --spp 1 --memory 40M", picture));
+    EXPECT_EQ(refused.status, 4) << refused.output;
+    EXPECT_THAT(refused.output, HasSubstr("Give at least 1"));
+    EXPECT_FALSE(exists(picture));
+    EXPECT_EQ(render(fmt::format("-o {} --spp 1 --memory 170M", picture)).status, 0);
+  }
+}
+
 TEST_F(EditAndRender, TheLastLineNamesThePicture) {
   const CommandResult done = render("-o x.png --spp 4");
   const std::string text = done.output.substr(0, done.output.size() - 1);
