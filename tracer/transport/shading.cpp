@@ -84,8 +84,8 @@ bool end_at_surface(Tracing& tracing, CameraPath& path, const Event& event) {
 }
 
 // The direction that light leaves to, in the frame of the scattering. Where a pattern turns the normal away
-// from the ray, and what is there is as bright from all directions, that is on its side of the surface all the
-// same.
+// from the ray, and what is there is as bright from all directions, that is on its side of the surface all
+// the same.
 Vector3d local_out(const Scattering& scattering, const Interaction& at, const Material& material) {
   Vector3d out = scattering.frame.to_local(at.out);
   if (material.displacement && takes_any_normal(scattering.bsdf))

@@ -20,11 +20,12 @@ void set_highlights(FinishMaterial& m, const Finish& finish, double share) {
 SpectrumParameter Surfaces::highlight_color(const Pigment& pigment, const Finish& finish,
                                             const Transform& to_world, const Look& look) {
   const SpectrumParameter white = Spectrum{ConstantSpectrum{1}};
-  if (!(finish.metallic > 0)) return white;
+  if (!(finish.metallic > 0)) return tinted(white, look, finish.place);
   approximated("metallic highlights: of one colour at every angle", finish.place);
   const SpectrumParameter color = color_texture(pigment, to_world, Part::reflectance, 1, look.by_uv);
-  if (finish.metallic >= 1) return color;
-  return add(MixTexture{white, color, static_cast<float>(finish.metallic)}, false, pigment.place);
+  if (finish.metallic >= 1) return tinted(color, look, finish.place);
+  return tinted(add(MixTexture{white, color, static_cast<float>(finish.metallic)}, false, pigment.place),
+                look, finish.place);
 }
 
 bool Surfaces::is_glazed(const Finish& finish, const Interior* interior, float opacity) const {
@@ -48,8 +49,9 @@ Id<Material> Surfaces::glazed(const Body& body) {
   };
   GlazedMaterial m;
   const double solid = static_cast<double>(body.solid.value_or(1.0f));
-  m.finish.reflectance = color_texture(body.pigment, body.to_world, Part::factor,
-                                       reader_.linear(finish.diffuse) * solid, body.look.by_uv);
+  m.finish.reflectance = tinted(color_texture(body.pigment, body.to_world, Part::factor,
+                                              reader_.linear(finish.diffuse) * solid, body.look.by_uv),
+                                body.look, body.place);
   m.finish.highlight = highlight_color(body.pigment, finish, body.to_world, body.look);
   m.finish.brilliance = static_cast<float>(std::max(finish.brilliance, 0.0));
   set_highlights(m.finish, finish, 1);
@@ -65,7 +67,7 @@ Id<Material> Surfaces::glazed(const Body& body) {
     const Numbers color = body.pigment.color.value_or(mean_color(body.pigment));
     const double filter = std::max(color.v[3], 0.0), transmit = std::max(color.v[4], 0.0);
     const auto part = [&](std::size_t i) { return reader_.linear(color.v[i]) * filter + transmit; };
-    m.through = Spectrum{unbounded_from_rgb({part(0), part(1), part(2)})};
+    m.through = tinted(Spectrum{unbounded_from_rgb({part(0), part(1), part(2)})}, body.look, body.place);
   }
   if (finish.diffuse_back > 0) dropped("diffuse behind glass", finish.place);
   if (finish.crand > 0) dropped("crand of glass", finish.place);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Several textures on one surface: layers over each other, and patterns between textures.
 #include <algorithm>
+#include <array>
+#include <memory>
+#include <type_traits>
 
 #include "importers/povray/read/formula.h"
+#include "importers/povray/read/pigment_patterns.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/surfaces.h"
 
@@ -19,7 +23,9 @@ bool is_clear_coat(const pov::Texture& texture) {
   const bool is_clear = texture.layers.empty() && !texture.pattern && texture.pigment &&
                         texture.pigment->color &&
                         texture.pigment->color->v[3] + texture.pigment->color->v[4] >= 1;
-  return is_clear && texture.finish && texture.finish->diffuse == 0;
+  const auto is_white = [](const Numbers& c) { return std::min({c.v[0], c.v[1], c.v[2]}) >= 1; };
+  return is_clear && texture.finish && texture.finish->diffuse == 0 &&
+         (!(texture.pigment->color->v[3] > 0) || is_white(*texture.pigment->color));
 }
 
 bool is_glossy(const pov::Texture& texture) {
@@ -64,7 +70,66 @@ std::vector<Shared<pov::Texture>> without_coats(const std::vector<Shared<pov::Te
   return left;
 }
 
+bool has_filter(const Pigment& pigment) {
+  if (pigment.color) return pigment.color->v[3] > 0;
+  return pigment.map && std::ranges::any_of(pigment.map->entries, [](const BlendEntry& entry) {
+           return entry.pigment ? has_filter(*entry.pigment) : entry.color.v[3] > 0;
+         });
+}
+
+// Returns the pigment with `change` applied to each of its colours.
+template <class Change>
+Shared<Pigment> with_colors(const Pigment& pigment, const Change& change) {
+  auto changed = std::make_shared<Pigment>(pigment);
+  if (changed->color) change(*changed->color);
+  if (!pigment.map) return changed;
+  auto map =
+      std::make_shared<std::remove_const_t<std::remove_reference_t<decltype(*pigment.map)>>>(*pigment.map);
+  for (BlendEntry& entry : map->entries) {
+    change(entry.color);
+    if (entry.pigment) entry.pigment = with_colors(*entry.pigment, change);
+  }
+  changed->map = map;
+  return changed;
+}
+
+// Returns the layer as before version 3.5: `filter` is `transmit`, as povray's pixels say.
+Shared<pov::Texture> without_filter(const Shared<pov::Texture>& layer) {
+  if (!layer->pigment || !has_filter(*layer->pigment)) return layer;
+  auto changed = std::make_shared<pov::Texture>(*layer);
+  changed->pigment = with_colors(*layer->pigment, [](Numbers& color) {
+    color.v[4] += std::max(color.v[3], 0.0);
+    color.v[3] = 0;
+  });
+  return changed;
+}
+
 }  // namespace
+
+Shared<Pigment> filtered_by(const Pigment& pigment, const std::array<double, 3>& through) {
+  return with_colors(pigment, [&](Numbers& color) {
+    for (std::size_t i = 0; i < through.size(); ++i) color.v[i] *= through[i];
+  });
+}
+
+// The light below is multiplied by filter·colour + transmit. `crand` is taken of a layer's light after that
+// is weakened by what shows through: as much of a clear one.
+void Surfaces::put_above(const pov::Texture& texture, const Transform& to_world, Look& look) {
+  if (!texture.pigment || texture.pattern || !texture.layers.empty()) return;
+  const Pigment& pigment = *texture.pigment;
+  if (texture.finish) look.crand_above += texture.finish->crand * grey_of(mean_color(pigment));
+  if (!has_filter(pigment)) return;
+  if (pigment.color) {
+    const auto& v = pigment.color->v;
+    const double filter = std::max(v[3], 0.0), transmit = std::max(v[4], 0.0);
+    const double all = std::max(share_through(*pigment.color), 1e-6);
+    for (std::size_t i = 0; i < 3; ++i)
+      look.filter_above[i] *= std::clamp((v[i] * filter + transmit) / all, 0.0, 1.0);
+  } else {
+    const Transform placed = to_world * texture.to_object * pigment.to_object;
+    look.tint = tinted(color_texture(pigment, placed, Part::filtered, 1, look.by_uv), look, texture.place);
+  }
+}
 
 Surfaces::Layer Surfaces::mixed(const Layer& first, const Layer& second, const FloatParameter& amount,
                                 const Place& place) {
@@ -108,10 +173,15 @@ Surfaces::Layer Surfaces::layered(const pov::Texture& texture, const Transform& 
   if (texture.layers.empty())
     return texture.pattern ? blended(texture, to_world, look) : layer_of(texture, to_world, look);
   Layer result;
-  const std::vector<Shared<pov::Texture>> layers = without_coats(texture.layers);
+  std::vector<Shared<pov::Texture>> layers = without_coats(texture.layers);
+  if (reader_.version < 3.5)
+    for (std::size_t i = 1; i < layers.size(); ++i) layers[i] = without_filter(layers[i]);
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const pov::Texture& one = *layers[i];
-    const Layer above = layered(one, to_world * one.to_object, look);
+    Look worn = look;
+    worn.covers = look.covers || i > 0;
+    for (std::size_t j = i + 1; j < layers.size(); ++j) put_above(*layers[j], to_world, worn);
+    const Layer above = layered(one, to_world * one.to_object, worn);
     const float* const opacity = std::get_if<float>(&above.opacity);
     if (i == 0 || (opacity && *opacity >= 1)) {
       result = above;
@@ -119,7 +189,11 @@ Surfaces::Layer Surfaces::layered(const pov::Texture& texture, const Transform& 
     }
     // What is behind shows through both.
     const float* const below = std::get_if<float>(&result.opacity);
-    const FloatParameter through = below && *below >= 1 ? FloatParameter{1.0f} : above.opacity;
+    const FloatParameter through =
+        below && *below >= 1
+            ? FloatParameter{1.0f}
+            : add(MixTexture{as_spectrum(result.opacity), as_spectrum(FloatParameter{1.0f}), above.opacity},
+                  true, one.place);
     result = mixed(result, above, above.opacity, one.place);
     result.opacity = through;
   }

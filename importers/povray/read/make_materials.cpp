@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "importers/povray/read/pigment_patterns.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/surfaces.h"
 #include "scene/records/material_traits.h"
@@ -198,22 +199,30 @@ Surface Surfaces::made(const Look& look) {
   return surface;
 }
 
-Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform& to_world, const Look& look,
+Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform& to_world, const Look& given,
                                    bool alone) {
   static const auto black = [] {
     auto pigment = std::make_shared<Pigment>();
     pigment->color = Finish::grey(0);
     return Shared<Pigment>(pigment);
   }();
-  const Pigment& pigment = texture.pigment ? *texture.pigment : *black;
+  Look look = given;
+  const Shared<Pigment> own = filtered_by(texture.pigment ? *texture.pigment : *black, look.filter_above);
+  const Pigment& pigment = *own;
+  const auto& [r, g, b] = look.filter_above;
+  if (!pigment.color && !pigment.map && std::min({r, g, b}) < 1)  // an image
+    look.tint = tinted(Spectrum{unbounded_from_rgb({r, g, b})}, look, pigment.place);
   Finish finish = texture.finish ? *texture.finish : default_finish();
+  if (look.crand_above > 0 && !look.covers)
+    finish.crand += std::min(look.crand_above / std::max(grey_of(mean_color(pigment)), 1e-3), finish.diffuse);
   if (look.double_illuminate && finish.diffuse_back == 0) finish.diffuse_back = finish.diffuse;
   const Transform placed = to_world * pigment.to_object;
   Layer layer;
   layer.opacity = opacity_of(pigment, placed, look.by_uv);
   const float* const opacity = std::get_if<float>(&layer.opacity);
-  const bool clear = opacity && *opacity < 1 && look.interior && look.interior->ior > 1.0001;
-  const bool colored = opacity && *opacity < 1 && pigment.color && pigment.color->v[3] > 0;
+  const bool shows_behind = opacity && *opacity < 1 && !look.covers;
+  const bool clear = shows_behind && look.interior && look.interior->ior > 1.0001;
+  const bool colored = shows_behind && pigment.color && pigment.color->v[3] > 0;
   Body body{pigment, finish, placed, look, std::nullopt, texture.place};
   body.glazed = opacity && (alone || clear || colored || *opacity >= 1) &&
                 is_glazed(finish, look.interior.get(), *opacity);
@@ -243,6 +252,7 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
       }
       layer.glow_scale = static_cast<float>(factor);
     }
+    layer.glow = tinted(layer.glow, look, finish.place);
   }
   return layer;
 }
@@ -259,18 +269,12 @@ Id<Material> Surfaces::material_of(const Body& body) {
 Id<Material> Surfaces::clear_material(const Pigment& pigment, const Finish& finish,
                                       const Interior* interior) {
   const Numbers color = pigment.color.value_or(Finish::grey(1));
-  const double filter = std::max(color.v[3], 0.0), transmit = std::max(color.v[4], 0.0);
-  const double all = std::max(share_through(color), 1e-6);
-  RGB through;
-  const auto component = [&](std::size_t i) {
-    return std::clamp((reader_.linear(color.v[i]) * filter + transmit) / all, 0.0, 1.0);
-  };
-  through = {component(0), component(1), component(2)};
+  const Spectrum through = filtered(color);
   const float reflects = finish.has_reflection ? 1 : 0;
   if (interior && interior->ior > 1.0001) {
     DielectricMaterial glass;
     glass.eta = ConstantSpectrum{static_cast<float>(interior->ior)};
-    glass.transmittance_factor = Spectrum{unbounded_from_rgb(through)};
+    glass.transmittance_factor = through;
     glass.reflectance_factor = Spectrum{ConstantSpectrum{reflects}};
     approximated(
         "a clear surface with ior: a dielectric, whose reflection is Fresnel's and whose shadow is dark or "
@@ -280,7 +284,7 @@ Id<Material> Surfaces::clear_material(const Pigment& pigment, const Finish& fini
   }
   ThinDielectricMaterial sheet;
   sheet.eta = ConstantSpectrum{1};
-  sheet.transmittance_factor = Spectrum{unbounded_from_rgb(through)};
+  sheet.transmittance_factor = through;
   sheet.reflectance_factor = Spectrum{ConstantSpectrum{0}};
   return add(sheet, pigment.place);
 }
@@ -343,6 +347,7 @@ Id<Material> Surfaces::material_of(const Pigment& pigment, const Finish& finish,
                                      diffuse * std::max(brightest(pigment), 1.0) > left);
   SpectrumParameter reflectance = color_texture(
       pigment, to_world, as_finish ? Part::factor : Part::reflectance, diffuse / left, look.by_uv);
+  reflectance = tinted(reflectance, look, pigment.place);
   if (grainy)
     reflectance = add(ProductTexture{reflectance, grain(falloff.grain, finish.place)}, false, finish.place);
   MaterialModel base;

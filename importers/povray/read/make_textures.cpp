@@ -66,6 +66,46 @@ std::vector<BlendEntry> without_negative(const std::vector<BlendEntry>& entries)
   return all;
 }
 
+double all_through(const Numbers& color) { return std::max(color.v[3], 0.0) + std::max(color.v[4], 0.0); }
+
+// Adds entries between two that let light through: the tint of their mixtures is no mixture of their tints.
+void add_mixtures(std::vector<BlendEntry>& all, const BlendEntry& from, const BlendEntry& to) {
+  constexpr int pieces = 6;
+  for (int i = 1; i < pieces; ++i) {
+    const double share = static_cast<double>(i) / pieces;
+    BlendEntry between = from;
+    between.at += share * (to.at - from.at);
+    for (std::size_t k = 0; k < between.color.v.size(); ++k)
+      between.color.v[k] += share * (to.color.v[k] - from.color.v[k]);
+    all.push_back(std::move(between));
+  }
+}
+
+// Returns the entries with a `filter` also for what lets nothing through: towards one that does, the tint of
+// what shows through is a mixture of both colours, in the share that `filter` has there.
+std::vector<BlendEntry> with_filters(const std::vector<BlendEntry>& entries) {
+  std::vector<BlendEntry> all;
+  const auto lets_through = [&](std::size_t i) {
+    return i < entries.size() && !entries[i].pigment && all_through(entries[i].color) > 0;
+  };
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].pigment || all_through(entries[i].color) > 0) {
+      all.push_back(entries[i]);
+      if (lets_through(i) && lets_through(i + 1)) add_mixtures(all, entries[i], entries[i + 1]);
+      continue;
+    }
+    for (const std::size_t other : {i - 1, i + 1}) {
+      BlendEntry entry = entries[i];
+      entry.color.v[3] = lets_through(other)
+                             ? std::max(entries[other].color.v[3], 0.0) / all_through(entries[other].color)
+                             : 0;
+      entry.color.v[4] = 1 - entry.color.v[3];
+      all.push_back(std::move(entry));
+    }
+  }
+  return all;
+}
+
 // Beyond an image that is there once, and by the alpha of its file.
 bool has_clear_parts(const ImageMap& image) {
   if (image.once) return true;
@@ -112,12 +152,26 @@ double Surfaces::share_through(const Numbers& color) const {
   return filter + std::max(color.v[4], 0.0);
 }
 
+Spectrum Surfaces::filtered(const Numbers& color) const {
+  const double filter = std::max(color.v[3], 0.0), transmit = std::max(color.v[4], 0.0);
+  const double all = std::max(share_through(color), 1e-6);
+  const auto part = [&](std::size_t i) {
+    return std::clamp((reader_.linear(color.v[i]) * filter + transmit) / all, 0.0, 1.0);
+  };
+  return unbounded_from_rgb({part(0), part(1), part(2)});
+}
+
+SpectrumParameter Surfaces::tinted(SpectrumParameter value, const Look& look, const Place& place) {
+  return look.tint ? add(ProductTexture{value, *look.tint}, false, place) : value;
+}
+
 float Surfaces::opacity_of(const Numbers& color) const {
   return static_cast<float>(std::clamp(1 - share_through(color), 0.0, 1.0));
 }
 
 Spectrum Surfaces::spectrum_of(const Numbers& color, Part part, double factor) const {
   if (part == Part::opacity) return ConstantSpectrum{opacity_of(color)};
+  if (part == Part::filtered) return filtered(color);
   if (part == Part::grey) return ConstantSpectrum{static_cast<float>(grey_of(color) * factor)};
   const RGB c{reader_.linear(color.v[0]) * factor, reader_.linear(color.v[1]) * factor,
               reader_.linear(color.v[2]) * factor};
@@ -212,6 +266,7 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
     return add(std::move(*made), is_number(part), pigment.place);
   }
   if (!is_of_places(made->kind)) entries = without_negative(entries);
+  if (part == Part::filtered) entries = with_filters(entries);
   for (const BlendEntry& entry : entries) {
     PatternStop stop;
     stop.at = static_cast<float>(std::clamp(entry.at, 0.0, 1.0));

@@ -2,6 +2,7 @@
 // Materials, glows and opacities of textures.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -25,6 +26,12 @@ struct Look {
   std::optional<Id<Medium>> medium;  // in its interior
   Shared<Texture> interior_texture;  // of the inside; null: as outside
   Transform interior_to_world;
+  bool covers = false;  // it lies upon another layer, which shows through
+  // Of layers above: what they let through of each colour, as numbers of the file and as textures, and the
+  // `crand` that they take of all light whatever they let through, times their own colour.
+  std::array<double, 3> filter_above{1, 1, 1};
+  std::optional<SpectrumParameter> tint;
+  double crand_above = 0;
 };
 
 // What a Shape takes of it.
@@ -64,7 +71,7 @@ class Surfaces {
 
   Surface made(const Look& look);
   // `alone`: nothing shows through it but what is behind the surface.
-  Layer layer_of(const Texture& texture, const Transform& to_world, const Look& look, bool alone = false);
+  Layer layer_of(const Texture& texture, const Transform& to_world, const Look& given, bool alone = false);
   // Of layers or a pattern of textures, else layer_of (make_layers.cpp).
   Layer layered(const Texture& texture, const Transform& to_world, const Look& look);
   Layer blended(const Texture& texture, const Transform& to_world, const Look& look);
@@ -91,11 +98,15 @@ class Surfaces {
   std::optional<FloatParameter> bump_texture(const Bump& bump, const Transform& to_world);
   SpectrumParameter highlight_color(const Pigment& pigment, const Finish& finish, const Transform& to_world,
                                     const Look& look);
+  // Returns that times what the layers above let through of each colour.
+  SpectrumParameter tinted(SpectrumParameter value, const Look& look, const Place& place);
+  // Puts into `look`, that of a layer below, what a layer above it does to the light that it lets through.
+  void put_above(const Texture& texture, const Transform& to_world, Look& look);
   Id<Material> clear_material(const Pigment& pigment, const Finish& finish, const Interior* interior);
 
   // Textures (make_textures.cpp): what of a colour becomes the value. A factor may be above 1. `grey` is that
-  // of its numbers as they are.
-  enum class Part { reflectance, factor, radiance, opacity, grey };
+  // of its numbers as they are; `filtered` is the tint of what shows through.
+  enum class Part { reflectance, factor, radiance, opacity, grey, filtered };
   static bool is_number(Part part) { return part == Part::opacity || part == Part::grey; }
   SpectrumParameter color_texture(const Pigment& pigment, const Transform& to_world, Part part, double factor,
                                   bool by_uv);
@@ -129,6 +140,8 @@ class Surfaces {
   // Returns by how much less a colour shows of itself for what it lets through: filter + transmit, and before
   // version 3.7 filter·max(r, g, b) + transmit, as povray's pixels say.
   double share_through(const Numbers& color) const;
+  // Returns the tint of what shows through a colour: what filter and transmit let of it, over both.
+  Spectrum filtered(const Numbers& color) const;
   float opacity_of(const Numbers& color) const;
   template <class T>
   auto append(std::vector<T>& records, T record) {
@@ -150,6 +163,9 @@ class Surfaces {
   std::map<std::array<std::uint32_t, 3>, std::optional<Surface>> sides_;  // by outside, inside, glow
   std::vector<Shared<Texture>> kept_;
 };
+
+// Returns the pigment with its colours times what layers above let through of each.
+Shared<Pigment> filtered_by(const Pigment& pigment, const std::array<double, 3>& through);
 
 // Whether it is the same wherever it is.
 bool is_plain(const Texture& texture);
