@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "importers/solids/bodies.h"
 #include "importers/solids/boolean.h"
@@ -163,19 +164,32 @@ class Evaluation {
     return made;
   }
 
+  // One after the other. What is left of a body may intersect itself by a rounding, where the next cannot be
+  // cut out: then all that is cut out is made one first.
   Bodies without(Bodies left, const Bodies& cut) {
     const Bodies together = grouped(cut);
     Bodies made;
     for (Solid& body : left) {
-      Solid rest = std::move(body);
-      for (const Solid& b : together) {
-        if (rest.empty()) break;
-        if (boxes_meet(solids::bounds_of(rest), solids::bounds_of(b)))
-          rest = carried_out(Operation::subtract, rest, b, rest);
+      const std::vector<std::string> before = result_.refused;
+      Solid rest = cut_out(body, together);
+      if (result_.refused.size() > before.size() && together.size() > 1) {
+        std::vector<std::string> first = std::exchange(result_.refused, before);
+        Solid again = cut_out(body, grouped(merged(together)));
+        if (result_.refused.size() == before.size())
+          rest = std::move(again);
+        else
+          result_.refused = std::move(first);
       }
       if (!rest.empty()) made.push_back(std::move(rest));
     }
     return made;
+  }
+
+  Solid cut_out(Solid rest, const Bodies& cut) {
+    for (const Solid& b : cut)
+      if (!rest.empty() && boxes_meet(solids::bounds_of(rest), solids::bounds_of(b)))
+        rest = carried_out(Operation::subtract, rest, b, rest);
+    return rest;
   }
 
   Bodies merged(Bodies bodies) {

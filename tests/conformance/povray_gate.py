@@ -4,8 +4,8 @@
 
   tests/conformance/povray_gate.py FOLDER [--count 60] [--out FILE.tsv] [--sheet sheet.jpg] [--bin build/release/bin]
 
-It takes scenes from each folder of FOLDER in turn, leaves out those that povray refuses or takes too long for, and
-stops at --count. It needs povray, and Pillow and NumPy for Python. For each scene it prints:
+It takes scenes from each folder of FOLDER in turn, leaves out those that povray refuses, takes too long for or shows
+otherwise each time, and stops at --count. It needs povray, and Pillow and NumPy for Python. For each scene it prints:
 
   light       the mean light of our picture over that of POV-Ray's (both decoded from sRGB, as files have them)
   blocks      how many of 8 × 6 blocks agree: three channels, each within 3 % of the block, plus 1 % of the mean of
@@ -68,11 +68,19 @@ def by_us(scene, folder, options):
     return Image.fromarray(np.uint8(np.round(255 * np.clip(encoded, 0, 1)))), block_means(whole), errors
 
 
+def by_povray_alike(scene, folder, shown):
+    """Its picture, if it is one: not black, and the same a second time (a scene may be random by the time of day)."""
+    first, second = (pictures.by_povray(scene, folder, shown, ["+A0.0", "+AM1", "+R3"]).convert("RGB") for _ in range(2))
+    if np.asarray(first).max() <= 2:
+        raise pictures.Skipped("povray shows black")
+    if np.abs(np.asarray(first, dtype=float) - np.asarray(second, dtype=float)).mean() > 1:
+        raise pictures.Skipped("povray shows something else each time")
+    return first
+
+
 def compared(scene, folder, options):
     shown = argparse.Namespace(**{**vars(options), "height": options.width * 3 // 4})
-    theirs = pictures.by_povray(scene, folder, shown, ["+A0.0", "+AM1", "+R3"]).convert("RGB")
-    if np.asarray(theirs).max() <= 2:
-        raise pictures.Skipped("povray shows black")
+    theirs = by_povray_alike(scene, folder, shown)
     try:
         sized = pictures.sized(options, pictures.report_of(scene, options))
         ours, means, errors = by_us(scene, folder, sized)
@@ -132,7 +140,7 @@ def main():
     whole = sum(row.light is not None and row.agreeing == COLUMNS * ROWS for row in rows)
     print(f"{len(rows)} scenes of {len({row.scene.relative_to(options.folder.resolve()).parts[0] for row in rows})} folders: "
           f"mean within 3 %: {means} ({means / len(rows):.0%}); every block: {whole} ({whole / len(rows):.0%}); "
-          f"left out, as povray shows nothing: {left_out}")
+          f"left out, as povray shows nothing, or no two pictures alike: {left_out}")
     if options.sheet:
         worst_first = sorted(rows, key=lambda row: 1e9 if row.light is None else row.worst, reverse=True)
         pictures.sheet_of([(row.worst, row.pair) for row in worst_first], options.sheet)

@@ -40,10 +40,12 @@ def run(command, seconds, cwd=None):
 
 
 def by_povray(scene, folder, options, extra, original=None):
-    """`original`: the file that the scene includes. Of an animation the first frame, as the reader has it."""
+    """`original`: the file that the scene includes. Of an animation the first frame, as the reader has it, but where
+    the scene asks whether it is one: it is none."""
     original = original or scene
+    text = original.read_bytes()
     target = folder / "povray.png"
-    if b"frame_number" in original.read_bytes():
+    if b"frame_number" in text and b"clock_on" not in text:
         extra = [*extra, "+KFI1", "+KFF2", "+SF1", "+EF1"]
     run(["povray", f"+I{scene}", f"+O{target}", f"+W{options.width}", f"+H{options.height}", "-D", "-GA", "+WT1",
          f"+L{original.parent}", *extra], options.seconds, folder)

@@ -419,6 +419,19 @@ TEST_F(PovrayPictures, OrthographicCameras) {
                  0.03);
 }
 
+// Letters of boxes and cylinders that meet in one plane, cut out before a blue wall.
+TEST_F(PovrayPictures, LettersAreCutOut) {
+  expect_alike(
+      "#version 3.7; global_settings { assumed_gamma 1 }\n#include \"chars.inc\"\n"
+      "camera { orthographic location <5, 4, -5> look_at <5, 4, 0> right 16*x up 12*y }\n"
+      "light_source { <100, 100, -1000> rgb 1 }\n"
+      "difference { box { <-2, -2, .1>, <12, 10, 3> }\n"
+      "  union { object { char_B translate 2*x } object { char_A translate 7*x } scale <1, 1.6, .2> }\n"
+      "  pigment { rgb 1 } }\n"
+      "box { <-1.9, -1.9, .101>, <11.9, 9.9, .1011> pigment { rgb <0, 0, 1> } }\n",
+      0.02);
+}
+
 TEST_F(PovrayPictures, Cameras) {
   const std::string around =
       "light_source { <1, 2, -1> rgb 1 }\nbox { -4, 4 pigment { checker rgb <.9, .3, .2>, rgb <.2, .4, .9> "
