@@ -55,14 +55,19 @@ def by_povray(scene, folder, options, extra, original=None):
     return Image.open(pictures[0])
 
 
-def by_vitrail(scene, folder, options, extra, developing=()):
-    film, target = folder / "vitrail.film", folder / "vitrail.png"
+def film_of(scene, folder, options, extra):
+    film = folder / "vitrail.film"
     done = run([options.bin / "vitrail", "render", scene, "-o", film, "--width", str(options.width), "--height",
                 str(options.height), "--missing", "replace", "--force", "--quiet", "--threads", "1", *extra],
                options.seconds)
     if done.returncode:
         raise Skipped((done.stderr.strip().splitlines() or ["render fails"])[0][:160])
-    run([options.bin / "vitrail", "develop", film, "-o", target, *developing], options.seconds)
+    return film
+
+
+def by_vitrail(scene, folder, options, extra):
+    target = folder / "vitrail.png"
+    run([options.bin / "vitrail", "develop", film_of(scene, folder, options, extra), "-o", target], options.seconds)
     return Image.open(target)
 
 

@@ -68,7 +68,8 @@ class PovrayTurbulence : public ::testing::Test {
   void expect_alike(const std::string& pattern, const std::string& modifiers) {
     SCOPED_TRACE(pattern + " " + modifiers);
     // Smooth noise has few bumps in a small part of a plane: its deviation would be another in each.
-    const bool is_smooth = pattern == "bozo" || pattern == "bumps" || pattern == "dents" || pattern == "wrinkles";
+    const bool is_smooth =
+        pattern == "bozo" || pattern == "bumps" || pattern == "dents" || pattern == "wrinkles";
     const double units = units_a_pixel * (is_smooth ? 5 : 1);
     folder_.write("scene.pov",
                   fmt::format("#version 3.7; global_settings {{ assumed_gamma 1 }}\n"
@@ -90,8 +91,9 @@ class PovrayTurbulence : public ::testing::Test {
 
 // Bumps are bozo, and dents its cube.
 TEST_F(PovrayTurbulence, StatisticsOfPatterns) {
-  for (const char* pattern : {"agate", "bozo", "bumps", "cells", "crackle", "dents", "granite", "leopard", "marble", "onion",
-                              "ripples", "spiral1 3", "waves", "wood", "wrinkles", "gradient x"})
+  for (const char* pattern :
+       {"agate", "bozo", "bumps", "cells", "crackle", "dents", "granite", "leopard", "marble", "onion",
+        "ripples", "spiral1 3", "waves", "wood", "wrinkles", "gradient x"})
     for (const char* modifiers : {"", "turbulence .5"}) expect_alike(pattern, modifiers);
 }
 
