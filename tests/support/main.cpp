@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tests/support/paths.h"
 #include "tests/support/test_files.h"
 
 namespace vitrail::test {
@@ -53,9 +55,16 @@ bool choose_suites(const std::vector<std::string_view>& files) {
   return !own.empty();
 }
 
+// Puts the folder of programs that wait less than usual, of which there may be none, before the others.
+void find_hurried_programs() {
+  const char* path = std::getenv("PATH");
+  setenv("PATH", (bin_dir() + "/../hurried:" + (path ? path : "")).c_str(), 1);
+}
+
 int run_tests(int count, char** arguments) {
   const std::string program = std::filesystem::path(arguments[0]).filename().string();
   testing::InitGoogleMock(&count, arguments);
+  find_hurried_programs();
   const std::vector<std::string_view> files = files_of(program);
   if (files.empty() && !test_files.empty() && !program.starts_with("test_in_")) {
     std::fprintf(stderr, "%s: no tests are called so; is the program built?\n", program.c_str());
