@@ -22,7 +22,7 @@ class PovrayInheritance : public PovrayPictures {
  protected:
   void expect_colors(const std::string& text) {
     SCOPED_TRACE(text);
-    expect_alike(text, 0.03, 16);
+    expect_alike(text, 0.03);
   }
 };
 
@@ -134,7 +134,7 @@ TEST_F(PovrayInheritance, LampsThatAreMoved) {
         "0*x rgb 1 translate <2, 5, -4> looks_like { sphere { 0, .5 pigment { rgb .9 } finish { ambient 1 } "
         "} "
         "}"})
-    expect_alike(linear_view + floor + "light_source { " + lamp + " }", 0.03, 64);
+    expect_alike(linear_view + floor + "light_source { " + lamp + " }", 0.03);
 }
 
 // povray warns and goes on, between statements.

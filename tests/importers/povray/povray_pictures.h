@@ -55,7 +55,7 @@ class PovrayPictures : public testing::Test {
     return means;
   }
   // The mean difference of the blocks, over the mean of povray's picture.
-  void expect_alike(const std::string& text, double most, int samples = 64) {
+  void expect_alike(const std::string& text, double most, int samples = 32) {
     const PovPicture picture = by_povray(text);
     ASSERT_FALSE(picture.values.empty());
     const std::vector<double> theirs = blocks(picture.values), ours = blocks(by_vitrail(samples));

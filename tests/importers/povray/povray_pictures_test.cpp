@@ -104,8 +104,8 @@ TEST_F(PovrayPictures, LampsThatAreRectangles) {
   const std::string glow =
       "polygon { 5, <0, 1.5, -.9>, <1, 1.5, -.9>, <1, 1.5, .1>, <0, 1.5, .1>, <0, 1.5, -.9> translate .5 * y"
       " pigment { rgb 1 } finish { ambient 0 diffuse 0 emission rgb <8, 6.8, 5.6> } no_shadow }\n";
-  expect_alike(linear_view + lamp + room, 0.02, 256);
-  expect_alike(linear_view + lamp + room + glow, 0.02, 256);
+  expect_alike(linear_view + lamp + room, 0.02, 128);
+  expect_alike(linear_view + lamp + room + glow, 0.02, 128);
 }
 
 // Each shape from both sides, red outside and blue inside. Of triangles the order of the corners decides.
@@ -138,10 +138,10 @@ TEST_F(PovrayPictures, Atmospheres) {
   for (const char* media :
        {"media { absorption <.05, .1, .15> }", "media { emission .03 }",
         "fog { distance 8 rgb <.4, .5, .6> }", "media { scattering { 1, .05 extinction .2 } }"})
-    expect_alike(linear_view + walls + media, 0.03, 256);
+    expect_alike(linear_view + walls + media, 0.03, 96);
   for (const char* media :
        {"media { scattering { 1, .06 } }", "media { scattering { 5, .05 eccentricity .4 } }"})
-    expect_alike(linear_view + walls + media, 0.08, 256);
+    expect_alike(linear_view + walls + media, 0.08, 96);
   // What is not hollow keeps it out, from the eye as well.
   const std::string clear = " pigment { rgbt 1 } finish { ambient 0 diffuse 0 } no_shadow }\n";
   expect_alike(linear_view + walls + "fog { distance 4 rgb <.4, .5, .6> } sphere { <0, 1, -1>, .9" + clear,
@@ -198,7 +198,7 @@ const std::string walls = ball + "plane { -z, -6 pigment { rgb .6 } }\n";
 
 TEST_F(PovrayPictures, FogOnTheGround) {
   for (const char* fog : {"distance 4 rgb .6 fog_offset .2 fog_alt .6", "distance 2 rgb .1 fog_alt 1"})
-    expect_alike(linear_view + walls + "fog { fog_type 2 " + fog + " }", 0.03, 256);
+    expect_alike(linear_view + walls + "fog { fog_type 2 " + fog + " }", 0.03);
 }
 
 // A map's colours below 0 show 0, and mixtures with them.
@@ -229,23 +229,23 @@ TEST_F(PovrayPictures, FogThatTransmitsAndFilters) {
   for (const char* fog : {"distance 4 rgbt <.4, .5, .6, .3>", "distance 4 rgbf <.7, .5, .2, .8>",
                           "distance 2 fog_type 2 fog_offset 2 fog_alt 1 rgbt <.4, .5, .6, .3>",
                           "distance 4 fog_type 2 fog_offset .2 fog_alt .6 rgbft <.3, .5, .2, 1, .4>"}) {
-    expect_alike(linear_view + ball + around + "fog { " + fog + " }", 0.03, 128);
-    expect_alike(linear_view + walls + "fog { " + fog + " }", 0.03, 128);
+    expect_alike(linear_view + ball + around + "fog { " + fog + " }", 0.03);
+    expect_alike(linear_view + walls + "fog { " + fog + " }", 0.03);
   }
   // From above, as on a landscape.
   expect_alike(
       "#version 3.7; global_settings { assumed_gamma 1 }\n"
       "camera { location <0, 9, -9> look_at <0, 0, 3> }\n" +
           ball + around + "fog { distance 1 fog_type 2 fog_alt .4 rgbt <.9, .8, .7, .25> }",
-      0.03, 256);
+      0.03);
 }
 
 TEST_F(PovrayPictures, FogWithTurbulence) {
   for (const char* fog :
        {"distance 8 rgb <.7, .8, .9> turbulence .5", "distance 3 rgb .9 turbulence 2 octaves 3",
         "distance 4 rgb .6 fog_type 2 fog_offset .2 fog_alt .6 turbulence .8"})
-    expect_alike(linear_view + walls + "fog { " + fog + " }", 0.06, 256);
-  expect_alike(linear_view + walls + "fog { distance 6 rgb .9 turbulence .5 turb_depth .9 }", 0.09, 256);
+    expect_alike(linear_view + walls + "fog { " + fog + " }", 0.06, 32);
+  expect_alike(linear_view + walls + "fog { distance 6 rgb .9 turbulence .5 turb_depth .9 }", 0.09, 32);
 }
 
 TEST_F(PovrayPictures, PatternsOfPigments) {
@@ -353,7 +353,7 @@ TEST_F(PovrayPictures, ClearSurfacesThatShine) {
                      "finish { ambient .1 } }\n"
                      "sphere { <0, .9, .5>, .9 " +
                      looks + " }",
-                 0.03, 256);
+                 0.03);
 }
 
 // So they are of a layer above others.
@@ -378,12 +378,14 @@ TEST_F(PovrayPictures, PartsBehindTextures) {
                            "pigment { checker rgbt <.2, .1, .9, .4>, rgbt <.9, .1, .1, .4> }",
                            "normal { ripples .3 scale .5 }"}) {
     expect_alike(
-        linear_view + two_lamps + varnished + "sphere { <0, .9, .5>, .9 texture { T } " + more + " }", 0.02);
+        linear_view + two_lamps + varnished + "sphere { <0, .9, .5>, .9 texture { T } " + more + " }", 0.02,
+        64);
     expect_alike(
-        linear_view + two_lamps + varnished + "sphere { <0, .9, .5>, .9 texture { T " + more + " } }", 0.02);
+        linear_view + two_lamps + varnished + "sphere { <0, .9, .5>, .9 texture { T " + more + " } }", 0.02,
+        64);
     expect_alike(linear_view + two_lamps +
                      "sphere { <0, .9, .5>, .9 texture { pigment { rgb .7 } scale .3 } " + more + " }",
-                 0.02);
+                 0.02, 64);
   }
 }
 

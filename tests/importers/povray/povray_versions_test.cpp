@@ -21,7 +21,7 @@ TEST_F(PovrayVersions, LightOfScenesThatSayItSomewhere) {
                            "#include \"old.inc\"\n", "#include \"colors.inc\"\n#version 3.6;\n",
                            "#version 3.6;\n#include \"colors.inc\"\n", "#declare V = version; #version V;\n",
                            "#include \"colors.inc\"\nglobal_settings { assumed_gamma 2.2 }\n"})
-    expect_alike(head + lit, 0.02, 16);
+    expect_alike(head + lit, 0.02);
 }
 
 // Before 3.7 a colour with a filter shows more of itself.
@@ -32,7 +32,7 @@ TEST_F(PovrayVersions, WhatFiltersShowOfThemselves) {
       expect_alike(std::string(version) + "\nglobal_settings { assumed_gamma 1 }\n" + lit +
                        "box { <-1.5, 0, -1.01>, <1.5, 1.5, -1> pigment { " + color +
                        " } finish { ambient .5 diffuse .3 } }",
-                   0.04, 64);
+                   0.04);
 }
 
 }  // namespace
