@@ -45,7 +45,7 @@ std::string render_scene(const std::filesystem::path& scene, const std::filesyst
                          const std::string& arguments) {
   std::filesystem::path bundle = picture;
   bundle.replace_extension(".vit");
-  const CommandResult made = run(fmt::format("{} '{}' -o '{}' --domains 4 --quiet", vitrail("partition"),
+  const CommandResult made = run(fmt::format("{} '{}' -o '{}' --domains 1 --quiet", vitrail("partition"),
                                              scene.string(), bundle.string()));
   if (made.status != 0) return made.output;
   const CommandResult done =
