@@ -2,9 +2,13 @@
 // Mitsuba 3 as the judge of what is written for it. Tests are skipped where it is not installed.
 #pragma once
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -17,14 +21,26 @@ namespace vitrail {
 
 using Json = nlohmann::json;
 
-// The first of $VITRAIL_MITSUBA_PYTHON, python3 and /usr/bin/python3 that can import mitsuba; "" if none.
+// Starts a process that has imported Mitsuba and lives as long as this one. Returns the command that runs
+// scripts in it.
+inline std::string start_mitsuba(const std::string& python) {
+  const std::string script = test::project_file("tests/support/mitsuba_server.py"),
+                    socket = fmt::format("{}/vitrail-mitsuba-{}",
+                                         std::filesystem::temp_directory_path().string(), ::getpid());
+  // Its standard input ends with this process.
+  if (!::popen(fmt::format("exec {} {} --serve '{}'", python, script, socket).c_str(), "we")) return python;
+  return fmt::format("{} -ISE {} '{}'", python, script, socket);
+}
+
+// Runs scripts by the first of $VITRAIL_MITSUBA_PYTHON, python3 and /usr/bin/python3 that can import mitsuba;
+// "" if none can.
 inline const std::string& mitsuba_python() {
   static const std::string found = [] {
     const char* chosen = std::getenv("VITRAIL_MITSUBA_PYTHON");
     for (const std::string& python :
          {std::string(chosen ? chosen : ""), std::string("python3"), std::string("/usr/bin/python3")})
       if (!python.empty() && std::system((python + " -c 'import mitsuba' > /dev/null 2>&1").c_str()) == 0)
-        return python;
+        return start_mitsuba(python);
     return std::string();
   }();
   return found;
