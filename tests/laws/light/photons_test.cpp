@@ -104,7 +104,7 @@ TEST(Photons, FurnaceToEachDepth) {
     set_camera(scene, {0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 0.8, 12, 12);
     double expected = 0;
     for (int k = 0; k <= depth; ++k) expected += std::pow(0.6, k);
-    EXPECT_NEAR(mean(photon_mapped(scene, 20000, 0.2)), expected, 0.01 * expected) << depth;
+    EXPECT_NEAR(mean(photon_mapped(scene, 8000, 0.2)), expected, 0.01 * expected) << depth;
   }
 }
 
@@ -163,8 +163,9 @@ TEST(Photons, AsPathsBelowASmoothCoat) {
   for (Material& material : scene.materials)
     if (std::holds_alternative<DiffuseMaterial>(material.model)) material.model = varnish;
   scene.settings.max_depth = 6;
-  const double paths = mean(render(scene, 1024));
-  EXPECT_NEAR(mean(photon_mapped(scene, 20000, 0.05)) / paths, 1, 0.01);
+  const double paths = mean(render(scene, 512)), photons = mean(photon_mapped(scene, 8000, 0.05));
+  fmt::print("photons {:+.2f} % of paths\n", 100 * (photons / paths - 1));
+  EXPECT_NEAR(photons / paths, 1, 0.01);
 }
 
 // A slanted block of glass, without and with dispersion: refraction, total reflection, shading by what comes
@@ -185,8 +186,9 @@ TEST(Photons, AsPathsBehindGlass) {
       }
     add_shape(scene, add_quads(scene, faces), glass(disperses ? flint : ConstantSpectrum{1.5f}));
     scene.settings.max_depth = 8;
-    const double paths = mean(render(scene, 1024));
-    EXPECT_NEAR(mean(photon_mapped(scene, 20000, 0.06)) / paths, 1, 0.012) << disperses;
+    const double paths = mean(render(scene, 512)), photons = mean(photon_mapped(scene, 8000, 0.06));
+    fmt::print("photons {:+.2f} % of paths\n", 100 * (photons / paths - 1));
+    EXPECT_NEAR(photons / paths, 1, 0.012) << disperses;
   }
 }
 

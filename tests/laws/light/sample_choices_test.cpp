@@ -257,7 +257,7 @@ TEST(SampleChoices, MeansOfSplattedPicturesAreAsFarOffAsIsSaid) {
                                Filter{MitchellFilter{}}}) {
     const SampleChoices ways{filter, {}, {.splat = true}};
     const Neighbours neighbours = FilterSampler(filter, true).neighbours();
-    const Film truth = rendered(scene, 4096, ways, 999);
+    const Film truth = rendered(scene, 1024, ways, 999);  // a sixteenth of a picture's error
     const Image true_image = develop(truth).rgb;
     double squares = 0, said = 0, sigmas = 0;
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
