@@ -177,6 +177,30 @@ TEST(Residency, TakesTheFullestAndKeepsWithinItsBudget) {
   EXPECT_EQ(residency.held_bytes(), 200u);
 }
 
+// Two domains are resident; a third has more rays than both.
+TEST(Residency, EvictsNoMoreAndNoSoonerThanItNeeds) {
+  const Manifest m = of_domains({200'000, 200'000, 200'000});  // more than its rays are worth
+  const auto full = [&](std::uint64_t rays_of_the_third) {
+    Residency residency(m, 400'000, Homes({0, 0, 0}, 1), 0);
+    residency.rays_wait(0, 5);
+    residency.rays_wait(1, 6);
+    for (int i = 0; i < 2; ++i) residency.loaded(residency.loader_is_free(11, true).load.value().domain);
+    residency.rays_wait(2, rays_of_the_third);
+    return residency;
+  };
+  Residency residency = full(50);
+  EXPECT_EQ(residency.loader_is_free(61, true).evicted, std::vector<std::uint32_t>{0}) << "the emptiest";
+  EXPECT_TRUE(residency.loader_is_free(61, true).evicted.empty()) << "room enough comes free";
+  residency.released(200'000);
+  EXPECT_EQ(residency.loader_is_free(61, true).load.value().domain, 2u);
+  EXPECT_EQ(residency.evictions(), 1u);
+
+  EXPECT_TRUE(full(5).loader_is_free(5, true).evicted.empty()) << "it has no more rays than the emptiest";
+  // A sixth of the rays alive: half of an even share of three domains.
+  EXPECT_FALSE(full(50).loader_is_free(300, true).evicted.empty());
+  EXPECT_TRUE(full(50).loader_is_free(301, true).evicted.empty()) << "it has too few of the rays alive";
+}
+
 // While the workers have other things to do, a domain is worth reading by its bytes and its rays.
 TEST(Residency, SwapsWithoutNeedWhatItsRaysAreWorth) {
   const auto swaps = [](std::uint64_t bytes, std::uint64_t rays, std::uint64_t rays_of_the_other) {

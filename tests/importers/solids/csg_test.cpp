@@ -77,12 +77,33 @@ TEST(Csg, TouchingEdgesAndVerticesAreMovedApart) {
   for (const Point3d at : {Point3d{1, 1, 0}, Point3d{1, 1, 1}}) {
     const CsgResult result = evaluate(merge({cube(0, 1), solid(box(at, at + Vector3d{1, 1, 1}), 1)}));
     expect_volume(result, 2, 1e-4);
+    EXPECT_EQ(result.perturbation > 0, at.z == 0) << "along an edge";
     EXPECT_LE(result.perturbation, 1e-5);
   }
   // Two holes that meet along an edge.
   const CsgResult cut = evaluate(
       difference({cube(0, 4), solid(box({1, 1, 1}, {2, 2, 2}), 1), solid(box({2, 2, 1}, {3, 3, 2}), 1)}));
   expect_volume(cut, 62, 1e-3);
+  EXPECT_GT(cut.perturbation, 0);
+  EXPECT_LE(cut.perturbation, 1e-5);
+  EXPECT_EQ(evaluate(merge({cube(0, 2), cube(1, 3)})).perturbation, 0);
+}
+
+// As far as the cube that stands for infinity, in whichever direction.
+TEST(Csg, WhatHasNoEndSaysSo) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {-1.0, 1.0}) {
+      std::vector<Csg> sides;
+      for (int other = 0; other < 3; ++other)
+        for (const double side : {-1.0, 1.0}) {
+          Vector3d n;
+          n[other] = side;
+          if (other != axis || side != sign) sides.push_back(half_space({n, 1}, 1));
+        }
+      const CsgResult open = evaluate(intersection(sides), {.reach = 10});
+      expect_volume(open, 4 * 11, 1e-9);
+      EXPECT_TRUE(open.reaches_infinity) << axis << ' ' << sign;
+    }
 }
 
 TEST(Csg, HalfSpacesCutWithoutMeshesAtInfinity) {

@@ -59,7 +59,8 @@ std::string quarter(const Bundle& bundle, const nlohmann::json& everything, int 
   return fmt::format("--memory {} --domain-memory {}", rank, domains);
 }
 
-// Each number of threads meets each of domains and each of ranks; with VITRAIL_LONG_TESTS each pair of them.
+// Each number of threads meets each of domains and each of ranks, and so does little memory; with
+// VITRAIL_LONG_TESTS each pair of them.
 std::vector<int> threads_with(int domains, int ranks) {
   if (std::getenv("VITRAIL_LONG_TESTS")) return {1, 2};
   return {(domains == 8) == (ranks == 2) ? 1 : 2};
@@ -96,9 +97,11 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
         EXPECT_EQ(all["crossings"], crossings) << what;
         EXPECT_EQ(all["forwarded_rays"], 0) << what;
         const std::string memory = quarter(bundle, all, threads);
-        const nlohmann::json little = render(directory, bundle, ranks, threads, memory);
-        check(little, what + ", a quarter of the memory");
-        EXPECT_EQ(little["crossings"], crossings) << what;
+        if (threads == 1 || std::getenv("VITRAIL_LONG_TESTS")) {
+          const nlohmann::json little = render(directory, bundle, ranks, threads, memory);
+          check(little, what + ", a quarter of the memory");
+          EXPECT_EQ(little["crossings"], crossings) << what;
+        }
         if (domains == 64 && ranks == 2 && threads == 2)
           for (const int seed : {1, 2})
             check(render(directory, bundle, ranks, threads,
