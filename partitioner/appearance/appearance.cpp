@@ -82,7 +82,7 @@ void bake_media(const Scene& scene, const Used& used, Appearance& result, Notes&
   result.medium_ids = renumbered(used.media, [&](std::size_t i, const auto&) {
     const Medium& medium = scene.media[i];
     std::vector<std::string> notes;
-    const std::optional<Medium> baked = bake_medium(medium, scene.settings.rgb, notes);
+    std::optional<Medium> baked = bake_medium(medium, scene.settings.rgb, notes);
     for (const std::string& note : notes) {
       const std::string message = fmt::format("medium \"{}\": {}", medium.name, note);
       if (baked)
@@ -90,8 +90,9 @@ void bake_media(const Scene& scene, const Used& used, Appearance& result, Notes&
       else
         report.dropped(message + "; light passes it unchanged", medium.origin);
     }
-    if (baked) result.media.push_back(*baked);
-    return baked.has_value();
+    if (!baked) return false;
+    result.media.push_back(std::move(*baked));
+    return true;
   });
 }
 
