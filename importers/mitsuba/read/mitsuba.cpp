@@ -84,6 +84,7 @@ ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory,
                            const ImportOptions& options) {
   ImportedScene imported;
   mitsuba::Report report(imported.scene.files);
+  if (memory.is_limited()) report.count_repeated();
   const mitsuba::ObjectPtr root = mitsuba::load(file, options, imported.scene.files, report);
   mitsuba::Builder builder{imported.scene, report};
   builder.mesh_memory = std::move(memory);

@@ -10,15 +10,19 @@ SourceLocation Report::location(const Origin& origin) const {
   return {files_[origin.file], static_cast<int>(origin.line), static_cast<int>(origin.column)};
 }
 
+void Report::keep(Diagnostic diagnostic) {
+  if (!repeated_ || repeated_->keeps(diagnostic)) diagnostics_.push_back(std::move(diagnostic));
+}
+
 void Report::add(Fidelity fidelity, std::string message, const Origin& place) {
-  diagnostics_.push_back({fidelity, std::move(message), location(place), location(item_.origin), item_.kind});
+  keep({fidelity, std::move(message), location(place), location(item_.origin), item_.kind});
 }
 
 void Report::add(Diagnostics more) {
   for (Diagnostic& diagnostic : more) {
     diagnostic.item = location(item_.origin);
     diagnostic.kind = item_.kind;
-    diagnostics_.push_back(std::move(diagnostic));
+    keep(std::move(diagnostic));
   }
 }
 

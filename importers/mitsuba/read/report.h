@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "importers/reading/repeated_notes.h"
 #include "scene/records/scene.h"
 
 namespace vitrail::mitsuba {
@@ -32,13 +34,20 @@ class Report {
 
   [[noreturn]] void fail(const std::string& message, const Origin& place) const;
   SourceLocation location(const Origin& origin) const;
-  Diagnostics take() { return std::move(diagnostics_); }
+  // Of very many notes of one text, from now on most are counted alone.
+  void count_repeated() { repeated_.emplace(); }
+  Diagnostics take() {
+    if (repeated_) repeated_->append_counts(diagnostics_);
+    return std::move(diagnostics_);
+  }
 
  private:
+  void keep(Diagnostic diagnostic);
   void add(Fidelity fidelity, std::string message, const Origin& place);
 
   const std::vector<std::string>& files_;
   Item item_;
+  std::optional<RepeatedNotes> repeated_;
   Diagnostics diagnostics_;
 };
 

@@ -5,7 +5,7 @@ namespace vitrail::pbrt {
 
 void Report::add(Diagnostic diagnostic) {
   if (item_.file) diagnostic.item = location(item_), diagnostic.kind = kind_;
-  diagnostics_.push_back(std::move(diagnostic));
+  if (!repeated_ || repeated_->keeps(diagnostic)) diagnostics_.push_back(std::move(diagnostic));
 }
 
 }  // namespace vitrail::pbrt

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "importers/pbrt/read/lexer.h"
+#include "importers/reading/repeated_notes.h"
 
 namespace vitrail::pbrt {
 
@@ -20,11 +22,18 @@ class Report {
   // What comes is about the directive there, of which a record of that kind is made.
   void begin_item(const Place& place, RecordKind kind = RecordKind::any) { item_ = place, kind_ = kind; }
 
-  Diagnostics take() { return std::move(diagnostics_); }
+  // Of very many notes of one text, from now on most are counted alone.
+  void count_repeated() { repeated_.emplace(); }
+
+  Diagnostics take() {
+    if (repeated_) repeated_->append_counts(diagnostics_);
+    return std::move(diagnostics_);
+  }
 
  private:
   Place item_;
   RecordKind kind_ = RecordKind::any;
+  std::optional<RepeatedNotes> repeated_;
   Diagnostics diagnostics_;
 };
 
