@@ -77,10 +77,9 @@ void report_tubes(ImportedScene& imported) {
 
 }  // namespace
 
-ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
-                           std::function<void(double)> progress, const ImportOptions& options) {
-  const std::optional<GivenSky> sky =
-      options.sky.empty() ? std::nullopt : std::optional(parse_sky(options.sky));
+ImportedScene read_scene_file(const std::filesystem::path& file, MeshMemory memory,
+                              std::function<void(double)> progress, const ImportOptions& options) {
+  if (!options.sky.empty()) parse_sky(options.sky);  // what is wrong with it is said at once
   ImportedScene imported;
   try {
     imported = read_scene(file, std::move(memory), std::move(progress), options);
@@ -88,9 +87,19 @@ ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
     throw without_foreign_text(error, file);
   }
   require_shallow(imported.scene);
+  return imported;
+}
+
+void complete_scene(ImportedScene& imported, const ImportOptions& options) {
   drop_coincident_lamps(imported);
-  if (sky) replace_sky(imported, *sky);
+  if (!options.sky.empty()) replace_sky(imported, parse_sky(options.sky));
   report_tubes(imported);
+}
+
+ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
+                           std::function<void(double)> progress, const ImportOptions& options) {
+  ImportedScene imported = read_scene_file(file, std::move(memory), std::move(progress), options);
+  complete_scene(imported, options);
   return imported;
 }
 

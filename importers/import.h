@@ -20,4 +20,9 @@ namespace vitrail {
 ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
                            std::function<void(double)> progress = {}, const ImportOptions& options = {});
 
+// The two halves of import_scene: the file alone, and what is done to the scene that it holds.
+ImportedScene read_scene_file(const std::filesystem::path& file, MeshMemory memory,
+                              std::function<void(double)> progress, const ImportOptions& options);
+void complete_scene(ImportedScene& imported, const ImportOptions& options);
+
 }  // namespace vitrail

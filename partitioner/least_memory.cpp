@@ -40,7 +40,7 @@ MemoryNeeds needs_of(const Scene& scene, const PartitionOptions& options) {
   return needs;
 }
 
-std::uint64_t least_memory(const Scene& scene, const PartitionOptions& options) {
+std::uint64_t least_memory(const Scene& scene, const PartitionOptions& options, std::uint64_t more_bytes) {
   ScenePlan plan = plan_scene(scene);
   if (options.flatten) flatten(plan);
   Manifest m;
@@ -56,7 +56,7 @@ std::uint64_t least_memory(const Scene& scene, const PartitionOptions& options) 
   std::uint64_t shining = 0;
   for (const Placement& p : plan.scene.placements) shining += shines(p) ? triangles_of(*p.mesh) : 0;
   for (const Placement& p : expanded(plan, shines)) shining += triangles_of(*p.mesh);
-  needs.scene_bytes += shining * sizeof(EmissiveTriangle);
+  needs.scene_bytes += more_bytes + shining * sizeof(EmissiveTriangle);
   needs.instance_bytes = plan.scene.uses.size() * bytes_of_reference;
   for (const QuadricRun& run : plan.scene.runs)
     needs.quadrics += run.places->size() * (is_curve(*run.quadric) ? 3 : 1);

@@ -19,7 +19,8 @@ MemoryNeeds needs_of(const Scene& scene, const PartitionOptions& options);
 std::uint64_t most_object_bytes(std::uint64_t domain_bytes);
 
 // The least budget, not less than options.memory_bytes, in which the scene is partitioned, with its images
-// read. Counted from the records; materials are not looked at, so that (u,v) count where there are textures.
-std::uint64_t least_memory(const Scene& scene, const PartitionOptions& options);
+// read. `more_bytes` are held besides its records. Counted from the records; materials are not looked at, so
+// that (u,v) count where there are textures.
+std::uint64_t least_memory(const Scene& scene, const PartitionOptions& options, std::uint64_t more_bytes = 0);
 
 }  // namespace vitrail

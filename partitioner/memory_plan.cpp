@@ -152,6 +152,12 @@ std::uint64_t least_budget(const Manifest& m, MemoryNeeds needs) {
   return enough * step + enough * step / 24;  // runs differ a little
 }
 
+std::uint64_t budget_to_hold(std::uint64_t bytes, std::uint64_t budget_bytes) {
+  const std::uint64_t held = bytes + static_cast<std::uint64_t>(program_bytes);
+  const std::uint64_t budget = held + held / 24;
+  return std::max(budget + memory_reserve(budget), budget_bytes + (1 << 20));
+}
+
 MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
   if (const std::string lack = lack_of(m, needs); !lack.empty())
     throw MemoryNeeded(needs.budget_bytes, least_budget(m, needs), lack);

@@ -50,6 +50,9 @@ std::uint64_t meshes_within(std::uint64_t budget_bytes);
 // The least budget from needs.budget_bytes on that is enough for all of it, to a MiB.
 std::uint64_t least_budget(const Manifest& manifest, MemoryNeeds needs);
 
+// Returns a budget, not less than `budget_bytes`, in which so much is held beside the program.
+std::uint64_t budget_to_hold(std::uint64_t bytes, std::uint64_t budget_bytes);
+
 // Throws UsageError for too many.
 std::uint32_t number_of_domains(const Manifest& manifest, const MemoryNeeds& needs);
 

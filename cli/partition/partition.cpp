@@ -8,6 +8,7 @@
 #include <csignal>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "bundle/checked_json.h"
 #include "bundle/manifest_json.h"
@@ -24,6 +25,8 @@
 #include "cli/partition/partition_arguments.h"
 #include "cli/partition/partition_report.h"
 #include "importers/import.h"
+#include "importers/pbrt/read/pbrt.h"
+#include "importers/readers.h"
 #include "importers/reading/back_to_back_faces.h"
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/caching/file_cache.h"
@@ -141,7 +144,7 @@ ImportedScene read(const PartitionArguments& a, std::uint64_t kept_bytes, Stage&
   stage = {.what = "reading the scene", .start_bytes = static_cast<double>(resident_bytes())};
   tbb::task_arena arena(a.options.threads > 0 ? a.options.threads : tbb::task_arena::automatic);
   return arena.execute([&] {
-    return import_scene(
+    return read_scene_file(
         a.input, MeshMemory(kept_bytes),
         [&](double fraction) {
           stage.fraction = fraction;
@@ -151,16 +154,44 @@ ImportedScene read(const PartitionArguments& a, std::uint64_t kept_bytes, Stage&
   });
 }
 
+// Throws MemoryNeeded with a budget that is enough to read the scene and for what follows, found by a reading
+// without its long lists. It has the little that is granted after a refusal (memory_guard.h). Returns where
+// that is not enough.
+void require_memory_to_read(const PartitionArguments& a, Stage& stage) {
+  if (&reader_of(a.input) != &reader_of("a.pbrt")) return;
+  std::uint64_t needed = 0;
+  try {
+    const SkimmedScene skimmed = skim_pbrt(
+        a.input, [&](double fraction) { stage.fraction = fraction; }, import_options(a.imports));
+    const std::uint64_t records = ledger_of(skimmed.scene).all();
+    const auto enough = [&](std::uint64_t more) {
+      return std::max(budget_to_hold(records + more + skimmed.statement_bytes, a.options.memory_bytes),
+                      least_memory(skimmed.scene, a.options, more + 2 * skimmed.grid_bytes));
+    };
+    needed = enough(0);
+    if (skimmed.mesh_bytes > mesh_bytes_within(needed)) needed = enough(skimmed.sample_bytes);
+  } catch (...) {  // the first reading's end is what counts
+    return;
+  }
+  throw MemoryNeeded(a.options.memory_bytes, needed, stage.what);
+}
+
 // With all meshes in their files where the memory is too little for some, and there is any left.
 ImportedScene read_within_memory(const PartitionArguments& a, std::uint64_t kept_bytes, Stage& stage) {
-  try {
-    return read(a, kept_bytes, stage);
-  } catch (...) {
-    constexpr std::uint64_t least = 4 << 20;
-    if (!memory_refusal().refused || !memory_allows(least)) throw;
+  for (const std::uint64_t bytes : {kept_bytes, std::uint64_t{0}}) {
+    try {
+      return read(a, bytes, stage);
+    } catch (...) {
+      if (!memory_refusal().refused) throw;
+      constexpr std::uint64_t least = 4 << 20;
+      if (bytes == 0 || !memory_allows(least)) {
+        require_memory_to_read(a, stage);
+        throw;
+      }
+    }
+    forget_refusal();
   }
-  forget_refusal();
-  return read(a, 0, stage);
+  throw std::logic_error("a reading neither ends nor fails");
 }
 
 // The plan reckons with averages: where they are too low, with smaller parts.
@@ -182,16 +213,22 @@ PartitionStats divide(const Scene& scene, PartitionArguments& a, Stage& stage) {
   }
 }
 
-int write_bundle(PartitionArguments& a, std::uint64_t kept_bytes, ImportedScene& imported, Stage& stage) {
-  join_faces_back_to_back(imported);
-  imported.scene.settings.rgb = rgb_method(a.rgb);
-  stage = {.what = "preparing the scene", .held = to_string(ledger_of(imported.scene))};
-  Diagnostics diagnostics = std::move(imported.diagnostics);
+// The notes are gone after it: there may be very many.
+void report(const PartitionArguments& a, ImportedScene& imported) {
+  Diagnostics diagnostics = std::exchange(imported.diagnostics, {});
   std::ranges::copy(
       appearance_of(imported.scene, {}, {.cache = a.options.cache, .trust_integers = true}).diagnostics,
       std::back_inserter(diagnostics));
   if (!a.quiet) say("{}", summarise(diagnostics));
   if (a.strict) require_exact(diagnostics);
+}
+
+int write_bundle(PartitionArguments& a, std::uint64_t kept_bytes, ImportedScene& imported, Stage& stage) {
+  stage = {.what = "preparing the scene", .held = to_string(ledger_of(imported.scene))};
+  complete_scene(imported, import_options(a.imports));
+  join_faces_back_to_back(imported);
+  imported.scene.settings.rgb = rgb_method(a.rgb);
+  report(a, imported);
   require_sense(a, imported.scene);
   if (a.layers) imported.scene.film.layers.bits = a.layers->bits;
   if (!a.quiet && a.summary && imported.scene.lights.empty() && imported.scene.area_lights.empty())

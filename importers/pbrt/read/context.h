@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,12 @@
 #include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail::pbrt {
+
+// Counts of what a reading without the long lists leaves out.
+struct SkimCounts {
+  std::uint64_t grid_bytes = 0;       // of values of grids
+  std::uint64_t statement_bytes = 0;  // most that is held while one statement is read
+};
 
 struct Context {
   Version version = Version::v4;
@@ -22,6 +29,7 @@ struct Context {
   Report report;
   MeshMemory mesh_memory;
   std::function<void(double)> progress;                   // gets the fraction that is read
+  std::optional<SkimCounts> skim;                         // the long lists are counted alone
   std::function<std::string_view(std::size_t)> upcoming;  // text of the file, up to so many bytes
 
   // Said of what v3 and v4 take differently, in a file that does not tell which it is.

@@ -29,9 +29,7 @@ struct MediumMaker {
   Spectrum coefficient(std::string_view name, const Spectrum& otherwise) const {
     return spectrum_value(parameters, {name}, Quantity::unbounded, otherwise, scope);
   }
-  bool has(std::string_view name) const {
-    return parameters.find_list(name) || parameters.find_spectrum(name);
-  }
+  bool has(std::string_view name) const { return parameters.find_grid(name); }
   Point3d point(std::string_view name, Point3d otherwise) const {
     const auto v = parameters.triple(name);
     return v ? Point3d{(*v)[0], (*v)[1], (*v)[2]} : otherwise;
@@ -64,8 +62,7 @@ Grid grid(const MediumMaker& m, std::string_view name, int channels) {
   g.nz = m.parameters.integer("nz", 1);
   g.channels = channels;
   g.bounds = m.bounds();
-  Parameter* values = m.parameters.find_list(name);
-  if (!values) values = m.parameters.find_spectrum(name);
+  Parameter* values = m.parameters.find_grid(name);
   if (!values)
     fail(fmt::format("{} needs a parameter \"{}\"", m.parameters.owner(), name), m.parameters.place());
   const double wanted = static_cast<double>(g.nx) * g.ny * g.nz * channels;
@@ -73,6 +70,13 @@ Grid grid(const MediumMaker& m, std::string_view name, int channels) {
     fail(fmt::format("a grid of {} × {} × {} needs {} values, but \"{}\" has {}", g.nx, g.ny, g.nz, wanted,
                      name, number_count(*values)),
          values->place);
+  if (m.scope.context.skim) {  // the list, with some room, and what it becomes
+    const std::uint64_t bytes = sizeof(float) * number_count(*values);
+    m.scope.context.skim->grid_bytes += bytes;
+    m.scope.context.skim->statement_bytes =
+        std::max(m.scope.context.skim->statement_bytes, bytes + bytes / 16);
+    return g;
+  }
   g.values.reserve(number_count(*values));
   consume_numbers(*values, 1, [&](const auto& numbers) {
     for (const auto v : numbers) g.values.push_back(static_cast<float>(v));

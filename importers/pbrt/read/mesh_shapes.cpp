@@ -121,7 +121,11 @@ Vector3d offset_of(const Parameter& parameter) {
                              static_cast<double>(p[i + 2])});
   };
   if (parameter.long_list)
-    std::visit(extend_by, *parameter.long_list);
+    std::visit(
+        [&]<class List>(const List& list) {
+          if constexpr (!std::is_same_v<List, SkippedNumbers>) extend_by(list);
+        },
+        *parameter.long_list);
   else
     extend_by(parameter.numbers);
   const double half = length(extent(bounds)) / 2;
@@ -148,7 +152,42 @@ std::vector<float> ShapeMaker::face_numbers(ParameterSet& parameters, std::size_
   return values;
 }
 
+// Numbers of a parameter that may be absent.
+static std::uint64_t count_of(const Parameter* parameter) { return parameter ? number_count(*parameter) : 0; }
+
+// What stands for a mesh of which some list is counted alone. Positions are held as doubles beside the floats
+// that they become, and lists have some room.
+std::optional<ShapeGeometry> ShapeMaker::skimmed_mesh(ParameterSet& parameters) {
+  const Parameter *points = parameters.find_list("P"), *indices = parameters.find_list("indices"),
+                  *normals = parameters.find_list("N"), *uvs = texture_coordinates(parameters);
+  const auto is_skipped = [](const Parameter* p) {
+    return p && p->long_list && std::holds_alternative<SkippedNumbers>(*p->long_list);
+  };
+  if (!context_.skim || (!is_skipped(points) && !is_skipped(indices))) return std::nullopt;
+  const std::uint64_t values = count_of(points),
+                      others = count_of(indices) + count_of(normals) + count_of(uvs);
+  const auto bytes = [](double each, std::uint64_t count) {
+    return static_cast<std::uint64_t>(each * static_cast<double>(count));
+  };
+  context_.skim->statement_bytes =
+      std::max(context_.skim->statement_bytes, bytes(12.5, values) + bytes(4.25, others));
+  return add_skimmed(count_of(indices) / 3, 4 * (values + others), normals != nullptr);
+}
+
+ShapeGeometry ShapeMaker::add_skimmed(std::uint64_t triangles, std::uint64_t bytes, bool has_normals) {
+  const auto counted = std::make_shared<DeferredMesh>();
+  counted->triangles = std::max<std::uint64_t>(triangles, 1);
+  counted->bytes = bytes;
+  counted->has_normals = has_normals;
+  counted->bounds = Bounds3f{{0, 0, 0}, {1, 1, 1}};
+  TriangleMesh stub;
+  stub.deferred = counted;
+  meshes_.push_back(std::move(stub));
+  return {{static_cast<std::uint32_t>(meshes_.size() - 1)}, false, {}, triangles};
+}
+
 ShapeGeometry ShapeMaker::triangle_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show) {
+  if (const auto skimmed = skimmed_mesh(parameters)) return *skimmed;
   TriangleMesh mesh;
   Parameter& positions = required_list(parameters, "P");
   require_groups(positions, 3);

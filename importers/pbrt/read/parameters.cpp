@@ -118,10 +118,12 @@ void report_cut(const Parameter& parameter, Report& report) {
 constexpr std::size_t most_in_numbers = 4096;  // longer lists are long ones
 
 // What a list of this kind may be narrowed to: pbrt itself has floats. Points keep doubles, because meshes
-// far from the origin are moved before they are rounded.
+// far from the origin are moved before they are rounded; so do spectra, which are computed with. So
+// many numbers of one colour are a grid.
 LongList empty_list(const Parameter& parameter) {
   if (parameter.type == ParameterType::integer) return GrowingArray<std::int32_t>();
-  const bool narrow = parameter.type == ParameterType::tuple && parameter.name != "P";
+  const bool narrow = (parameter.type == ParameterType::tuple && parameter.name != "P") ||
+                      parameter.type == ParameterType::number || parameter.type == ParameterType::rgb;
   if (narrow) return GrowingArray<float>();
   return GrowingArray<double>();
 }
@@ -130,14 +132,16 @@ LongList empty_list(const Parameter& parameter) {
 void read_long_list(TokenStream& tokens, Parameter& parameter, Report& report) {
   constexpr std::size_t release_interval = 1u << 16;
   bool cut = false;
-  parameter.long_list = empty_list(parameter);
+  parameter.long_list = tokens.skips_lists() ? LongList(SkippedNumbers()) : empty_list(parameter);
   std::visit(
-      [&]<class T>(GrowingArray<T>& list) {
+      [&]<class List>(List& list) {
         const auto add = [&](double value) {
-          if constexpr (std::is_integral_v<T>)
+          if constexpr (std::is_same_v<List, GrowingArray<std::int32_t>>)
             list.push_back(checked_integer(value, parameter, cut));
+          else if constexpr (std::is_same_v<List, GrowingArray<float>>)
+            list.push_back(static_cast<float>(value));
           else
-            list.push_back(static_cast<T>(value));
+            list.push_back(value);
         };
         for (const double value : parameter.numbers) add(value);
         for (double value = 0; tokens.next_number(value);) {
@@ -262,6 +266,8 @@ Parameter* ParameterSet::find(std::string_view name, std::initializer_list<Param
   Parameter* const parameter = find_as_it_is(name, types);
   if (parameter && parameter->long_list) {
     std::vector<double> numbers;
+    if (std::holds_alternative<SkippedNumbers>(*parameter->long_list))
+      fail(fmt::format("parameter \"{}\" has too many numbers to be skimmed", name), parameter->place);
     numbers.reserve(number_count(*parameter));
     consume_numbers(*parameter, 1,
                     [&](auto values) { numbers.insert(numbers.end(), values.begin(), values.end()); });
@@ -281,6 +287,12 @@ Parameter* ParameterSet::find_numbers(std::string_view name) {
 
 Parameter* ParameterSet::find_list(std::string_view name) {
   return find_as_it_is(name, {ParameterType::number, ParameterType::integer, ParameterType::tuple});
+}
+
+Parameter* ParameterSet::find_grid(std::string_view name) {
+  return find_as_it_is(
+      name, {ParameterType::number, ParameterType::integer, ParameterType::tuple, ParameterType::rgb,
+             ParameterType::xyz, ParameterType::blackbody, ParameterType::spectrum});
 }
 
 namespace {

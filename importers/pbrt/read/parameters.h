@@ -63,6 +63,7 @@ class ParameterSet {
   Parameter* find_spectrum(std::string_view name);  // number, rgb, xyz, blackbody or spectrum
   Parameter* find_numbers(std::string_view name);   // numbers, integers or tuples
   Parameter* find_list(std::string_view name);      // the same, as a long list if it is one
+  Parameter* find_grid(std::string_view name);      // of numbers or colours, as a long list if it is one
 
   // One value; the default where there is none. A wrong count throws Error.
   double number(std::string_view name, double otherwise);

@@ -50,6 +50,11 @@ std::vector<ShapeGeometry> ShapeMaker::ply_mesh(ParameterSet& parameters, bool u
   const std::size_t kind = (uvs_show ? 1u : 0u) + (faces_show ? 2u : 0u);
   std::vector<ShapeGeometry>& shapes = file.shapes[file.differs ? kind : 0];
   if (!is_new && !shapes.empty()) return shapes;
+  if (context_.skim) {
+    const PlyCounts counts = count_ply(path);
+    context_.skim->statement_bytes = std::max(context_.skim->statement_bytes, counts.bytes);
+    return file.shapes[0] = {add_skimmed(counts.triangles, counts.bytes, counts.has_normals)};
+  }
   read_ahead();
   auto [ply, diagnostics] = ply_reader_.take(path);
   if (is_new)

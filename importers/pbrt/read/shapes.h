@@ -68,6 +68,8 @@ class ShapeMaker {
   ShapeGeometry quadric(const std::string& kind, ParameterSet& parameters);
   static SizedQuadric sized_quadric(const std::string& kind, ParameterSet& parameters);
   Id<TriangleMesh> add(TriangleMesh mesh);
+  std::optional<ShapeGeometry> skimmed_mesh(ParameterSet& parameters);
+  ShapeGeometry add_skimmed(std::uint64_t triangles, std::uint64_t bytes, bool has_normals);
   std::vector<float> face_numbers(ParameterSet& parameters, std::size_t faces, bool show);
   void report_shadow_alpha(ParameterSet& parameters);
   void report_patches(const Place& place);

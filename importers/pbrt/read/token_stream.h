@@ -32,6 +32,9 @@ class TokenStream {
   bool text_follows();
   // The text that comes, up to so many bytes of the file that is being read.
   std::string_view upcoming(std::size_t bytes) const;
+  // Long lists of numbers are to be counted alone.
+  void skip_lists() { skips_lists_ = true; }
+  bool skips_lists() const { return skips_lists_; }
   // How much of the main file is read.
   double fraction_read() const;
   // Lets go of the memory of what has been read.
@@ -52,6 +55,7 @@ class TokenStream {
   std::deque<std::string> names_;
   IncludedText included_;
   std::vector<std::unique_ptr<Source>> sources_;
+  bool skips_lists_ = false;
 };
 
 }  // namespace vitrail::pbrt

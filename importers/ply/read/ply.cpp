@@ -199,6 +199,25 @@ std::vector<std::string> texture_files_of_ply(const std::filesystem::path& file)
   return read_header(cursor).texture_files;
 }
 
+PlyCounts count_ply(const std::filesystem::path& file) {
+  const InputBytes bytes(file);
+  const std::string name = file.string();
+  TextCursor cursor(name, after_byte_order_mark(bytes.begin(), bytes.end()), bytes.end());
+  const Header header = read_header(cursor);
+  PlyCounts counts;
+  for (const Element& element : header.elements) {
+    const auto has = [&](std::string_view property) {
+      return std::ranges::any_of(element.properties, [&](const Property& p) { return p.name == property; });
+    };
+    if (element.name == "face") counts.triangles += element.count, counts.bytes += 12 * element.count;
+    if (element.name != "vertex") continue;
+    counts.has_normals = has("nx");
+    const bool has_uv = has("u") || has("s");
+    counts.bytes += element.count * (12u + (counts.has_normals ? 12u : 0u) + (has_uv ? 8u : 0u));
+  }
+  return counts;
+}
+
 PbrtPly read_pbrt_ply(const std::filesystem::path& file, PbrtQuads quads, Diagnostics* diagnostics) {
   Body body = read_file(file, diagnostics, PlyAttributes::faces, quads);
   return {std::move(body.mesh), std::move(body.patches), std::move(body.patch_faces)};

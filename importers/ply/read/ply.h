@@ -38,4 +38,11 @@ struct PbrtPly {
 };
 PbrtPly read_pbrt_ply(const std::filesystem::path& file, PbrtQuads quads, Diagnostics* diagnostics = nullptr);
 
+// What the header of a file says: faces count as triangles.
+struct PlyCounts {
+  std::uint64_t triangles = 0, bytes = 0;  // in memory
+  bool has_normals = false;
+};
+PlyCounts count_ply(const std::filesystem::path& file);
+
 }  // namespace vitrail
