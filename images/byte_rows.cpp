@@ -8,6 +8,7 @@
 
 #include "images/file_part.h"
 #include "images/image_files.h"
+#include "images/jpeg_rows.h"
 #include "images/png_rows.h"
 #include "scene/system/input_files.h"
 
@@ -22,8 +23,8 @@ bool is_jpeg(const std::filesystem::path& file) {
          head[2] == 0xff;
 }
 
-// The image library says i/255 of byte i.
-ByteRows jpeg_rows(const std::filesystem::path& file) {
+// Of other colours than jpeg_rows.h reads. The image library says i/255 of byte i.
+ByteRows converted_rows(const std::filesystem::path& file) {
   const ImageLayout layout = read_image_layout(file);
   return {layout.width, layout.height, layout.channels, [file](const auto& visit) {
             std::vector<std::uint8_t> bytes;
@@ -38,10 +39,16 @@ ByteRows jpeg_rows(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::optional<ByteRows> byte_rows(const std::filesystem::path& file) {
+std::optional<ByteRows> plain_rows(const std::filesystem::path& file) {
   if (file_part(file.string())) return {};
   if (auto rows = png_rows(file)) return rows;
-  if (is_jpeg(file)) return jpeg_rows(file);
+  return is_jpeg(file) ? jpeg_rows(file) : std::nullopt;
+}
+
+std::optional<ByteRows> byte_rows(const std::filesystem::path& file) {
+  if (file_part(file.string())) return {};
+  if (auto rows = plain_rows(file)) return rows;
+  if (is_jpeg(file)) return converted_rows(file);
   return {};
 }
 

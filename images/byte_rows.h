@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of 8 bits a channel, read as the bytes that they hold: PNG by zlib alone, without the image
-// library, and JPEG.
+// Pictures of 8 bits a channel, read as the bytes that they hold: PNG by zlib and JPEG by libjpeg, without
+// the image library, and JPEG of other colours with it.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,11 @@ struct ByteRows {
   // Calls with all rows from the top, one or several at a time. What the function throws stops the reading.
   // Throws Error with the file's name where the picture is damaged.
   std::function<void(const std::function<void(std::span<const std::uint8_t>)>&)> read;
+  std::uint64_t reading_bytes = 0;  // that this takes beside a row
 };
+
+// Those that need no library. Nothing for other files.
+std::optional<ByteRows> plain_rows(const std::filesystem::path& file);
 
 // Nothing for other files, for parts of files, and for PNG that is interlaced, has a palette, or states a
 // transparent colour: the image library reads those. Throws Error for what may not be read.

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "images/byte_rows.h"
 #include "images/file_part.h"
-#include "images/png_rows.h"
 #include "images/texture_values.h"
 #include "partitioner/appearance/bake_codes.h"
 #include "scene/models/normal_map.h"
@@ -63,6 +63,7 @@ class BakingCount {
   void add_codes(const ByteRows& rows) {
     ++coded_;
     widest_ = std::max(widest_, static_cast<std::uint64_t>(rows.width));
+    reading_ = std::max(reading_, rows.reading_bytes);
   }
   // By rows, in the library: measured.
   void add_values(const std::string& file) {
@@ -73,14 +74,14 @@ class BakingCount {
   // Codes take a row of tiles of each level, in each thread that writes: measured.
   BakingMemory memory() {
     constexpr std::uint64_t least = 1 << 18, a_column = 220;
-    if (coded_ > 0) need(least + std::min(threads_, coded_) * a_column * widest_);
+    if (coded_ > 0) need(least + std::min(threads_, coded_) * (a_column * widest_ + reading_));
     return memory_;
   }
 
  private:
   void need(std::uint64_t bytes) { memory_.bytes = std::max(memory_.bytes, bytes); }
 
-  std::uint64_t threads_, coded_ = 0, widest_ = 0;
+  std::uint64_t threads_, coded_ = 0, widest_ = 0, reading_ = 0;
   BakingMemory memory_;
 };
 
@@ -95,7 +96,7 @@ BakingMemory baking_memory(const Scene& scene, int threads) {
     if (!image) continue;
     try {
       const bool is_part = file_part(image->filename).has_value();
-      const auto rows = is_part || of_values[i] ? std::nullopt : png_rows(image->filename);
+      const auto rows = is_part || of_values[i] ? std::nullopt : plain_rows(image->filename);
       if (rows && becomes_codes(*image, texture.is_float, *rows, scene.settings.rgb))
         count.add_codes(*rows);
       else

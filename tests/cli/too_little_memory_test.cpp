@@ -168,9 +168,10 @@ TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForPictures) {
 
 // images/byte_rows.h: those of 8 bits.
 TEST_F(TooLittleMemory, PlainPicturesDoWithoutTheLibrary) {
-  for (const int side : {64, 2048}) {
-    ASSERT_TRUE(write_picture("plain.png", side));
-    write("a.pbrt", with_picture("plain.png"));
+  for (const auto& [name, side] :
+       {std::pair{"plain.png", 64}, {"plain.png", 2048}, {"plain.jpg", 64}, {"plain.jpg", 2048}}) {
+    ASSERT_TRUE(write_picture(name, side));
+    write("a.pbrt", with_picture(name));
     const CommandResult refused = partition("a.pbrt", "--memory 8M");
     ASSERT_EQ(refused.status, 4) << refused.output;
     const std::optional<int> named = named_budget(refused.output);

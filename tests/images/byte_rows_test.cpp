@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "images/image_files.h"
 #include "scene/system/diagnostics.h"
+#include "tests/images/jpeg_file.h"
 #include "tests/images/png_file.h"
 #include "tests/support/temporary_directory.h"
 
@@ -103,6 +105,118 @@ TEST(ByteRows, OtherKindsAreLeftToTheLibrary) {
   EXPECT_FALSE(byte_rows(file));
   test::write_file(file, "GIF89a");
   EXPECT_FALSE(byte_rows(file));
+}
+
+// Smooth, with some noise.
+std::vector<std::uint8_t> photograph(int width, int height, int channels) {
+  std::vector<std::uint8_t> pixels = some_pixels(width, height, channels);
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    pixels[i] = static_cast<std::uint8_t>(100 + 80 * std::sin(static_cast<double>(i) / 300) + pixels[i] % 40);
+  return pixels;
+}
+
+std::vector<std::uint8_t> bytes_of_library(const std::filesystem::path& file, int& channels) {
+  const StoredImage stored = read_stored_image(file);
+  channels = stored.image.channels;
+  std::vector<std::uint8_t> bytes;
+  for (const float v : stored.image.values) bytes.push_back(static_cast<std::uint8_t>(v * 255 + 0.5f));
+  return bytes;
+}
+
+TEST(JpegRows, AreWhatTheLibraryReads) {
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a.jpg";
+  for (const test::JpegKind& kind : {test::JpegKind{1},
+                                     {3},
+                                     {1, true},
+                                     {3, true},
+                                     {3, false, false},
+                                     {3, true, false},
+                                     {3, false, true, 1},
+                                     {3, true, true, 2},
+                                     {3, false, true, 0, true}})
+    for (const int width : {1, 7, 16, 61}) {
+      test::write_file(file, test::jpeg_of(width, photograph(width, 45, kind.channels), kind));
+      const std::optional<ByteRows> rows = plain_rows(file);
+      ASSERT_TRUE(rows);
+      EXPECT_EQ(rows->width, width);
+      EXPECT_EQ(rows->height, 45);
+      int channels = 0;
+      EXPECT_EQ(bytes_of(*rows), bytes_of_library(file, channels));
+      EXPECT_EQ(rows->channels, channels);
+    }
+}
+
+TEST(JpegRows, OtherColoursAreLeftToTheLibrary) {
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a.jpg";
+  test::write_file(file, test::jpeg_of(20, photograph(20, 10, 4), {4}));
+  EXPECT_FALSE(plain_rows(file));
+  int channels = 0;
+  const std::vector<std::uint8_t> expected = bytes_of_library(file, channels);
+  const std::optional<ByteRows> rows = byte_rows(file);
+  ASSERT_TRUE(rows);
+  EXPECT_EQ(rows->channels, channels);
+  EXPECT_EQ(bytes_of(*rows), expected);
+}
+
+// Nothing where it is left to the library.
+std::optional<std::vector<std::uint8_t>> plain_bytes(const std::filesystem::path& file,
+                                                     std::string& refusal) {
+  refusal.clear();
+  try {
+    if (const std::optional<ByteRows> rows = plain_rows(file)) return bytes_of(*rows);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.location.file, file.string());
+    refusal = error.what();
+    EXPECT_NE(refusal.find("cannot read the image"), std::string::npos) << refusal;
+  }
+  return std::nullopt;
+}
+
+TEST(JpegRows, AnEarlyEndIsSaid) {
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a.jpg";
+  for (const bool progressive : {false, true}) {
+    const std::string good = test::jpeg_of(40, photograph(40, 33, 3), {3, progressive});
+    test::write_file(file, good);
+    std::string refusal;
+    const auto whole = plain_bytes(file, refusal);
+    ASSERT_TRUE(whole) << refusal;
+    int refused = 0, left = 0;
+    for (std::size_t length = 0; length < good.size(); ++length) {
+      test::write_file(file, good.substr(0, length));
+      const auto bytes = plain_bytes(file, refusal);
+      if (bytes) {
+        EXPECT_TRUE(*bytes == *whole) << length << " of " << good.size() << " bytes: other pixels";
+      } else {
+        ++(refusal.empty() ? left : refused);
+      }
+    }
+    EXPECT_GT(refused, 100);
+    EXPECT_LT(left, 700) << "only heads are left to the library";
+  }
+}
+
+// Both go on, with the same pixels.
+TEST(JpegRows, WhatIsDamagedIsReadAsByTheLibrary) {
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a.jpg";
+  int compared = 0;
+  for (const bool progressive : {false, true}) {
+    const std::string good = test::jpeg_of(40, photograph(40, 33, 3), {3, progressive});
+    for (std::size_t at = 2; at < good.size(); at += 1 + at / 60) {
+      std::string bytes = good, refusal;
+      bytes[at] = static_cast<char>(bytes[at] ^ 16);
+      test::write_file(file, bytes);
+      const auto ours = plain_bytes(file, refusal);
+      if (!ours) continue;
+      int channels = 0;
+      EXPECT_TRUE(*ours == bytes_of_library(file, channels)) << "byte " << at << ": other pixels are read";
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 20);
 }
 
 }  // namespace
