@@ -192,8 +192,13 @@ void write_light(Writer& w, const Light& light) {
 
 }  // namespace
 
+// pbrt is killed at random where light goes from one that stands in a vacuum to surfaces in a fog: lights
+// stand in what is around the camera.
 void write_lights(Writer& w) {
+  const bool in_medium = w.scene.camera_medium && !w.scene.lights.empty();
+  if (in_medium) w.line("MediumInterface \"\" " + in_quotes(w.media.at(w.scene.camera_medium->value)));
   for (const Light& light : w.scene.lights) write_light(w, light);
+  if (in_medium) w.line("MediumInterface \"\" \"\"");
 }
 
 }  // namespace vitrail::pbrt

@@ -219,11 +219,17 @@ TEST(WritePbrt, Media) {
         "\"string type\" \"nanovdb\" \"string filename\" \"fire.nvdb\"",
         "\"string type\" \"rgbgrid\" \"rgb sigma_s\" [1 2 3] \"rgb sigma_a\" [.3 .2 .1]"})
     expect_exact_world("Translate 1 2 3 MakeNamedMedium \"m\" " + std::string(medium) + " " + use);
-  expect_exact(
+  const std::string in_fog =
       "MediumInterface \"\" \"fog\" Camera \"perspective\" Film \"rgb\" MakeNamedMedium \"fog\" \"string "
       "type\" "
-      "\"homogeneous\" WorldBegin " +
-      triangle);
+      "\"homogeneous\" WorldBegin LightSource \"point\" " +
+      triangle;
+  expect_exact(in_fog);
+  // pbrt is killed where the light stands in a vacuum and all else in a fog.
+  const std::string written = round_trip(in_fog).text;
+  const std::size_t world = written.find("WorldBegin"),
+                    fog = written.find("MediumInterface \"\" \"fog\"", world);
+  EXPECT_LT(fog, written.find("LightSource", world)) << written;
 }
 
 TEST(WritePbrt, WhatV4CannotSayIsReported) {
