@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -39,6 +40,10 @@ OwnPicture run_to_show(const std::vector<std::string>& words, const std::string&
   const std::string errors = folder.file("errors");
   const ForeignEnd end = run_foreign(words, folder.file("said"), errors);
   if (!end.found) return {{}, words.front() + " is not there", true};
+  if (end.status > 128)
+    return {{},
+            fmt::format("it was ended by signal {} ({})", end.status - 128, ::strsignal(end.status - 128)),
+            false};
   if (end.status != 0 || !fs::exists(picture)) return {{}, last_words(errors), false};
   return {{block_luminances(picture, size), {}}, {}, false};
 }
@@ -64,7 +69,7 @@ std::string resized(std::string text, SmallPicture size) {
   };
   const bool is_sized = put("xresolution", size.width * SmallPicture::block) &&
                         put("yresolution", size.height * SmallPicture::block);
-  static const std::regex crop(R"x("float\s+cropwindow"\s*\[[^\]]*\])x");
+  static const std::regex crop(R"x("(float\s+cropwindow|integer\s+pixelbounds)"\s*\[[^\]]*\])x");
   return is_sized ? std::regex_replace(text, crop, "") : "";
 }
 

@@ -113,9 +113,12 @@ TEST_F(Peer, ComparesPicturesOfPbrt) {
   const std::string run =
       fmt::format("exec '{}/vitrail-render' \"$8\" -o \"$7\" --spp 16 --quiet\n", test::bin_dir());
   const std::string more = "case $8 in *.out-*) sed -i 's/\\[ *2 2 2 *\\]/[2.2 2.2 2.2]/' \"$8\";; esac\n";
-  const auto same = ask(in, run, "out.pbrt"), other = ask(in, more + run, "out.pbrt");
+  const auto same = ask(in, run, "out.pbrt"), other = ask(in, more + run, "out.pbrt"),
+             killed = ask(in, "case $8 in *.out-*) kill -SEGV $$;; esac\n" + run, "out.pbrt");
   EXPECT_EQ(same.status, 0) << same.output;
   EXPECT_THAT(same.output, HasSubstr("pbrt shows it as it shows the input: luminance"));
+  EXPECT_EQ(killed.status, 1) << killed.output;
+  EXPECT_THAT(killed.output, HasSubstr("it was ended by signal 11 (Segmentation fault)"));
   EXPECT_EQ(other.status, 1) << other.output;
   EXPECT_THAT(other.output, HasSubstr("pbrt shows it otherwise than it shows the input: luminance +10"));
   EXPECT_THAT(other.output, HasSubstr("vitrail's picture is that of the input"));
