@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "importers/reading/import_options.h"
+#include "importers/reading/skimmed_scene.h"
 #include "scene/records/scene.h"
 #include "scene/shapes/deferred_mesh.h"
 
@@ -36,6 +37,8 @@ struct Reader {
   bool has_many_cameras;  // ImportOptions::camera does
   // Models, which people hand on without their images more often than not: those are replaced unasked.
   bool goes_on_without_images = false;
+  // Null: the format has no reading without its long lists.
+  SkimmedScene (*skim)(ReadRequest request) = nullptr;
 };
 
 // All of them, in the order in which they are asked.

@@ -25,7 +25,6 @@
 #include "cli/partition/partition_arguments.h"
 #include "cli/partition/partition_report.h"
 #include "importers/import.h"
-#include "importers/pbrt/read/pbrt.h"
 #include "importers/readers.h"
 #include "importers/reading/back_to_back_faces.h"
 #include "partitioner/appearance/appearance.h"
@@ -155,14 +154,19 @@ ImportedScene read(const PartitionArguments& a, std::uint64_t kept_bytes, Stage&
 }
 
 // Throws MemoryNeeded with a budget that is enough to read the scene and for what follows, found by a reading
-// without its long lists. It has the little that is granted after a refusal (memory_guard.h). Returns where
-// that is not enough.
+// without its long lists. Returns where the memory is too little for that as well.
 void require_memory_to_read(const PartitionArguments& a, Stage& stage) {
-  if (&reader_of(a.input) != &reader_of("a.pbrt")) return;
+  const Reader& reader = reader_of(a.input);
+  if (!reader.skim) return;
   std::uint64_t needed = 0;
+  const double read_then = stage.fraction;
   try {
-    const SkimmedScene skimmed = skim_pbrt(
-        a.input, [&](double fraction) { stage.fraction = fraction; }, import_options(a.imports));
+    const LentReserve lent;
+    const ImportOptions options = import_options(a.imports);
+    const SkimmedScene skimmed = reader.skim({.file = a.input,
+                                              .memory = MeshMemory{},
+                                              .progress = [&](double fraction) { stage.fraction = fraction; },
+                                              .options = options});
     const std::uint64_t records = ledger_of(skimmed.scene).all();
     const auto enough = [&](std::uint64_t more) {
       return std::max(budget_to_hold(records + more + skimmed.statement_bytes, a.options.memory_bytes),
@@ -171,6 +175,7 @@ void require_memory_to_read(const PartitionArguments& a, Stage& stage) {
     needed = enough(0);
     if (skimmed.mesh_bytes > mesh_bytes_within(needed)) needed = enough(skimmed.sample_bytes);
   } catch (...) {  // the first reading's end is what counts
+    stage.fraction = read_then;
     return;
   }
   throw MemoryNeeded(a.options.memory_bytes, needed, stage.what);

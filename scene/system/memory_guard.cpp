@@ -23,6 +23,7 @@ constexpr std::uint64_t portion = 256 << 10;
 constexpr std::uint64_t large = 1 << 20;
 
 std::atomic<std::uint64_t> limit{~std::uint64_t{0}};  // of what is resident
+std::uint64_t reserve = 0;                            // of the budget, beyond the limit
 std::atomic<bool> guarding{false};
 std::atomic<bool (*)()> is_own_thread{nullptr};
 std::atomic<std::uint64_t> promised{0};  // to all threads that asked, and not taken yet
@@ -135,7 +136,8 @@ MemoryNeeded::MemoryNeeded(std::uint64_t budget_bytes, std::uint64_t needed_byte
                                what_for, (needed_bytes + (1 << 20) - 1) >> 20)) {}
 
 void guard_memory(std::uint64_t budget_bytes, bool (*is_own)()) {
-  limit = budget_bytes - std::min(memory_reserve(budget_bytes), budget_bytes);
+  reserve = std::min(memory_reserve(budget_bytes), budget_bytes);
+  limit = budget_bytes - reserve;
   is_own_thread = is_own;
   is_guarded = true;
   guarding = true;
@@ -172,6 +174,17 @@ void forget_refusal() {
   ++attempt;
   promised = 0;
   refused = false;
+}
+
+LentReserve::LentReserve() : before_(memory_refusal()), bytes_(is_guarding() ? reserve / 4 * 3 : 0) {
+  forget_refusal();
+  limit += bytes_;
+}
+
+LentReserve::~LentReserve() {
+  limit -= bytes_;
+  resident_then = before_.resident_bytes, asked_then = before_.asked_bytes;
+  refused = before_.refused;
 }
 
 // A huge page is between two looks, too.

@@ -69,6 +69,19 @@ struct MemoryRefusal {
 MemoryRefusal memory_refusal();
 // The same work is tried in another way: as if nothing had been refused. Called while no other thread works.
 void forget_refusal();
+// Within its life most of the reserve (below) may be taken, too, and no more, as if nothing had been refused;
+// after it the refusal before is the reason again. Of what is done last, while no other thread works.
+class LentReserve {
+ public:
+  LentReserve();
+  ~LentReserve();
+  LentReserve(const LentReserve&) = delete;
+  LentReserve& operator=(const LentReserve&) = delete;
+
+ private:
+  MemoryRefusal before_;
+  std::uint64_t bytes_;
+};
 
 // Returns the part of a budget that is kept free: for what threads take between two looks, and for an orderly
 // end.

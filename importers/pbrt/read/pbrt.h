@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "importers/reading/import_options.h"
+#include "importers/reading/skimmed_scene.h"
 #include "scene/records/scene.h"
 #include "scene/shapes/deferred_mesh.h"
 
@@ -20,16 +21,8 @@ namespace vitrail {
 ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
                         std::function<void(double)> progress = {}, const ImportOptions& options = {});
 
-// A scene as it is read but for the long lists, which are counted alone: meshes stand for so many triangles
-// and cannot be loaded, and grids are empty.
-struct SkimmedScene {
-  Scene scene;
-  std::uint64_t grid_bytes = 0;       // of the values of all grids
-  std::uint64_t mesh_bytes = 0;       // of those with long lists or files of their own
-  std::uint64_t sample_bytes = 0;     // of their triangles, where they stay in files (MeshMemory)
-  std::uint64_t statement_bytes = 0;  // most that read_pbrt holds while it reads one statement
-};
-// Throws Error as read_pbrt does, and for long lists that are neither a mesh's nor a grid's.
+// Reads it but for its long lists. Throws Error as read_pbrt does, and for long lists that are neither a
+// mesh's nor a grid's.
 SkimmedScene skim_pbrt(const std::filesystem::path& file, std::function<void(double)> progress,
                        const ImportOptions& options);
 
