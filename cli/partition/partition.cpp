@@ -127,7 +127,8 @@ void interpret(PartitionArguments& a) {
     if (a.keeps_domains) a.options.bundles = folder / "bundles";
   }
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
-  if (const MemoryLimit limit = memory_limit(); a.memory.empty() && !limit.is_machine && !a.quiet)
+  if (const MemoryLimit limit = memory_limit();
+      a.memory.empty() && !limit.is_machine && !a.quiet && a.summary)
     say("vitrail: {:.0f} MiB of memory, as {} gives this job\n",
         static_cast<double>(a.options.memory_bytes) / (1 << 20), limit.giver);
 }

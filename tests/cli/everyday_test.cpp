@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "film/film_progress.h"
+#include "scene/system/machine_limits.h"
 #include "tests/support/command.h"
 #include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
@@ -52,7 +53,8 @@ TEST(Everyday, SaysWhereItStandsAndIsSilentIfAsked) {
   EXPECT_EQ(lines.status, 0);
   EXPECT_THAT(lines.output, HasSubstr("rendering 128 × 128 pixels, 16 samples each"));
   EXPECT_THAT(lines.output, HasSubstr("a.film: 16 of 16 samples a pixel after"));
-  EXPECT_EQ(std::ranges::count(lines.output, '\n'), 2) << lines.output;
+  // One more where this machine's memory is not all for this job.
+  EXPECT_EQ(std::ranges::count(lines.output, '\n'), memory_limit().is_machine ? 2 : 3) << lines.output;
 }
 
 // Standard output holds nothing else.
