@@ -18,9 +18,10 @@ struct SensorReading {
   Measured melanopic_edi_lx;  // scene/daylight/photometry.h
   Measured irradiance_w_m2;   // over the film's bins: 360 to 830 nm
   std::uint64_t samples = 0;
-  // How much of the scatter of the illuminance one half of a row makes alone: the greatest share of its
-  // squared difference from the mean. Of 32 normal numbers it is .17, and above .5 once in 10⁴ times. Where
-  // it is more, light is found seldom and is strong when it is, and the error is as uncertain as the mean.
+  // This is how much of the scatter of the illuminance one half of a row makes alone: the greatest share of
+  // its squared difference from the mean. Of 32 normal numbers it is .17, and above .5 once in 10⁴ times.
+  // Where it is more, light is found seldom and is strong when it is, and the error is as uncertain as the
+  // mean.
   double greatest_share = 0;
 };
 

@@ -7,8 +7,8 @@
 
 namespace vitrail {
 
-// What a file is by its beginning and the end of its name, e.g. "a weather file (EPW)"; "" where it is none
-// of the kinds that are known: distributions of lamps, weather, BSDFs as XML, scenes of Radiance.
+// Says what a file is by its beginning and the end of its name, e.g. "a weather file (EPW)"; "" where it is
+// none of the kinds that are known: distributions of lamps, weather, BSDFs as XML, scenes of Radiance.
 std::string foreign_kind(std::string_view text, std::string_view name);
 
 }  // namespace vitrail

@@ -31,8 +31,8 @@ bool same_word(std::string_view a, std::string_view b);  // whatever the case
 // Takes the next word from `rest`: blanks, commas, semicolons and tabs separate. Empty at the end.
 std::string_view next_word(std::string_view& rest);
 
-// How many nanometres a unit of wavelength has, by its name (nm, Nanometers, um, µm, Microns, micrometres …);
-// 0 where it is none.
+// Returns how many nanometres a unit of wavelength has, by its name (nm, Nanometers, um, µm, Microns,
+// micrometres …); 0 where it is none.
 double nanometres_in(std::string_view unit);
 
 // The whole word as a finite number.

@@ -20,7 +20,7 @@ struct ByteRows {
   std::uint64_t reading_bytes = 0;  // that this takes beside a row
 };
 
-// Those that need no library. Nothing for other files.
+// Reads those that need no library. Returns nothing for other files.
 std::optional<ByteRows> plain_rows(const std::filesystem::path& file);
 
 // Nothing for other files, for parts of files, and for PNG that is interlaced, has a palette, or states a

@@ -38,7 +38,7 @@ struct PbrtPly {
 };
 PbrtPly read_pbrt_ply(const std::filesystem::path& file, PbrtQuads quads, Diagnostics* diagnostics = nullptr);
 
-// What the header of a file says: faces count as triangles.
+// This is what the header of a file says: faces count as triangles.
 struct PlyCounts {
   std::uint64_t triangles = 0, bytes = 0;  // in memory
   bool has_normals = false;

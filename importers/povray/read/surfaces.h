@@ -27,8 +27,8 @@ struct Look {
   Shared<Texture> interior_texture;  // of the inside; null: as outside
   Transform interior_to_world;
   bool covers = false;  // it lies upon another layer, which shows through
-  // Of layers above: what they let through of each colour, as numbers of the file and as textures, and the
-  // `crand` that they take of all light whatever they let through, times their own colour.
+  // These are of layers above: what they let through of each colour, as numbers of the file and as textures,
+  // and the `crand` that they take of all light whatever they let through, times their own colour.
   std::array<double, 3> filter_above{1, 1, 1};
   std::optional<SpectrumParameter> tint;
   double crand_above = 0;
