@@ -54,10 +54,8 @@ void warn_of_tails(const std::vector<SensorReading>& readings, const nlohmann::j
   if (first == readings.end()) return;
   const nlohmann::json& at = sensors[static_cast<std::size_t>(first - readings.begin())];
   say("vitrail: the stated error is too small at {} of {} sensors, first at {} {} {}: one in 32 of the "
-      "samples "
-      "makes more than half of the scatter, as light is found seldom and strong. Give more --spp, or "
-      "--integrator "
-      "photon\n",
+      "samples makes more than half of the scatter, as light is found seldom and strong. Give more --spp, or "
+      "--integrator photon\n",
       std::ranges::count_if(readings, has_tail), readings.size(), at[0].get<double>(), at[1].get<double>(),
       at[2].get<double>());
 }

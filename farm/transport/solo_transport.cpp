@@ -66,8 +66,8 @@ void require_no_others() {
     if (const int ranks = number(size); ranks > 1)
       throw UsageError(
           fmt::format("the mpiexec of another MPI started {} processes that do not know of each other, and "
-                      "each would render "
-                      "everything: this program is built with Open MPI, start the ranks with its mpirun",
+                      "each would render everything: this program is built with Open MPI, start the ranks "
+                      "with its mpirun",
                       ranks));
 }
 
