@@ -35,7 +35,7 @@ TREE = "a tree's depth"
 # resident in either program; None: not judged. `kept`: options of partition, `options`: of render; `spp`:
 # of the two renders.
 Row = collections.namedtuple("Row", "name write count item most reason bytes kept options spp short",
-                             defaults=(FLAT, "", None, (), (), (2, 6), False))
+                             defaults=(FLAT, "", None, (), (), (4, 16), False))
 
 
 def rows():
