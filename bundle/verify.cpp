@@ -234,8 +234,7 @@ class Verifier {
     const auto worker = [&] {
       for (std::size_t i = next++; i < jobs_.size(); i = next++) jobs_[i]();
     };
-    const std::size_t threads = options_.threads > 0 ? static_cast<std::size_t>(options_.threads)
-                                                     : static_cast<unsigned>(processors_allowed());
+    const auto threads = static_cast<std::size_t>(threads_for(options_.threads));
     std::vector<std::jthread> others;
     while (others.size() + 1 < std::min(threads, jobs_.size())) others.emplace_back(worker);
     worker();

@@ -24,7 +24,7 @@ struct VerifyFinding {
 
 // How to check.
 struct VerifyOptions {
-  int threads = 0;                         // 0: all
+  int threads = 0;                         // 0: one a processor allowed
   std::function<void(double)> progress{};  // told the fraction that is read, from any thread, one at a time
 };
 

@@ -382,7 +382,7 @@ PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
   PartitionOptions chosen = options;
   if (chosen.memory_bytes == 0) chosen.memory_bytes = default_memory_bytes();
   BundleDirectory directory(out, options.durable);
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  tbb::task_arena arena(threads_for(options.threads));
   PartitionStats stats =
       arena.execute([&] { return Partitioner(scene, directory.path(), chosen, progress).run(); });
   directory.commit();

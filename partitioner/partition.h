@@ -22,7 +22,7 @@ struct PartitionOptions {
   double memory_share = 1;            // of what the plan would take for the parts of a scene
   std::uint32_t domains_at_once = 0;  // as if no more fitted into memory, for tests; 0: as many as fit
   std::uint64_t pack_bytes = 0;       // most of a pack of domains (bundle/packs.h); 0: a file a domain
-  int threads = 0;                    // 0: all
+  int threads = 0;                    // 0: one a processor allowed
   bool flatten = false;               // copies instead of instances
   std::optional<RayProfile> profile;  // of an earlier render of the scene
   std::vector<KeptGlazing> glazings;  // that render can set, by materials of the scene

@@ -50,7 +50,8 @@ void declare(CLI::App& app, Arguments& a) {
                  "convert many scenes to this format, each with NAME.report.json beside it. Scenes that are "
                  "done already are skipped")
       ->check(CLI::IsMember({"pbrt", "xml", "pov", "glb", "gltf", "obj", "ply"}));
-  app.add_option("-j,--jobs", a.at_once, "with --to: scenes to convert at once; default: all cores")
+  app.add_option("-j,--jobs", a.at_once,
+                 "with --to: scenes to convert at once; default: one a processor allowed")
       ->check(CLI::Range(1, 4096));
   app.add_flag("--again", a.again, "with --to: convert scenes again that are done already");
   app.add_flag("--check{ours}", a.check,
@@ -152,9 +153,8 @@ int run_many(const Arguments& a) {
   if (!a.check.empty()) require_checkable("scene." + a.format);
   if (a.pack) throw UsageError("--pack takes one scene, not --to");
   if (!a.report.empty()) throw UsageError("--to gives every scene its report: leave --report out");
-  ManyConversions many{a.files, a.output,     a.format, a.at_once, a.again,           a.check,
-                       a.peer,  a.input_peer, a.strict, a.quiet,   reading_options(a)};
-  if (many.at_once == 0) many.at_once = processors_allowed();
+  ManyConversions many{a.files,      a.output, a.format, threads_for(a.at_once), a.again, a.check, a.peer,
+                       a.input_peer, a.strict, a.quiet,  reading_options(a)};
   return convert_many(many);
 }
 

@@ -142,7 +142,7 @@ ProgressManner manner_of(const PartitionArguments& a) {
 ImportedScene read(const PartitionArguments& a, std::uint64_t kept_bytes, Stage& stage) {
   Watch reading(manner_of(a), stage);
   stage = {.what = "reading the scene", .start_bytes = static_cast<double>(resident_bytes())};
-  tbb::task_arena arena(a.options.threads > 0 ? a.options.threads : tbb::task_arena::automatic);
+  tbb::task_arena arena(threads_for(a.options.threads));
   return arena.execute([&] {
     return read_scene_file(
         a.input, MeshMemory(kept_bytes),

@@ -39,7 +39,8 @@ void declare(CLI::App& app, PartitionArguments& a) {
   app.add_flag("--no-sync{false}", a.options.durable, "do not wait until the bundle is on the disk");
   app.add_flag("--no-cache{false}", a.cached, no_cache_help);
   app.add_flag("--keep-domains", a.keeps_domains)->group("");
-  app.add_option("--threads", a.options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
+  app.add_option("--threads", a.options.threads, "threads; default: one a processor allowed")
+      ->check(CLI::Range(1, 4096));
   app.add_option("--stats", a.stats, "write statistics as JSON");
   app.add_option("--profile", a.profile,
                  "cut for the rays of an earlier render of this scene (a file of `render --profile`)");

@@ -109,7 +109,8 @@ void declare_resources(CLI::App& app, RenderArguments& a) {
   app.add_option("--memory", a.memory,
                  "most memory a rank may use, e.g. 512M or 2G; default: what Slurm or a control group gives, "
                  "else no limit");
-  app.add_option("-t,--threads,--nthreads", o.resources.threads, "worker threads a rank; default: all cores")
+  app.add_option("-t,--threads,--nthreads", o.resources.threads,
+                 "threads a rank; default: one a processor allowed")
       ->check(CLI::Range(1, 4096));
   declare_distribution(app, o.resources.distribution, o.resources.homes);
 }

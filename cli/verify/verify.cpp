@@ -70,7 +70,8 @@ int main(int argc, char** argv) {
   app.add_flag("--json", json, "print JSON");
   app.add_flag("--strict", strict, "exit with 3 for warnings too");
   app.add_flag("--quiet", quiet, "print problems only");
-  app.add_option("--threads", options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
+  app.add_option("--threads", options.threads, "threads; default: one a processor allowed")
+      ->check(CLI::Range(1, 4096));
   return run_guarded(app, argc, argv, [&] {
     require_input(bundle, {InputKind::bundle});
     ProgressLine line(progress_manner(quiet));

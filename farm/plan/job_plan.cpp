@@ -15,11 +15,6 @@ namespace vitrail {
 
 namespace {
 
-int threads_of(const RenderOptions& options) {
-  if (options.resources.threads > 0) return options.resources.threads;
-  return processors_allowed();
-}
-
 // Of an adaptive round's numbers, and what it takes to find them, or those of the round before beside its
 // own.
 std::uint64_t map_bytes(const PixelRect& crop) {
@@ -124,7 +119,7 @@ std::uint64_t film_file_bytes(const FilmSettings& film, const FilmKey& key) {
 JobPlan plan_job(const Manifest& m, const RenderOptions& options, const Place& place,
                  const SceneMemory& scene) {
   JobPlan plan;
-  plan.threads = threads_of(options);
+  plan.threads = threads_for(options.resources.threads);
   plan.goal = goal_of(options, m.settings);
   plan.key = key_of(m, options.picture);
   plan.scene = scene;

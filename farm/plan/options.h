@@ -64,7 +64,7 @@ struct PictureSettings {
 // time limits them.
 struct JobResources {
   std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
-  int threads = 0;                 // a rank; 0: one a core
+  int threads = 0;                 // a rank; 0: one a processor allowed
   Distribution distribution = Distribution::automatic;
   std::filesystem::path homes;      // a RayProfile: ranks answer for equal work; empty: for equal bytes
   double checkpoint_every_s = 600;  // 0: only when asked by a signal

@@ -17,6 +17,7 @@
 #include "scene/records/uv_uses.h"
 #include "scene/shapes/deferred_mesh.h"
 #include "scene/shapes/mesh_uv.h"
+#include "scene/system/machine_limits.h"
 
 namespace vitrail {
 
@@ -139,7 +140,7 @@ double bytes_needed(std::uint64_t triangles, const MeshEdits& edits) {
 // Throws where the largest mesh does not fit; says how many like it do at once.
 int meshes_at_once(const Scene& scene, const MeshEdits& edits, const MeshResources& resources,
                    const std::vector<Use>& uses) {
-  const int threads = resources.threads > 0 ? resources.threads : tbb::this_task_arena::max_concurrency();
+  const int threads = threads_for(resources.threads);
   if (resources.resident_bytes == MeshResources::unlimited) return threads;
   const double left = static_cast<double>(resources.resident_bytes) - static_cast<double>(resident_bytes());
   double most = 1;

@@ -27,7 +27,7 @@ struct MeshResources {
   static constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t kept_bytes = unlimited;      // of meshes in memory, as for MeshMemory
   std::uint64_t resident_bytes = unlimited;  // most memory of this process
-  int threads = 0;                           // 0: all cores
+  int threads = 0;                           // 0: one a processor allowed
 };
 
 // Meshes in memory in parallel, as far as they fit; those in their files one after the other, which stay
