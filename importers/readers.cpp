@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/readers.h"
-#include "glazing/foreign_file.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +7,11 @@
 #include <cctype>
 #include <fstream>
 
+#include "glazing/foreign_file.h"
 #include "importers/assimp/read/assimp.h"
 #include "importers/gltf/read/gltf.h"
 #include "importers/mitsuba/read/mitsuba.h"
+#include "importers/obj/read/count_obj.h"
 #include "importers/obj/read/obj.h"
 #include "importers/pbrt/read/pbrt.h"
 #include "importers/ply/read/ply_scene.h"
@@ -27,6 +28,19 @@ ImportedScene read_obj_scene(ReadRequest request) {
   ImportedScene imported = read_obj(request.file);
   for (TriangleMesh& mesh : imported.scene.meshes) mesh = request.memory.keep(std::move(mesh), {});
   return imported;
+}
+
+// As one mesh: its vertices are those of the list that has most, and the lists and faces are held beside it.
+SkimmedScene skim_obj(ReadRequest request) {
+  const ObjCounts counts = count_obj(request.file);
+  const std::uint64_t lists = 12 * counts.positions + 8 * counts.uvs + 12 * counts.normals;
+  const std::uint64_t a_vertex = 12u + (counts.uvs > 0 ? 8u : 0u) + (counts.normals > 0 ? 12u : 0u);
+  SkimmedScene skimmed = skimmed_model(
+      counts.triangles,
+      a_vertex * std::max({counts.positions, counts.uvs, counts.normals}) + 12 * counts.triangles,
+      counts.normals > 0);
+  skimmed.statement_bytes += lists + 4 * counts.corners;
+  return skimmed;
 }
 
 ImportedScene read_stl_scene(ReadRequest request) {
@@ -112,7 +126,8 @@ const std::vector<Reader>& readers() {
        .adds_view = false,
        .has_definitions = false,
        .has_many_cameras = false,
-       .goes_on_without_images = true},
+       .goes_on_without_images = true,
+       .skim = skim_obj},
       {.name = "PLY",
        .suffixes = {".ply"},
        .gzipped = true,
@@ -121,7 +136,8 @@ const std::vector<Reader>& readers() {
        .adds_view = false,
        .has_definitions = false,
        .has_many_cameras = false,
-       .goes_on_without_images = true},
+       .goes_on_without_images = true,
+       .skim = [](ReadRequest r) { return skim_ply_scene(r.file); }},
       {.name = "STL",
        .suffixes = {".stl"},
        .gzipped = true,

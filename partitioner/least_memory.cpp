@@ -47,6 +47,9 @@ std::uint64_t least_memory(const Scene& scene, const PartitionOptions& options, 
   m.requirements.uv = !scene.textures.empty();
   m.requirements.shading_normals =
       std::ranges::any_of(scene.meshes, [](const TriangleMesh& mesh) { return has_normals(mesh); });
+  m.attributes = static_cast<std::uint32_t>(std::ranges::count_if(scene.textures, [](const Texture& t) {
+    return std::holds_alternative<MeshAttributeTexture>(t.model);
+  }));
   MemoryNeeds needs = needs_of(scene, options);
   const BakingMemory baking = baking_memory(scene, needs.threads);
   needs.baking_bytes = baking.bytes;

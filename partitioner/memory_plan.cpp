@@ -33,7 +33,7 @@ constexpr double piece_bytes = 300;
 constexpr double quadric_bytes = 170, quadric_held = 230, quadric_built = 400;
 
 // While the tree of parts is planned: of each item of the sample (spill_scene.h).
-constexpr double planning_bytes = 110, most_sampled = 1 << 18;
+constexpr double planning_bytes = 110, planning_bytes_of_attribute = 36, most_sampled = 1 << 18;
 
 // Bytes a triangle: measured, docs/why/partitioning.md.
 struct Costs {
@@ -127,9 +127,10 @@ std::string lack_of(const Manifest& m, const MemoryNeeds& needs) {
   const double all =
       (costs_of(m).placed + piece_bytes * domain.pieces_each) * triangles + quadric_held * quadrics;
   const bool in_parts = all + needs.threads * domain.build > left * needs.share;
-  if (in_parts && left < planning_bytes * std::min(triangles + quadrics, most_sampled)) return "planning";
+  const double planning = planning_bytes + planning_bytes_of_attribute * m.attributes;
+  if (in_parts && left < planning * std::min(triangles + quadrics, most_sampled)) return "planning";
   // With its vertices placed, and with the blocks on their way to disk.
-  if (const auto mesh = static_cast<double>(needs.largest_mesh); 1.5 * mesh > left * 3 / 4)
+  if (const auto mesh = static_cast<double>(needs.largest_mesh); 1.6 * mesh > left * 3 / 4)
     return fmt::format("a mesh of {:.0f} MiB", mesh / mib);
   return {};
 }

@@ -17,4 +17,13 @@ struct SkimmedScene {
   std::uint64_t statement_bytes = 0;  // most that the reader holds while it reads one statement
 };
 
+// This stands for a mesh that was counted alone.
+TriangleMesh counted_mesh(std::uint64_t triangles, std::uint64_t bytes, bool has_normals);
+
+// Sets mesh_bytes and sample_bytes by the counted meshes of the scene.
+void sum_up_meshes(SkimmedScene& skimmed);
+
+// A scene of one diffuse counted mesh, as a file of bare geometry is one.
+SkimmedScene skimmed_model(std::uint64_t triangles, std::uint64_t bytes, bool has_normals);
+
 }  // namespace vitrail

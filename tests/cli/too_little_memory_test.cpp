@@ -227,7 +227,16 @@ TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForMeshes) {
   for (const auto& p : w.points) obj += fmt::format("v {} {} {:.3f}\n", p[0], p[1], p[2]);
   for (const auto& t : w.triangles) obj += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
   write("a.obj", obj);
-  expect_right_budgets("a.obj", {24, 64});
+  expect_right_budgets("a.obj", {12, 16, 24, 64});
+  std::string ply = fmt::format(
+      "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face {}\n"
+      "property list uchar int vertex_indices\nend_header\n",
+      w.points.size(), w.triangles.size());
+  for (const auto& p : w.points) ply += fmt::format("{} {} {:.3f} 9 99 200\n", p[0], p[1], p[2]);
+  for (const auto& t : w.triangles) ply += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
+  write("a.ply", ply);
+  expect_right_budgets("a.ply", {12, 16, 24, 64});
 }
 
 TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForLamps) {

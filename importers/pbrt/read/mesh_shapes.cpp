@@ -8,6 +8,7 @@
 #include "importers/pbrt/read/mesh_fronts.h"
 #include "importers/pbrt/read/ply_meshes.h"
 #include "importers/pbrt/read/shapes.h"
+#include "importers/reading/skimmed_scene.h"
 #include "importers/shapes/shapes.h"
 #include "scene/geometry/bounds.h"
 #include "scene/shapes/mesh_uv.h"
@@ -175,14 +176,7 @@ std::optional<ShapeGeometry> ShapeMaker::skimmed_mesh(ParameterSet& parameters) 
 }
 
 ShapeGeometry ShapeMaker::add_skimmed(std::uint64_t triangles, std::uint64_t bytes, bool has_normals) {
-  const auto counted = std::make_shared<DeferredMesh>();
-  counted->triangles = std::max<std::uint64_t>(triangles, 1);
-  counted->bytes = bytes;
-  counted->has_normals = has_normals;
-  counted->bounds = Bounds3f{{0, 0, 0}, {1, 1, 1}};
-  TriangleMesh stub;
-  stub.deferred = counted;
-  meshes_.push_back(std::move(stub));
+  meshes_.push_back(counted_mesh(triangles, bytes, has_normals));
   return {{static_cast<std::uint32_t>(meshes_.size() - 1)}, false, {}, triangles};
 }
 

@@ -47,12 +47,7 @@ SkimmedScene skim_pbrt(const std::filesystem::path& file, std::function<void(dou
   SkimmedScene skimmed{.scene = interpreter.run(),
                        .grid_bytes = context.skim->grid_bytes,
                        .statement_bytes = context.skim->statement_bytes};
-  std::uint64_t triangles = 0;
-  for (const TriangleMesh& mesh : skimmed.scene.meshes)
-    if (mesh.deferred) skimmed.mesh_bytes += mesh.deferred->bytes, triangles += mesh.deferred->triangles;
-  constexpr std::uint64_t most_samples = 1u << 18;  // MeshMemory's
-  while (triangles > most_samples) triangles /= 2;
-  skimmed.sample_bytes = triangles * sizeof(DeferredMesh::Sample);
+  sum_up_meshes(skimmed);
   return skimmed;
 }
 

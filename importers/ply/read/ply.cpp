@@ -210,6 +210,7 @@ PlyCounts count_ply(const std::filesystem::path& file) {
       return std::ranges::any_of(element.properties, [&](const Property& p) { return p.name == property; });
     };
     if (element.name == "face") counts.triangles += element.count, counts.bytes += 12 * element.count;
+    if (has("red")) counts.color_bytes += 12 * element.count;
     if (element.name != "vertex") continue;
     counts.has_normals = has("nx");
     const bool has_uv = has("u") || has("s");

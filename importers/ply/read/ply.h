@@ -40,7 +40,8 @@ PbrtPly read_pbrt_ply(const std::filesystem::path& file, PbrtQuads quads, Diagno
 
 // This is what the header of a file says: faces count as triangles.
 struct PlyCounts {
-  std::uint64_t triangles = 0, bytes = 0;  // in memory
+  std::uint64_t triangles = 0, bytes = 0;  // in memory, without attributes
+  std::uint64_t color_bytes = 0;           // of `colors`
   bool has_normals = false;
 };
 PlyCounts count_ply(const std::filesystem::path& file);

@@ -55,4 +55,12 @@ ImportedScene read_ply_scene(const std::filesystem::path& file, MeshMemory memor
   return imported;
 }
 
+SkimmedScene skim_ply_scene(const std::filesystem::path& file) {
+  const PlyCounts counts = count_ply(file);
+  SkimmedScene skimmed =
+      skimmed_model(counts.triangles, counts.bytes + counts.color_bytes, counts.has_normals);
+  if (counts.color_bytes > 0) skimmed.scene.textures.push_back({MeshAttributeTexture{}});
+  return skimmed;
+}
+
 }  // namespace vitrail
