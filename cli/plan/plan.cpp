@@ -46,16 +46,15 @@ const char* limit_of(const SimulationResult& r) {
 
 // As the farm shares out the memory of a rank.
 MemoryPlan share_memory(const Arguments& a, const Manifest& m) {
-  std::uint64_t largest = 0;
-  for (std::uint32_t d = 0; d < m.domains.size(); ++d) largest = std::max(largest, bytes_needed(m, d));
+  const LargestDomain largest = largest_domain(m);
   const std::uint64_t budget = a.memory.empty() ? 0 : parse_bytes(a.memory), program = resident_bytes(),
                       all = bytes_of_all(m);
-  FilmMemory film = place_film(film_bytes(m.film), budget, program, program, a.threads, largest, all);
+  FilmMemory film = place_film(film_bytes(m.film), budget, program, program, a.threads, largest.bytes, all);
   const std::uint64_t base = program + film.resident();
   MemoryPlan plan = plan_memory(budget, base, base, a.threads, largest, all);
-  widen_window(film, plan, largest, all);
+  widen_window(film, plan, largest.bytes, all);
   if (a.domain_memory > 0)
-    plan = {std::max(largest, std::min(plan.domains_bytes, a.domain_memory)), few_rays_bytes};
+    plan = {std::max(largest.bytes, std::min(plan.domains_bytes, a.domain_memory)), few_rays_bytes};
   return plan;
 }
 

@@ -55,22 +55,15 @@ std::uint64_t picture_bytes(const Manifest& m, const RenderOptions& options, con
          (kind == ".csv" ? program : image_library);
 }
 
-std::uint64_t largest_domain(const Manifest& manifest) {
-  std::uint64_t largest = 0;
-  for (std::uint32_t d = 0; d < manifest.domains.size(); ++d)
-    largest = std::max(largest, bytes_needed(manifest, d));
-  return largest;
-}
-
-// Memory for domains, rays, and photons that land.
 // What `--memory` sets aside at least for the photons that land on a rank: three of each that flies.
 std::size_t least_room(const PhotonKey& key, std::uint64_t memory_bytes) {
   return memory_bytes == 0 ? 0 : static_cast<std::size_t>(3 * key.photons);
 }
 
-// On rank 0 a picture is made in the end.
+// Memory for domains, rays, and photons that land. On rank 0 a picture is made in the end.
 void share_out(JobPlan& plan, const Manifest& m, const RenderOptions& options, int rank) {
-  const std::uint64_t budget = options.resources.memory_bytes, largest = largest_domain(m);
+  const std::uint64_t budget = options.resources.memory_bytes;
+  const LargestDomain largest = largest_domain(m);
   plan.most_photons = least_room(plan.key.photons, budget);
   const std::uint64_t base =
       plan.base_bytes + plan.scene.textures + PhotonMap::photon_bytes * plan.most_photons;
@@ -78,13 +71,14 @@ void share_out(JobPlan& plan, const Manifest& m, const RenderOptions& options, i
   const auto peak = [&] {
     return std::max(plan.scene.peak, rank == 0 ? picture_bytes(m, options, plan) : 0);
   };
-  plan.film = place_film(plan.film.bytes, budget, base, peak(), plan.threads, largest, plan.all_domains);
+  plan.film =
+      place_film(plan.film.bytes, budget, base, peak(), plan.threads, largest.bytes, plan.all_domains);
   plan.memory =
       plan_memory(budget, base + plan.film.resident(), peak(), plan.threads, largest, plan.all_domains);
-  widen_window(plan.film, plan.memory, largest, plan.all_domains);
+  widen_window(plan.film, plan.memory, largest.bytes, plan.all_domains);
   if (options.resources.domain_memory_bytes > 0)
     plan.memory = {
-        std::max(largest, std::min(plan.memory.domains_bytes, options.resources.domain_memory_bytes)),
+        std::max(largest.bytes, std::min(plan.memory.domains_bytes, options.resources.domain_memory_bytes)),
         few_rays_bytes};
   // What no domain needs is room for more landings.
   if (plan.most_photons > 0 && plan.memory.domains_bytes > plan.all_domains) {

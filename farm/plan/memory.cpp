@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "bundle/loaded_domain.h"
+#include "bundle/manifest.h"
 #include "farm/scheduler/residency.h"
 #include "film/film_scratch.h"
 #include "scene/system/diagnostics.h"
@@ -24,18 +26,27 @@ std::uint64_t fixed_bytes(std::uint64_t base, int threads) {
          slack_a_loader * loaders_of_a_rank;
 }
 
-// More domains help where all but the largest has room; the objects that a domain places count.
-std::string about_smaller_domains(std::uint64_t budget, std::uint64_t fixed, std::uint64_t peak) {
+// More domains help where all but the largest has room. A smaller domain may place all of its objects still,
+// so these have to have room beside something of its own.
+std::string about_smaller_domains(std::uint64_t budget, std::uint64_t fixed, std::uint64_t peak,
+                                  std::uint64_t objects) {
   constexpr std::uint64_t least_domain_bytes = 64 << 10;
-  if (budget < peak || budget < fixed + least_queue_bytes + least_domain_bytes) return {};
+  if (budget < peak || budget < fixed + least_queue_bytes + least_domain_bytes + objects) return {};
   return fmt::format(
-      ", or partition the scene with --domain-bytes {}K: so much is left for a domain and the objects that "
-      "it "
-      "places",
+      ", or partition the scene with --domain-bytes {}K: so much is left for a domain and the objects "
+      "that it places",
       (budget - fixed - least_queue_bytes) >> 10);
 }
 
 }  // namespace
+
+LargestDomain largest_domain(const Manifest& manifest) {
+  LargestDomain largest;
+  for (std::uint32_t d = 0; d < manifest.domains.size(); ++d)
+    if (const std::uint64_t bytes = bytes_needed(manifest, d); bytes > largest.bytes)
+      largest = {bytes, bytes - bytes_loaded(manifest, d)};
+  return largest;
+}
 
 std::uint64_t least_memory(std::uint64_t base, std::uint64_t peak, int threads,
                            std::uint64_t largest_domain) {
@@ -70,26 +81,27 @@ void widen_window(FilmMemory& film, MemoryPlan& plan, std::uint64_t largest_doma
 }
 
 MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t peak, int threads,
-                       std::uint64_t largest_domain, std::uint64_t all_domains) {
+                       LargestDomain largest, std::uint64_t all_domains) {
   if (budget == 0) return {all_domains, most_queue_bytes};
   const std::uint64_t fixed = fixed_bytes(base, threads);
-  const std::uint64_t least = least_memory(base, peak, threads, largest_domain);
+  const std::uint64_t least = least_memory(base, peak, threads, largest.bytes);
   // The program itself takes a little more or less each time.
   constexpr std::uint64_t next_time = 2 * mib;
   if (budget < least)
     throw MachineError(fmt::format(
         "--memory {:.0f}M is too little. Give at least {:.0f}M{}. The program and the film take {:.0f}M, the "
-        "largest domain and its objects {:.0f}M; reading the scene and making "
-        "the picture take {:.0f}M{}",
+        "largest domain {:.0f}M and its objects {:.0f}M; reading the scene and making the picture take "
+        "{:.0f}M{}",
         static_cast<double>(budget) / mib, static_cast<double>((least + next_time + mib - 1) / mib),
-        about_smaller_domains(budget, fixed, peak), static_cast<double>(fixed) / mib,
-        static_cast<double>(largest_domain) / mib, static_cast<double>(peak) / mib,
+        about_smaller_domains(budget, fixed, peak, largest.objects), static_cast<double>(fixed) / mib,
+        static_cast<double>(largest.bytes - largest.objects) / mib,
+        static_cast<double>(largest.objects) / mib, static_cast<double>(peak) / mib,
         peak < least ? "" : "; -o NAME.film needs less, and vitrail develop makes the picture elsewhere"));
   const std::uint64_t free = budget - fixed;
   const std::uint64_t queues =
-      std::clamp(free / 5, least_queue_bytes, std::min(most_queue_bytes, free - largest_domain));
+      std::clamp(free / 5, least_queue_bytes, std::min(most_queue_bytes, free - largest.bytes));
   // Where there is room: messages that come while a busy machine gives a rank no processor.
-  const std::uint64_t early_messages = std::min(budget / 64, free - queues - largest_domain);
+  const std::uint64_t early_messages = std::min(budget / 64, free - queues - largest.bytes);
   return {free - queues - early_messages, queues};
 }
 

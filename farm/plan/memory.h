@@ -13,14 +13,23 @@ struct MemoryPlan {
   std::uint64_t queue_bytes = 0;    // for rays that wait or travel
 };
 
+struct Manifest;
+
+// The domain of a scene that needs most.
+struct LargestDomain {
+  std::uint64_t bytes = 0;    // of its file and of all objects that it places
+  std::uint64_t objects = 0;  // of these, the objects'
+};
+LargestDomain largest_domain(const Manifest& manifest);
+
 // What has to be the budget at least, as below.
 std::uint64_t least_memory(std::uint64_t base, std::uint64_t peak, int threads, std::uint64_t largest_domain);
 
 // `budget` for the whole rank, 0: no limit. `base`: resident already, film and manifest included; `peak`: at
 // the highest so far, or later while the picture is made. `largest_domain` has to fit. Throws MachineError
-// with the least budget that would do.
+// with the least budget that would do, and with smaller domains where these help.
 MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t peak, int threads,
-                       std::uint64_t largest_domain, std::uint64_t all_domains);
+                       LargestDomain largest, std::uint64_t all_domains);
 
 // Of a rank's film, whose sums take `bytes`: in memory, or in files of which a window is.
 struct FilmMemory {

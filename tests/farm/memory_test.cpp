@@ -17,17 +17,18 @@ namespace {
 constexpr std::uint64_t mib = 1 << 20, most = std::numeric_limits<std::uint64_t>::max();
 
 TEST(Memory, BudgetIsSharedOutOrRefused) {
-  const MemoryPlan plan = plan_memory(200 * mib, 50 * mib, 60 * mib, 2, 20 * mib, 500 * mib);
+  const MemoryPlan plan = plan_memory(200 * mib, 50 * mib, 60 * mib, 2, {20 * mib}, 500 * mib);
   EXPECT_LE(plan.domains_bytes + plan.queue_bytes + 50 * mib, 200 * mib);
   EXPECT_GE(plan.domains_bytes, 20 * mib);
-  EXPECT_THROW(plan_memory(70 * mib, 50 * mib, 60 * mib, 2, 20 * mib, 500 * mib), MachineError);
-  EXPECT_THROW(plan_memory(200 * mib, 50 * mib, 201 * mib, 2, 20 * mib, 500 * mib), MachineError);
-  EXPECT_EQ(plan_memory(0, 50 * mib, 60 * mib, 2, 20 * mib, 500 * mib).domains_bytes, 500 * mib);
+  EXPECT_THROW(plan_memory(70 * mib, 50 * mib, 60 * mib, 2, {20 * mib}, 500 * mib), MachineError);
+  EXPECT_THROW(plan_memory(200 * mib, 50 * mib, 201 * mib, 2, {20 * mib}, 500 * mib), MachineError);
+  EXPECT_EQ(plan_memory(0, 50 * mib, 60 * mib, 2, {20 * mib}, 500 * mib).domains_bytes, 500 * mib);
 }
 
-std::string refusal_of(std::uint64_t budget, std::uint64_t peak, std::uint64_t largest) {
+std::string refusal_of(std::uint64_t budget, std::uint64_t peak, std::uint64_t largest,
+                       std::uint64_t objects = 0) {
   try {
-    plan_memory(budget, 20 * mib, peak, 2, largest, 500 * mib);
+    plan_memory(budget, 20 * mib, peak, 2, {largest, objects}, 500 * mib);
   } catch (const MachineError& error) {
     return error.what();
   }
@@ -54,12 +55,15 @@ TEST(Memory, ARefusalDoesNotAdviseWhatDoesNotHelp) {
       << "reading the scene takes too much";
   EXPECT_EQ(refusal_of(20 * mib, 20 * mib, 10 * mib).find("--domain-bytes"), std::string::npos)
       << "the program takes too much";
+  EXPECT_NE(refusal_of(100 * mib, 30 * mib, 299 * mib, 20 * mib).find("--domain-bytes"), std::string::npos);
+  EXPECT_EQ(refusal_of(100 * mib, 30 * mib, 299 * mib, 298 * mib).find("--domain-bytes"), std::string::npos)
+      << "smaller domains place the same objects";
 }
 
 TEST(Memory, FilmIsInFilesWhereItHasNoRoomBesideTheDomains) {
   constexpr std::uint64_t base = 20 * mib, largest = 5 * mib, all = 60 * mib;
   const auto placed = [&](std::uint64_t film, std::uint64_t budget) {
-    return place_film(film, budget, base, base, 2, largest, all);
+    return place_film(film, budget, base, base, 2, {largest}, all);
   };
   EXPECT_EQ(placed(900 * mib, 0).window, 0u) << "there is no budget";
   EXPECT_EQ(placed(400 * mib, 600 * mib).window, 0u) << "everything has room";
@@ -70,7 +74,7 @@ TEST(Memory, FilmIsInFilesWhereItHasNoRoomBesideTheDomains) {
   for (const std::uint64_t budget : {60 * mib, 100 * mib, 500 * mib}) {
     FilmMemory film = placed(900 * mib, budget);
     const std::uint64_t least = film.window;
-    MemoryPlan plan = plan_memory(budget, base + film.resident(), base, 2, largest, all);
+    MemoryPlan plan = plan_memory(budget, base + film.resident(), base, 2, {largest}, all);
     const std::uint64_t fixed_and_rays = budget - plan.domains_bytes - film.resident();
     widen_window(film, plan, largest, all);
     EXPECT_GT(film.window, least);
