@@ -30,13 +30,14 @@ ImportedScene read_obj_scene(ReadRequest request) {
   return imported;
 }
 
-// As one mesh: its vertices are those of the list that has most, and the lists and faces are held beside it.
+// As many vertices as the longest list has, shared out by triangles; the lists and corners are held beside
+// them.
 SkimmedScene skim_obj(ReadRequest request) {
   const ObjCounts counts = count_obj(request.file);
   const std::uint64_t lists = 12 * counts.positions + 8 * counts.uvs + 12 * counts.normals;
   const std::uint64_t a_vertex = 12u + (counts.uvs > 0 ? 8u : 0u) + (counts.normals > 0 ? 12u : 0u);
   SkimmedScene skimmed = skimmed_model(
-      counts.triangles,
+      counts.parts,
       a_vertex * std::max({counts.positions, counts.uvs, counts.normals}) + 12 * counts.triangles,
       counts.normals > 0);
   skimmed.statement_bytes += lists + 4 * counts.corners;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "scene/shapes/deferred_mesh.h"
@@ -29,11 +30,18 @@ void sum_up_meshes(SkimmedScene& skimmed) {
   skimmed.sample_bytes = triangles * sizeof(DeferredMesh::Sample);
 }
 
-SkimmedScene skimmed_model(std::uint64_t triangles, std::uint64_t bytes, bool has_normals) {
+SkimmedScene skimmed_model(std::span<const std::uint64_t> triangles, std::uint64_t bytes, bool has_normals) {
+  const std::uint64_t all =
+      std::max<std::uint64_t>(std::accumulate(triangles.begin(), triangles.end(), std::uint64_t{0}), 1);
   SkimmedScene skimmed;
   skimmed.scene.materials.push_back({DiffuseMaterial{}});
-  skimmed.scene.meshes.push_back(counted_mesh(triangles, bytes, has_normals));
-  skimmed.scene.shapes.push_back({});
+  for (const std::uint64_t count : triangles) {
+    const double share = static_cast<double>(count) / static_cast<double>(all);
+    const auto mesh = static_cast<std::uint32_t>(skimmed.scene.meshes.size());
+    skimmed.scene.meshes.push_back(
+        counted_mesh(count, static_cast<std::uint64_t>(share * static_cast<double>(bytes)), has_normals));
+    skimmed.scene.shapes.push_back({Id<TriangleMesh>{mesh}});
+  }
   skimmed.statement_bytes = bytes;
   sum_up_meshes(skimmed);
   return skimmed;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "scene/records/scene.h"
 
@@ -23,7 +24,8 @@ TriangleMesh counted_mesh(std::uint64_t triangles, std::uint64_t bytes, bool has
 // Sets mesh_bytes and sample_bytes by the counted meshes of the scene.
 void sum_up_meshes(SkimmedScene& skimmed);
 
-// A scene of one diffuse counted mesh, as a file of bare geometry is one.
-SkimmedScene skimmed_model(std::uint64_t triangles, std::uint64_t bytes, bool has_normals);
+// A diffuse scene of counted meshes of so many triangles, which take `bytes` together: a file of bare
+// geometry.
+SkimmedScene skimmed_model(std::span<const std::uint64_t> triangles, std::uint64_t bytes, bool has_normals);
 
 }  // namespace vitrail

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 namespace vitrail {
 
@@ -10,6 +11,7 @@ namespace vitrail {
 // backslash joins count as one. Nothing is checked. Throws Error where the file cannot be read.
 struct ObjCounts {
   std::uint64_t positions = 0, uvs = 0, normals = 0, triangles = 0, corners = 0;
+  std::vector<std::uint64_t> parts;  // triangles between two lines of o, g or usemtl, where there are some
 };
 ObjCounts count_obj(const std::filesystem::path& file);
 

@@ -58,7 +58,7 @@ ImportedScene read_ply_scene(const std::filesystem::path& file, MeshMemory memor
 SkimmedScene skim_ply_scene(const std::filesystem::path& file) {
   const PlyCounts counts = count_ply(file);
   SkimmedScene skimmed =
-      skimmed_model(counts.triangles, counts.bytes + counts.color_bytes, counts.has_normals);
+      skimmed_model({&counts.triangles, 1}, counts.bytes + counts.color_bytes, counts.has_normals);
   if (counts.color_bytes > 0) skimmed.scene.textures.push_back({MeshAttributeTexture{}});
   return skimmed;
 }
