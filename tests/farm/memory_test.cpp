@@ -63,7 +63,7 @@ TEST(Memory, ARefusalDoesNotAdviseWhatDoesNotHelp) {
 TEST(Memory, FilmIsInFilesWhereItHasNoRoomBesideTheDomains) {
   constexpr std::uint64_t base = 20 * mib, largest = 5 * mib, all = 60 * mib;
   const auto placed = [&](std::uint64_t film, std::uint64_t budget) {
-    return place_film(film, budget, base, base, 2, {largest}, all);
+    return place_film(film, budget, base, base, 2, largest, all);
   };
   EXPECT_EQ(placed(900 * mib, 0).window, 0u) << "there is no budget";
   EXPECT_EQ(placed(400 * mib, 600 * mib).window, 0u) << "everything has room";
