@@ -4,6 +4,8 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 
 #include "images/image_files.h"
 #include "partitioner/appearance/baking_memory.h"
@@ -47,9 +49,11 @@ std::uint64_t least_memory(const Scene& scene, const PartitionOptions& options, 
   m.requirements.uv = !scene.textures.empty();
   m.requirements.shading_normals =
       std::ranges::any_of(scene.meshes, [](const TriangleMesh& mesh) { return has_normals(mesh); });
-  m.attributes = static_cast<std::uint32_t>(std::ranges::count_if(scene.textures, [](const Texture& t) {
-    return std::holds_alternative<MeshAttributeTexture>(t.model);
-  }));
+  std::set<std::string_view> attributes;
+  for (const Texture& texture : scene.textures)
+    if (const auto* attribute = std::get_if<MeshAttributeTexture>(&texture.model))
+      attributes.insert(attribute->name);
+  m.attributes = static_cast<std::uint32_t>(attributes.size());
   MemoryNeeds needs = needs_of(scene, options);
   const BakingMemory baking = baking_memory(scene, needs.threads);
   needs.baking_bytes = baking.bytes;
