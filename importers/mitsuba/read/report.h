@@ -34,7 +34,7 @@ class Report {
 
   [[noreturn]] void fail(const std::string& message, const Origin& place) const;
   SourceLocation location(const Origin& origin) const;
-  // From now on it counts most of very many notes of one text alone.
+  // Makes the report count most of very many notes of one text alone.
   void count_repeated() { repeated_.emplace(); }
   Diagnostics take() {
     if (repeated_) repeated_->append_counts(diagnostics_);

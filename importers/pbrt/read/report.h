@@ -22,7 +22,7 @@ class Report {
   // What comes is about the directive there, of which a record of that kind is made.
   void begin_item(const Place& place, RecordKind kind = RecordKind::any) { item_ = place, kind_ = kind; }
 
-  // From now on it counts most of very many notes of one text alone.
+  // Makes the report count most of very many notes of one text alone.
   void count_repeated() { repeated_.emplace(); }
 
   Diagnostics take() {

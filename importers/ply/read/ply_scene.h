@@ -14,7 +14,7 @@ namespace vitrail {
 // is sought beside the file and needs (u,v); the colours of vertices or faces; 0.5.
 ImportedScene read_ply_scene(const std::filesystem::path& file, MeshMemory memory);
 
-// By the file's header.
+// Counts the mesh by the file's header.
 SkimmedScene skim_ply_scene(const std::filesystem::path& file);
 
 }  // namespace vitrail
