@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "importers/obj/read/count_obj.h"
 #include "scene/spectra/color.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/obj/obj_fixture.h"
@@ -50,6 +51,18 @@ TEST_F(Obj, AllFormsOfFaces) {
     }
     EXPECT_THAT(imported.diagnostics, IsEmpty()) << face;
   }
+}
+
+TEST_F(Obj, IsCountedWithoutBeingRead) {
+  const ObjCounts counts = count_obj(folder_.write(
+      "counted.obj",
+      square + "vt 0 0\nvn 0 0 1\nf 1 2 3 4\n o a\nusemtl m\nf 1/1 2/1 \\\n3/1\ng b\nf -1 -2 -3\nf 1 2"));
+  EXPECT_EQ(counts.positions, 4u);
+  EXPECT_EQ(counts.uvs, 1u);
+  EXPECT_EQ(counts.normals, 1u);
+  EXPECT_EQ(counts.corners, 12u);
+  EXPECT_EQ(counts.triangles, 4u);
+  EXPECT_THAT(counts.parts, ElementsAre(2u, 1u, 1u));
 }
 
 TEST_F(Obj, NumbersAndLineEnds) {
