@@ -28,23 +28,41 @@ enum class TexelFormat : std::uint32_t {
   matrix_r_reflectance,  // 1 − w·(1 − q)
   matrix_r_unbounded,    // w·q; w where all of x are 0, a grey
   matrix_r_illuminant,   // the same times D65
-  // Codes of 8 bits, as an image file holds them: the file has the 256 values that they stand for. They are
-  // read as texels of another format (`read_format`).
-  color_code,   // three, of linear sRGB; read as reflectance
-  number_code,  // one; read as number
+  // Codes, as an image file holds them. They are read as texels of another format (`read_format`). Of codes
+  // of 8 bits the file has the 256 values that they stand for.
+  color_code,     // three of 8 bits, of linear sRGB; read as reflectance
+  number_code,    // one of 8 bits; read as number
+  light_code,     // three of 8 bits, of linear sRGB; read as illuminant
+  light_code_16,  // three of 16 bits (`value_of_code`), of linear sRGB; read as illuminant
 };
-inline constexpr std::uint32_t texel_format_count = 12;
+inline constexpr std::uint32_t texel_format_count = 14;
 inline constexpr std::size_t code_count = 256;
 
+// Returns whether the texels are codes of 8 bits.
 constexpr bool is_coded(TexelFormat format) {
-  return format == TexelFormat::color_code || format == TexelFormat::number_code;
+  return format >= TexelFormat::color_code && format <= TexelFormat::light_code;
+}
+// Returns whether the spectra of the texels are found when they are looked up.
+constexpr bool finds_spectra(TexelFormat format) {
+  return format >= TexelFormat::color_code && format != TexelFormat::number_code;
 }
 constexpr TexelFormat read_format(TexelFormat format) {
-  if (format == TexelFormat::color_code) return TexelFormat::reflectance;
-  return format == TexelFormat::number_code ? TexelFormat::number : format;
+  switch (format) {
+    case TexelFormat::color_code:
+      return TexelFormat::reflectance;
+    case TexelFormat::number_code:
+      return TexelFormat::number;
+    case TexelFormat::light_code:
+    case TexelFormat::light_code_16:
+      return TexelFormat::illuminant;
+    default:
+      return format;
+  }
 }
 
-constexpr bool by_matrix_r(TexelFormat format) { return format >= TexelFormat::matrix_r_reflectance; }
+constexpr bool by_matrix_r(TexelFormat format) {
+  return format >= TexelFormat::matrix_r_reflectance && format <= TexelFormat::matrix_r_illuminant;
+}
 constexpr bool is_illuminant(TexelFormat format) {
   return format == TexelFormat::illuminant || format == TexelFormat::matrix_r_illuminant;
 }
@@ -67,18 +85,28 @@ constexpr std::uint32_t words_per_texel(TexelFormat format) {
 
 // Returns the bytes of a texel in the file.
 constexpr std::uint32_t bytes_per_texel(TexelFormat format) {
-  if (format == TexelFormat::color_code) return 3;
-  return format == TexelFormat::number_code ? 1 : 4 * words_per_texel(format);
-}
-
-// A colour whose spectrum is still to be found is read as a texel of reflectance with this second word; its
-// first one says nothing. The second word of a spectrum is less than 2³¹.
-constexpr bool is_color_code(std::uint32_t second_word) { return second_word >> 31 != 0; }
-constexpr std::uint32_t color_code_word(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
-  return 1u << 31 | r | g << 8 | b << 16;
+  switch (format) {
+    case TexelFormat::number_code:
+      return 1;
+    case TexelFormat::color_code:
+    case TexelFormat::light_code:
+      return 3;
+    case TexelFormat::light_code_16:
+      return 6;
+    default:
+      return 4 * words_per_texel(format);
+  }
 }
 
 using TexelWords = std::array<std::uint32_t, 3>;  // of which words_per_texel count
+
+// A colour of 8 bits whose spectrum is still to be found is read as a texel with this last word; the others
+// say nothing. The second word of a spectrum is less than 2³¹, and so is its third, a float that is not
+// negative.
+constexpr bool is_color_code(std::uint32_t last_word) { return last_word >> 31 != 0; }
+constexpr std::uint32_t color_code_word(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
+  return 1u << 31 | r | g << 8 | b << 16;
+}
 
 // Tiles of all formats take at most 16 KiB.
 inline constexpr std::size_t max_tile_words = 4096;

@@ -13,6 +13,7 @@
 
 #include "bundle/checksum.h"
 #include "bundle/features.h"
+#include "bundle/light_code.h"
 #include "bundle/texture_layout.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
@@ -202,6 +203,18 @@ void TextureFile::expand(std::span<const std::byte> codes, std::span<std::uint32
       const std::uint32_t word = color_code_word(c[3 * i], c[3 * i + 1], c[3 * i + 2]);
       words[2 * i] = 0;
       words[2 * i + 1] = word;
+    }
+  if (info_.format == TexelFormat::light_code)
+    for (std::size_t i = 0; i < words.size() / 3; ++i) {
+      const std::uint32_t word = color_code_word(c[3 * i], c[3 * i + 1], c[3 * i + 2]);
+      words[3 * i] = words[3 * i + 1] = 0;
+      words[3 * i + 2] = word;
+    }
+  if (info_.format == TexelFormat::light_code_16)
+    for (std::size_t i = 0; i < words.size() / 3; ++i) {
+      LightCodes of{};
+      for (std::size_t k = 0; k < 3; ++k) of[k] = c[6 * i + 2 * k] | c[6 * i + 2 * k + 1] << 8;
+      std::ranges::copy(words_of_codes(of), &words[3 * i]);
     }
 }
 

@@ -55,6 +55,7 @@ using CodeValues = std::vector<float>;
 // the tiles. Throws MachineError.
 struct WrittenTextureFile {
   std::uint64_t bytes = 0, hash = 0;
+  std::uint64_t read_bytes = 0;  // of its texels in memory, where they are codes; else 0
 };
 using TexelSource = std::function<TexelWords(std::uint32_t level, std::uint32_t x, std::uint32_t y)>;
 WrittenTextureFile write_texture_file(const std::filesystem::path& file, const TextureFileInfo& info,

@@ -88,7 +88,8 @@ WrittenTextureFile TextureWriter::finish() {
   header.info = info_;
   header.file_bytes = layout_.file_bytes;
   header.tiles = layout_.tiles;
-  if (is_coded(info_.format)) header.features.required = required_feature::codes;
+  const bool codes = read_format(info_.format) != info_.format;
+  if (codes) header.features.required = required_feature::codes;
   header.checksum = header_checksum(header, checksums_, values_);
   write(std::as_bytes(std::span(&header, 1)), 0);
   write(std::as_bytes(std::span(checksums_)), sizeof header);
@@ -96,7 +97,9 @@ WrittenTextureFile TextureWriter::finish() {
   if (::close(std::exchange(descriptor_, -1)) != 0)
     throw MachineError(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
   finished_ = true;
-  return {layout_.file_bytes, header.checksum};
+  std::uint64_t texels = 0;
+  for (const TextureLevel& level : layout_.levels) texels += std::uint64_t{level.width} * level.height;
+  return {layout_.file_bytes, header.checksum, codes ? texels * 4 * words_per_texel(info_.format) : 0};
 }
 
 WrittenTextureFile write_texture_file(const std::filesystem::path& file, const TextureFileInfo& info,

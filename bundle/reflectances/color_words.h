@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "bundle/reflectances/reflectance_fitter.h"
@@ -14,8 +15,17 @@ namespace vitrail {
 // function.
 TexelWords reflectance_words(const std::array<float, 3>& color, const ReflectanceFitter& fitter);
 
-// The same of the colour that a word of codes stands for (is_color_code).
-TexelWords color_words(std::uint32_t word, std::span<const float> values, const ReflectanceFitter& fitter);
+// The texel (TexelFormat::illuminant) of linear sRGB, finite and not negative.
+TexelWords light_words(const std::array<float, 3>& color, const ReflectanceFitter& fitter);
+
+// The colour, linear sRGB, whose spectrum is still to be found (is_color_code), of words that were read from
+// a file of this format: `values` are its. Nothing where they are of a spectrum, or some of them.
+std::optional<std::array<float, 3>> coded_color(TexelFormat of_file, const TexelWords& words,
+                                                std::span<const float> values);
+
+// The texel that the words of a colour stand for.
+TexelWords found_words(TexelFormat of_file, const TexelWords& words, std::span<const float> values,
+                       const ReflectanceFitter& fitter);
 
 // The memory that the table and the grid of fits may take.
 inline constexpr std::uint64_t conversion_bytes = 9 << 20;

@@ -102,7 +102,9 @@ Report inspect_texture(const std::filesystem::path& file) {
                              "unbounded by Matrix-R",
                              "illuminant by Matrix-R",
                              "reflectance by codes of 8 bits",
-                             "number by codes of 8 bits"};
+                             "number by codes of 8 bits",
+                             "illuminant by codes of 8 bits",
+                             "illuminant by codes of 16 bits"};
   static_assert(names.size() == texel_format_count);
   const TextureFile texture(file);
   texture.check_tiles();

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <utility>
 #include <vector>
 
 #include "bundle/texture_writer.h"
 #include "images/texture_values.h"
-#include "partitioner/appearance/row_halver.h"
+#include "partitioner/appearance/row_pyramid.h"
 
 namespace vitrail {
 
@@ -76,56 +75,43 @@ std::uint8_t code_near(const CodeValues& values, float value, std::uint32_t x, s
   return static_cast<std::uint8_t>(greater ? upper : upper - 1);
 }
 
-// Each level takes its rows from the top and hands those of the next one on.
+// Writes the codes of the finest level as they come, and those of the others by their means.
 class CodedLevels {
  public:
   CodedLevels(TextureWriter& writer, const TextureFileInfo& info, const CodeValues& values)
       : writer_(writer),
-        info_(info),
         values_(values),
         channels_(bytes_per_texel(info.format)),
-        next_y_(info.levels) {}
+        pyramid_(info, static_cast<int>(channels_),
+                 [this](auto level, auto y, auto row) { add_means(level, y, row); }) {}
 
   void add_codes(std::span<const std::uint8_t> codes) {
     writer_.add_row(0, std::as_bytes(codes));
-    if (info_.levels == 1) return;
     decoded_.resize(codes.size());
     for (std::size_t i = 0; i < codes.size(); ++i) decoded_[i] = values_[codes[i]];
-    hand_on(0, decoded_);
+    pyramid_.add(decoded_);
   }
 
  private:
-  void hand_on(std::uint32_t level, std::span<const float> row) {
-    if (level + 1 == info_.levels) return;
-    if (halvers_.size() <= level)
-      halvers_.emplace_back(static_cast<int>(row.size() / channels_),
-                            static_cast<int>(std::max(info_.height >> level, 1u)),
-                            static_cast<int>(channels_));
-    halvers_[level].add(row, [&](std::span<const float> half) { add_means(level + 1, half); });
-  }
-  void add_means(std::uint32_t level, std::span<const float> row) {
+  void add_means(std::uint32_t level, std::uint32_t y, std::span<const float> row) {
     std::vector<std::uint8_t> codes(row.size());
-    const std::uint32_t y = next_y_[level]++;
     for (std::size_t i = 0; i < row.size(); ++i)
       codes[i] = code_near(values_, row[i], static_cast<std::uint32_t>(i / channels_), y, i % channels_);
     writer_.add_row(level, std::as_bytes(std::span(codes)));
-    hand_on(level, row);
   }
 
   TextureWriter& writer_;
-  TextureFileInfo info_;
   const CodeValues& values_;
   std::size_t channels_;
-  std::vector<std::uint32_t> next_y_;  // of each level, from its top
   std::vector<float> decoded_;
-  std::deque<RowHalver> halvers_;  // of each level but the last; they stay where they are
+  RowPyramid pyramid_;
 };
 
 }  // namespace
 
 std::optional<CodedImage> coded_image(const ImageTexture& texture, const ByteRows& rows, TextureUse use,
                                       RgbMethod method) {
-  if (use != TextureUse::number && use != TextureUse::reflectance && use != TextureUse::unbounded) return {};
+  if (use == TextureUse::vector) return {};
   CodedImage coded{TexelFormat::color_code, 0, values_of_bytes(texture, use)};
   const bool color = use != TextureUse::number;
   for (float& v : coded.values) {
@@ -138,6 +124,9 @@ std::optional<CodedImage> coded_image(const ImageTexture& texture, const ByteRow
     const auto channel = channel_of(texture.number, rows.channels);
     if (!channel) return {};
     coded.format = TexelFormat::number_code, coded.first_channel = *channel;
+  } else if (use == TextureUse::illuminant) {
+    if (method == RgbMethod::matrix_r) return {};
+    coded.format = TexelFormat::light_code;
   } else if (has_only_greys(rows)) {
     coded.format = TexelFormat::number_code;
   } else if (coded.values.back() > 1 || method == RgbMethod::matrix_r) {
@@ -164,7 +153,7 @@ WrittenTextureFile write_coded_image(const std::filesystem::path& file, const By
       }
       for (std::size_t x = 0; x < width; ++x)
         for (std::size_t c = 0; c < taken; ++c)
-          codes[x * taken + c] = bytes[x * step + coded.first_channel + c];
+          codes[x * taken + c] = bytes[x * step + coded.first_channel + (step < 3 ? 0 : c)];
       levels.add_codes(codes);
     }
   });

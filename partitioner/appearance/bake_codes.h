@@ -16,13 +16,14 @@ namespace vitrail {
 // How an image becomes codes: one or three of the channels that it has.
 struct CodedImage {
   TexelFormat format = TexelFormat::color_code;
-  std::size_t first_channel = 0;  // of the file: three from there on, or that one
+  std::size_t first_channel = 0;  // of the file: three from there on, or that one where it has fewer
   CodeValues values;              // they do not fall
 };
 
-// Nothing where the texture's values are no function of one byte each, or mean more than a reflectance or a
-// number. An image of greys counts as numbers, as write_baked_image has it: to know that, the image is read
-// until a pixel is no grey. `texture` chooses no channel by alpha (without_choice). Throws as `rows` does.
+// Nothing where the texture's values are no function of one byte each, or mean more than a reflectance, a
+// number or light. An image of greys that does not shine counts as numbers, as write_baked_image has it: to
+// know that, the image is read until a pixel is no grey. `texture` chooses no channel by alpha
+// (without_choice). Throws as `rows` does.
 std::optional<CodedImage> coded_image(const ImageTexture& texture, const ByteRows& rows, TextureUse use,
                                       RgbMethod method);
 

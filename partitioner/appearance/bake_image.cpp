@@ -13,6 +13,7 @@
 
 #include "bundle/reflectances/reflectance_table.h"
 #include "bundle/texture_writer.h"
+#include "partitioner/appearance/bake_light_codes.h"
 #include "partitioner/appearance/row_halver.h"
 #include "scene/spectra/matrix_r.h"
 
@@ -266,6 +267,8 @@ Survey survey_of(const ImageRows& rows, TextureUse use) {
 
 WrittenTextureFile write_baked_image(const std::filesystem::path& file, const ImageRows& rows, TextureUse use,
                                      bool all_levels, const ReflectanceFitter& fitter, RgbMethod method) {
+  if (use == TextureUse::illuminant && method != RgbMethod::matrix_r)
+    if (const auto written = write_light_codes(file, rows, all_levels)) return *written;
   const Survey survey = use == TextureUse::number ? Survey{} : survey_of(rows, use);
   const auto width = static_cast<std::uint32_t>(rows.width), height = static_cast<std::uint32_t>(rows.height);
   const TextureFileInfo info{format_for(survey, use, method), width, height,

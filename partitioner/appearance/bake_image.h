@@ -15,9 +15,9 @@ namespace vitrail {
 enum class TextureUse { reflectance, unbounded, illuminant, number, vector };
 
 // Writes linear values of one channel or three (numbers: of one): all MIP levels or the finest. Images of
-// greys become numbers, and unbounded ones that stay within [0,1] reflectances. Values that are not finite
-// count as 0. The image is read twice, the first time only until its format is known, and never in memory as
-// a whole. Throws MachineError.
+// greys become numbers, and unbounded ones that stay within [0,1] reflectances. Light whose numbers fit into
+// 16 bits keeps them (bake_light_codes.h). Values that are not finite count as 0. The image is read twice,
+// the first time only until its format is known, and never in memory as a whole. Throws MachineError.
 WrittenTextureFile write_baked_image(const std::filesystem::path& file, const ImageRows& rows, TextureUse use,
                                      bool all_levels, const ReflectanceFitter& fitter,
                                      RgbMethod method = RgbMethod::jakob_hanika);

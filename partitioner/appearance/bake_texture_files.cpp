@@ -71,7 +71,7 @@ ImageRows tinted(ImageRows rows, const Tint& tint, TextureUse use) {
 }
 
 // To be raised where equal images are baked to other texels than before.
-constexpr int baking_revision = 2;
+constexpr int baking_revision = 3;
 
 // Of a baked image: what is in the file, and all that is asked of it. Empty for small files, which are baked
 // as soon as they are looked for.
@@ -92,15 +92,6 @@ std::string key_of(const ImageTexture& image, TextureUse use, const Tint& tint, 
   hash.add(file.extension().string());  // tells the kind of some files
   hash.add_content(file);
   return hash.hex() + ".tex";
-}
-
-// Of the texels of an image of codes, in memory.
-std::uint64_t read_bytes(TextureFileInfo info, bool all_levels) {
-  if (all_levels) info.levels = texture_level_count(info.width, info.height);
-  std::uint64_t texels = 0;
-  for (const TextureLevel& level : texture_file_layout(info).levels)
-    texels += std::uint64_t{level.width} * level.height;
-  return texels * words_per_texel(info.format) * sizeof(std::uint32_t);
 }
 
 bool keeps_integers_finite(const ImageTexture& image) {
@@ -167,7 +158,8 @@ std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, 
   report(image, facts, where);
   if (!key.empty() && !bundle_.empty())
     cache_.keep(key, bundle_ / name,
-                {files_.back().bytes, files_.back().hash, facts.other_primaries ? 1u : 0u, facts.broken});
+                {files_.back().bytes, files_.back().hash,
+                 files_.back().read_bytes << 1 | (facts.other_primaries ? 1 : 0), facts.broken});
   return name;
 }
 
@@ -187,12 +179,8 @@ std::string TextureBaker::write_codes(const ImageTexture& image, const ByteRows&
       const std::filesystem::path file = bundle_ / task.written.name;
       const WrittenTextureFile written = write_coded_image(file, rows, coded, all_levels);
       task.written.bytes = written.bytes, task.written.hash = written.hash;
-      task.written.read_bytes =
-          read_bytes(TextureFileInfo{coded.format, static_cast<std::uint32_t>(rows.width),
-                                     static_cast<std::uint32_t>(rows.height)},
-                     all_levels);
-      if (!key.empty())
-        cache_.keep(key, file, {written.bytes, written.hash, task.written.read_bytes << 1, 0});
+      task.written.read_bytes = written.read_bytes;
+      if (!key.empty()) cache_.keep(key, file, {written.bytes, written.hash, written.read_bytes << 1, 0});
     } catch (const Error& error) {
       task.failure =
           std::make_exception_ptr(Error(fmt::format("texture {}: {}", filename, error.what()), where));
@@ -238,7 +226,7 @@ std::string TextureBaker::write_image(const ImageRows& rows, TextureUse use, boo
   }
   const WrittenTextureFile written =
       write_baked_image(bundle_ / name, rows, use, all_levels, fitter_, scene_.settings.rgb);
-  files_.push_back({name, written.bytes, written.hash});
+  files_.push_back({name, written.bytes, written.hash, written.read_bytes});
   return name;
 }
 

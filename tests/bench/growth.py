@@ -49,7 +49,7 @@ def rows():
     yield Row("image, bilinear", functools.partial(s.image, filter_name="bilinear"), 128**2, "texel", spp=(24, 32))
     yield Row("image, by levels", functools.partial(s.image, filter_name="trilinear"), 128**2, "texel", (1.25, 1.25),
               "two levels where the first is too fine", spp=(8, 16))
-    yield Row("sky image", s.sky_image, 128**2, "texel", spp=(24, 32))
+    yield Row("sky image", s.sky_image, 128**2, "texel", (2, 4), "spectra of texels that are met first", spp=(24, 32))
     yield Row("lamp's image", s.goniometric, 128**2, "texel", spp=(24, 32))
     yield Row("spectra", s.spectra, 1600, "sample", short=True)
     yield Row("measured table", s.measured, 16384, "value", spp=(8, 16))

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <random>
 
+#include "bundle/light_code.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
@@ -52,6 +53,11 @@ TEST(TextureFile, EveryTexelComesBack) {
                   ASSERT_EQ(std::bit_cast<float>(read[0]), static_cast<float>(code & 255) / 255);
                 else if (info.format == TexelFormat::color_code)
                   ASSERT_EQ(read[1], color_code_word(code & 255, code >> 8 & 255, code >> 16 & 255));
+                else if (info.format == TexelFormat::light_code)
+                  ASSERT_EQ(read[2], color_code_word(code & 255, code >> 8 & 255, code >> 16 & 255));
+                else if (info.format == TexelFormat::light_code_16)
+                  ASSERT_EQ((TexelWords{read[0], read[1], read[2]}),
+                            words_of_codes({code & 0xffff, code >> 16, expected[1] & 0xffff}));
                 else
                   for (std::size_t w = 0; w < words; ++w) ASSERT_EQ(read[w], expected[w]);
               }

@@ -6,7 +6,9 @@
 #include <random>
 #include <thread>
 
+#include "bundle/light_code.h"
 #include "bundle/reflectances/color_words.h"
+#include "partitioner/appearance/bake_light_codes.h"
 #include "scene/system/diagnostics.h"
 #include "tests/images/png_file.h"
 #include "tests/partitioner/baked_scene.h"
@@ -38,8 +40,9 @@ RGB decoded(const std::uint8_t* p) {
   return {srgb_decode(p[0] / 255.0), srgb_decode(p[1] / 255.0), srgb_decode(p[2] / 255.0)};
 }
 
+TexelFormat format_of_file(const std::filesystem::path& file) { return TextureFile(file).info().format; }
 TexelFormat format_of(const test::BakedScene& s, const char* name) {
-  return TextureFile(s.directory / "b.vit/textures" / name).info().format;
+  return format_of_file(s.directory / "b.vit/textures" / name);
 }
 
 TEST(BakeCodes, EveryColourIsFoundAtItsPlace) {
@@ -63,19 +66,8 @@ TEST(BakeCodes, EveryColourIsFoundAtItsPlace) {
     }
 }
 
-// By the words of the texels: those that write_baked_image stores of the same values.
-TEST(BakeCodes, TexelsAreThoseOfTheValuesWhateverTheMemoryAndThreads) {
-  constexpr int width = 200, height = 150;
-  test::BakedScene s;
-  const auto pixels = dark_and_bright(width, height, 3);
-  const auto rows = byte_rows(png(s, "a.png", width, 3, pixels));
-  const auto coded = coded_image(s.image("a.png"), *rows, TextureUse::reflectance, {});
-  ASSERT_TRUE(coded);
-  write_coded_image(s.directory / "codes.tex", *rows, *coded, false);
-  const ReflectanceFitter fitter;
-  Image values = black_image(width, height, 3);
-  for (std::size_t i = 0; i < pixels.size(); ++i) values.values[i] = coded->values[pixels[i]];
-  write_baked_image(s.directory / "spectra.tex", rows_of(values), TextureUse::reflectance, false, fitter);
+// Threads with much memory and with room for one tile read the same words in both files, but in column 0.
+void expect_equal_words(const test::BakedScene& s, int width, int height) {
   const auto words_of = [&](const BakedImage& image, int x, int y) {
     TexelWords words{};
     const std::int32_t at_x = x, at_y = y;
@@ -89,7 +81,8 @@ TEST(BakeCodes, TexelsAreThoseOfTheValuesWhateverTheMemoryAndThreads) {
     const auto compare = [&](unsigned seed) {
       std::mt19937 random(seed);
       for (int i = 0; i < 20000; ++i) {
-        const int x = static_cast<int>(random() % width), y = static_cast<int>(random() % height);
+        const int x = 1 + static_cast<int>(random() % static_cast<unsigned>(width - 1)),
+                  y = static_cast<int>(random() % static_cast<unsigned>(height));
         if (words_of(codes, x, y) != words_of(spectra, x, y)) ++different;
       }
     };
@@ -99,6 +92,78 @@ TEST(BakeCodes, TexelsAreThoseOfTheValuesWhateverTheMemoryAndThreads) {
     }
     EXPECT_EQ(different, 0);
   }
+}
+
+// By the words of the texels: those that write_baked_image stores of the same values. A value in column 0
+// that has no code makes it store spectra.
+TEST(BakeCodes, TexelsAreThoseOfTheValuesWhateverTheMemoryAndThreads) {
+  constexpr int width = 200, height = 150;
+  test::BakedScene s;
+  const auto pixels = dark_and_bright(width, height, 3);
+  const auto rows = byte_rows(png(s, "a.png", width, 3, pixels));
+  const ReflectanceFitter fitter;
+  for (const TextureUse use : {TextureUse::reflectance, TextureUse::illuminant}) {
+    const auto coded = coded_image(s.image("a.png"), *rows, use, {});
+    ASSERT_TRUE(coded);
+    EXPECT_EQ(coded->format,
+              use == TextureUse::illuminant ? TexelFormat::light_code : TexelFormat::color_code);
+    write_coded_image(s.directory / "codes.tex", *rows, *coded, false);
+    Image values = black_image(width, height, 3);
+    for (std::size_t i = 0; i < pixels.size(); ++i) values.values[i] = coded->values[pixels[i]];
+    values.values[0] = 0.1f;
+    write_baked_image(s.directory / "spectra.tex", rows_of(values), use, false, fitter);
+    EXPECT_FALSE(finds_spectra(format_of_file(s.directory / "spectra.tex")));
+    expect_equal_words(s, width, height);
+  }
+}
+
+// Of half floats, of Radiance's values beyond them, and of both.
+TEST(BakeCodes, LightKeepsItsNumbers) {
+  constexpr int width = 90, height = 70;
+  test::BakedScene s;
+  const ReflectanceFitter fitter;
+  std::mt19937 random(3);
+  for (const std::uint32_t kinds : {0u, 1u, 2u}) {
+    Image values = black_image(width, height, 3);
+    for (float& v : values.values) {
+      const auto any = [&](std::uint32_t below) { return static_cast<std::uint32_t>(random() % below); };
+      const std::uint32_t kind = kinds < 2 ? kinds : any(2);
+      v = value_of_code(kind == 0 ? any(0x7c00) : 0x8000 + 0x2800 + any(0x2000));
+    }
+    for (int i = 0; i < 9; ++i) values.values[30 + static_cast<std::size_t>(i)] = i < 3 ? 0 : 0.5f;  // greys
+    const auto written = write_light_codes(s.directory / "codes.tex", rows_of(values), false);
+    ASSERT_TRUE(written);
+    EXPECT_EQ(written->read_bytes, 12u * width * height);
+    EXPECT_LT(written->bytes, 6u * width * height + 200);
+    values.values[0] = 0.1f;
+    write_baked_image(s.directory / "spectra.tex", rows_of(values), TextureUse::illuminant, false, fitter);
+    EXPECT_EQ(format_of_file(s.directory / "spectra.tex"), TexelFormat::illuminant);
+    expect_equal_words(s, width, height);
+    EXPECT_FALSE(write_light_codes(s.directory / "none.tex", rows_of(values), false));
+    EXPECT_FALSE(std::filesystem::exists(s.directory / "none.tex"));
+  }
+}
+
+// Each texel of a coarser level is the mean of four, to a code.
+TEST(BakeCodes, LevelsOfLightAreMeans) {
+  constexpr int size = 64;
+  test::BakedScene s;
+  Image values = black_image(size, size, 1);
+  std::mt19937 random(5);
+  for (float& v : values.values) v = value_of_code(static_cast<std::uint32_t>(0x2000 + random() % 0x3000));
+  ASSERT_TRUE(write_light_codes(s.directory / "codes.tex", rows_of(values), true));
+  const BakedImage codes(s.directory / "codes.tex", std::make_shared<TileCache>(1 << 20));
+  ASSERT_EQ(codes.levels(), 7);
+  for (int y = 0; y < size / 2; ++y)
+    for (int x = 0; x < size / 2; ++x) {
+      double mean = 0;
+      for (const int i : {0, 1})
+        for (const int j : {0, 1})
+          mean +=
+              0.25 * static_cast<double>(
+                         values.values[static_cast<std::size_t>((size - 1 - 2 * y - i) * size + 2 * x + j)]);
+      EXPECT_NEAR(codes.luminance(x, y, 1), mean, 1e-3 * mean);
+    }
 }
 
 TEST(BakeCodes, LevelsAreTheMeansToACodeAndRightOverSome) {
@@ -189,7 +254,8 @@ TEST(BakeCodes, WhatIsNoFunctionOfAByteIsBakedAsBefore) {
   EXPECT_FALSE(is_coded(inverted, TextureUse::reflectance));
   EXPECT_FALSE(is_coded(plain, TextureUse::number)) << "a mean of three";
   EXPECT_FALSE(is_coded(plain, TextureUse::vector));
-  EXPECT_FALSE(is_coded(plain, TextureUse::illuminant));
+  EXPECT_TRUE(is_coded(bright, TextureUse::illuminant));
+  EXPECT_FALSE(is_coded(plain, TextureUse::illuminant, RgbMethod::matrix_r));
   EXPECT_FALSE(is_coded(plain, TextureUse::reflectance, RgbMethod::matrix_r));
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bundle/reflectances/color_words.h"
 #include "tracer/textures/image_lanes.h"
 #include "tracer/textures/texel_value.h"
 #include "tracer/textures/tile_cache.h"
@@ -50,11 +51,15 @@ struct BakedImage::Implementation {
   }
 
   void read_one(int level, std::uint32_t x, std::uint32_t y, const TileCache::Words& words) const {
-    const std::uint32_t tile_x = x >> shift_x, tile_y = y >> shift_y;
-    const std::uint32_t first_x = tile_x << shift_x, first_y = tile_y << shift_y;
-    const std::uint32_t row = std::min(1u << shift_x, levels[level].width - first_x);
-    const std::array<std::uint32_t, 1> index{(y - first_y) * row + x - first_x};
-    read_tile(level, tile_x, tile_y, index, words);
+    const PlaceInTile at = place_in_tile(level, x, y);
+    read_tile(level, at.tile_x, at.tile_y, at.index, words);
+  }
+  // Perhaps of a colour whose spectrum is still to be found.
+  TexelWords one_as_kept(int x, int y, int level) const {
+    const PlaceInTile at = place_in_tile(level, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+    TexelWords words{};
+    cache->read_as_kept(tile_at(level, at.tile_x, at.tile_y), at.index, {words.data()});
+    return words;
   }
   TexelWords one(int x, int y, int level) const {
     TexelWords words;
@@ -65,10 +70,22 @@ struct BakedImage::Implementation {
   template <std::size_t N>
   void read_tile(int level, std::uint32_t tile_x, std::uint32_t tile_y,
                  const std::array<std::uint32_t, N>& index, const TileCache::Words& words) const {
+    cache->read(tile_at(level, tile_x, tile_y), index, words);
+  }
+  TileCache::Tile tile_at(int level, std::uint32_t tile_x, std::uint32_t tile_y) const {
     const TextureLevel& of = levels[level];
     const std::uint64_t tile = of.first_tile + static_cast<std::uint64_t>(tile_y) * of.tiles_x + tile_x;
-    cache->read({file, entries[tile], format, static_cast<std::uint32_t>(level), tile_x, tile_y}, index,
-                words);
+    return {file, entries[tile], format, static_cast<std::uint32_t>(level), tile_x, tile_y};
+  }
+  struct PlaceInTile {
+    std::uint32_t tile_x, tile_y;
+    std::array<std::uint32_t, 1> index;
+  };
+  PlaceInTile place_in_tile(int level, std::uint32_t x, std::uint32_t y) const {
+    const std::uint32_t tile_x = x >> shift_x, tile_y = y >> shift_y;
+    const std::uint32_t first_x = tile_x << shift_x, first_y = tile_y << shift_y;
+    const std::uint32_t row = std::min(1u << shift_x, levels[level].width - first_x);
+    return {tile_x, tile_y, {(y - first_y) * row + x - first_x}};
   }
 
   // The texels around (s,t), and their weights.
@@ -255,6 +272,12 @@ double BakedImage::number(int x, int y, int level) const {
 double BakedImage::luminance(int x, int y, int level) const {
   static const LuminanceRule<lanes::NodeWeights<float>> sigmoids;
   static const LuminanceRule<MatrixRWeights> matrix_r;
+  const TextureFile& of = file();
+  const TexelWords kept = implementation_->one_as_kept(x, y, level);
+  if (const auto color = coded_color(of.info().format, kept, of.values()))
+    return srgb_to_xyz({static_cast<double>((*color)[0]), static_cast<double>((*color)[1]),
+                        static_cast<double>((*color)[2])})
+        .y;
   const TexelWords words = implementation_->one(x, y, level);
   return by_matrix_r(format()) ? matrix_r(format(), words) : sigmoids(format(), words);
 }

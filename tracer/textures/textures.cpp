@@ -291,7 +291,7 @@ struct Textures::Implementation {
       if (!image || files.contains(image->filename)) continue;
       const auto opened = files.emplace(image->filename, TextureFile(bundle / image->filename)).first;
       table_bytes += opened->second.layout().tiles * BakedImage::table_bytes_per_tile;
-      if (is_coded(opened->second.info().format)) taken = conversion_bytes;
+      if (finds_spectra(opened->second.info().format)) taken = conversion_bytes;
     }
     table_bytes += taken;
     cache = std::make_shared<TileCache>(budget_bytes > table_bytes ? budget_bytes - table_bytes : 0);

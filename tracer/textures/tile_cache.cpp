@@ -74,15 +74,18 @@ void TileCache::store(Entry& entry, std::span<const std::uint32_t> words) {
   entry.store(index << 32 | sequence, std::memory_order_release);
 }
 
-// vector_16 has two words too, the second of them below 2¹⁶. A reader loads the second word first: where it
-// is of a spectrum, so is the first one, which was stored before it. Threads that convert the same code store
-// the same.
+// A reader loads the last word first: where it is of a spectrum, so are those before it, which were stored
+// before it. Threads that convert the same code store the same.
 void TileCache::convert(const Tile& tile, std::span<const std::uint32_t> texels, const Words& out) {
+  const TexelFormat of_file = tile.file.info().format;
+  const std::size_t count = words_per_texel(tile.format);
   std::array<bool, 4> converted{};
   for (std::size_t i = 0; i < texels.size(); ++i) {
-    if (!is_color_code(out(i, 1))) continue;
-    const TexelWords words = color_words(out(i, 1), tile.file.values(), fitter_);
-    out(i, 0) = words[0], out(i, 1) = words[1];
+    if (!is_color_code(out(i, count - 1))) continue;
+    TexelWords words{};
+    for (std::size_t w = 0; w < count; ++w) words[w] = out(i, w);
+    words = found_words(of_file, words, tile.file.values(), fitter_);
+    for (std::size_t w = 0; w < count; ++w) out(i, w) = words[w];
     converted.at(i) = true;
   }
   const std::unique_lock lock(mutex_, std::try_to_lock);
@@ -91,7 +94,8 @@ void TileCache::convert(const Tile& tile, std::span<const std::uint32_t> texels,
   std::atomic<std::uint32_t>* const to = words_ + (entry >> 32) * max_tile_words;
   for (std::size_t i = 0; i < texels.size(); ++i) {
     if (!converted[i]) continue;
-    for (const std::size_t w : {0u, 1u}) to[2 * texels[i] + w].store(out(i, w), std::memory_order_release);
+    for (std::size_t w = 0; w < count; ++w)
+      to[count * texels[i] + w].store(out(i, w), std::memory_order_release);
   }
 }
 

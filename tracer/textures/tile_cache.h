@@ -49,12 +49,18 @@ class TileCache {
   // still to be found are replaced by them, there too. Throws Error for a damaged tile.
   template <std::size_t N>
   void read(const Tile& tile, const std::array<std::uint32_t, N>& texels, const Words& out) {
-    if (!read_resident(tile, texels, out)) read_and_store(tile, texels, out);
-    if (words_per_texel(tile.format) != 2) return;
+    read_as_kept(tile, texels, out);
+    const std::uint32_t last = words_per_texel(tile.format) - 1;
+    if (last == 0) return;
     std::uint32_t either = 0;
-    for (std::size_t i = 0; i < N; ++i) either |= out(i, 1);
-    if (is_color_code(either) && tile.file.info().format == TexelFormat::color_code)
-      convert(tile, texels, out);
+    for (std::size_t i = 0; i < N; ++i) either |= out(i, last);
+    if (is_color_code(either) && finds_spectra(tile.file.info().format)) convert(tile, texels, out);
+  }
+
+  // The same, but colours whose spectra are still to be found stay as they are (coded_color).
+  template <std::size_t N>
+  void read_as_kept(const Tile& tile, const std::array<std::uint32_t, N>& texels, const Words& out) {
+    if (!read_resident(tile, texels, out)) read_and_store(tile, texels, out);
   }
 
   std::uint64_t tile_loads() const { return loads_.load(std::memory_order_relaxed); }
