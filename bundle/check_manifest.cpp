@@ -242,6 +242,9 @@ void check_lights(const Checker& c, const Manifest& m) {
   for (const Light& light : m.lights)
     if (const auto* sky = std::get_if<SkyLight>(&light.model))
       c.require(std::abs(length(sky->to_sun) - 1) < 1e-6 && sky->sun_diameter_deg > 0, "a sky has no sun");
+  for (const Light& light : m.lights)
+    if (const auto* sky = std::get_if<SkyLight>(&light.model); sky && *sky->distribution)
+      c.require((*sky->distribution)->diffuse_lx >= 0, "a sky has a negative illuminance");
 }
 
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 47;

@@ -14,11 +14,11 @@ namespace {
 
 // By bit.
 constexpr std::array required{
-    "normals",  "uvs",           "attributes",  "instances", "textures", "quadrics",        "procedural",
-    "motion",   "tables",        "slabs",       "hair",      "curves",   "faces",           "masking",
-    "decimals", "media_grids",   "fadings",     "glows",     "patterns", "hidden_emitters", "finishes",
-    "veils",    "working_gamma", "shadowless",  "formulas",  "globes",   "glazes",          "packs",
-    "clips",    "codes",         "temperatures"};
+    "normals",  "uvs",           "attributes",   "instances", "textures", "quadrics",        "procedural",
+    "motion",   "tables",        "slabs",        "hair",      "curves",   "faces",           "masking",
+    "decimals", "media_grids",   "fadings",      "glows",     "patterns", "hidden_emitters", "finishes",
+    "veils",    "working_gamma", "shadowless",   "formulas",  "globes",   "glazes",          "packs",
+    "clips",    "codes",         "temperatures", "skies"};
 constexpr std::array optional{"pieces"};
 
 std::vector<std::string> names(std::uint32_t bits, std::span<const char* const> known) {

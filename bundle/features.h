@@ -26,7 +26,7 @@ inline constexpr std::uint32_t normals = 1, uvs = 2, attributes = 4, instances =
                                hidden_emitters = 1 << 19, finishes = 1 << 20, veils = 1 << 21,
                                working_gamma = 1 << 22, shadowless = 1 << 23, formulas = 1 << 24,
                                globes = 1 << 25, glazes = 1 << 26, packs = 1 << 27, clips = 1 << 28,
-                               codes = 1 << 29, temperatures = 1 << 30;
+                               codes = 1 << 29, temperatures = 1 << 30, skies = 1u << 31;
 }
 namespace optional_feature {
 inline constexpr std::uint32_t pieces = 1;

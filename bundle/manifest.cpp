@@ -209,6 +209,12 @@ Features features_of(const Manifest& m) {
   require(std::ranges::any_of(m.media, &Medium::veils), required_feature::veils);
   require(std::ranges::any_of(m.media, [](const Medium& medium) { return medium.temperature.has_value(); }),
           required_feature::temperatures);
+  require(std::ranges::any_of(m.lights,
+                              [](const Light& light) {
+                                const auto* sky = std::get_if<SkyLight>(&light.model);
+                                return sky && sky->distribution->has_value();
+                              }),
+          required_feature::skies);
   require(has_shadowless_materials(m) || !std::ranges::all_of(m.lights, &Light::casts_shadows),
           required_feature::shadowless);
   require(m.film.working_gamma != 1, required_feature::working_gamma);

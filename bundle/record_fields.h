@@ -175,9 +175,9 @@ void fields(auto& io, Unresolved auto&) {
 
 // Those of which bundles have other fields.
 template <class T>
-concept Reduced =
-    IsOneOf<T, ImageTexture, PtexTexture, PatternTexture, Roughness, SubsurfaceMaterial, MeasuredMaterial,
-            TabulatedMaterial, AreaLight, PointLight, SpotLight, GoniometricLight, EnvironmentLight>;
+concept Reduced = IsOneOf<T, ImageTexture, PtexTexture, PatternTexture, Roughness, SubsurfaceMaterial,
+                          MeasuredMaterial, TabulatedMaterial, AreaLight, PointLight, SpotLight,
+                          GoniometricLight, EnvironmentLight, SkyLight>;
 template <HasFields T>
 requires(!Reduced<T>) void fields(auto& io, T& record) {
   visit_fields(record, [&](auto&... field) { (fields(io, field), ...); });
@@ -321,6 +321,18 @@ void fields(auto& io, Is<GoniometricLight> auto& l) {
 void fields(auto& io, Is<EnvironmentLight> auto& l) {
   fields(io, l.filename), fields(io, *l.light_to_world), fields(io, l.projection), fields(io, *l.scale);
   fields(io, l.illuminance), fields(io, *l.portal);
+}
+// The lowest bit of a byte, and the next one, which only those of the feature `skies` have.
+void fields(auto& io, Is<SkyLight> auto& l) {
+  fields(io, *l.light_to_world), fields(io, l.to_sun), fields(io, l.turbidity), fields(io, *l.albedo);
+  fields(io, l.sky_scale), fields(io, l.sun_scale), fields(io, l.sun_diameter_deg);
+  auto byte = static_cast<std::uint8_t>(l.limb_darkening | l.distribution->has_value() << 1);
+  io(byte);
+  if constexpr (reads<decltype(io)>) {
+    l.limb_darkening = byte & 1;
+    if (byte & 2) l.distribution->emplace();
+  }
+  if (*l.distribution) fields(io, **l.distribution);
 }
 // The kind, in its highest bit whether something follows its fields, in the next one whether it casts no
 // shadows (the feature `shadowless`).

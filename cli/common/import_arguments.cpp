@@ -50,10 +50,13 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
                  "out meshes. OBJ, PLY, FBX, COLLADA and 3DS go on with grey images in any case")
       ->check(CLI::IsMember({"refuse", "replace"}))
       ->capture_default_str();
-  app.add_option("--sky", a.sky,
-                 "replace all light from infinitely far by the clear sky and sun: "
-                 "LATITUDE,LONGITUDE,TIME[,turbidity=3,albedo=0.2,up=y,north=-z,sun=1,sky=1], TIME as "
-                 "2026-06-21T12:00+02:00; default of up: the camera's");
+  app.add_option(
+      "--sky", a.sky,
+      "replace all light from infinitely far by sky and sun: "
+      "LATITUDE,LONGITUDE,TIME[,turbidity=3,albedo=0.2,up=y,north=-z,sun=1,sky=1], TIME as "
+      "2026-06-21T12:00+02:00; default of up: the camera's. The sky is clear, or with cie=1 … 15 one "
+      "of the CIE's, or with diffuse=210W,direct=640W (or lx) Perez's; paris.epw@06-21T12:00 is an "
+      "hour of a weather file (.epw, .wea)");
   app.add_option("--include-limit", a.include_limit,
                  "most text, in all, of files that a scene includes more than once (default: 1G)");
   app.add_option("--include", a.include_folders,

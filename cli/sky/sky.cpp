@@ -49,6 +49,11 @@ Json measured(const Bands& bands) {
   return j;
 }
 
+// Without what the ground sends back.
+Bands on_wall(const SkyModel& model, Vector3d normal) {
+  return sum(model.sun_irradiance(normal), model.sky_irradiance(normal));
+}
+
 void print(const char* name, const Json& j) {
   show("{:26} {:10.0f} lx {:10.0f} lx melanopic EDI {:8.1f} W/m² (360 to 830 nm)", name,
        j["illuminance_lx"].get<double>(), j["melanopic_edi_lx"].get<double>(),
@@ -68,10 +73,16 @@ int run(const Arguments& a) {
   const SkyModel model(sky.light);
   const Bands beam = model.sun_irradiance(model.to_sun()), direct = model.sun_irradiance({0, 0, 1}),
               diffuse = model.sky_irradiance();
-  const Json report{
-      {"elevation_deg", sky.sun.elevation_deg},  {"azimuth_deg", sky.sun.azimuth_deg},
-      {"direct_normal", measured(beam)},         {"direct_horizontal", measured(direct)},
-      {"diffuse_horizontal", measured(diffuse)}, {"global_horizontal", measured(sum(direct, diffuse))}};
+  const Json report{{"elevation_deg", sky.sun.elevation_deg},
+                    {"azimuth_deg", sky.sun.azimuth_deg},
+                    {"direct_normal", measured(beam)},
+                    {"direct_horizontal", measured(direct)},
+                    {"diffuse_horizontal", measured(diffuse)},
+                    {"global_horizontal", measured(sum(direct, diffuse))},
+                    {"global_north", measured(on_wall(model, {0, 1, 0}))},
+                    {"global_east", measured(on_wall(model, {1, 0, 0}))},
+                    {"global_south", measured(on_wall(model, {0, -1, 0}))},
+                    {"global_west", measured(on_wall(model, {-1, 0, 0}))}};
   if (a.json) {
     show("{}\n", report.dump(2));
   } else {
@@ -82,6 +93,8 @@ int run(const Arguments& a) {
     print("sun, on the ground", report["direct_horizontal"]);
     print("sky, on the ground", report["diffuse_horizontal"]);
     print("both", report["global_horizontal"]);
+    for (const char* wall : {"north", "east", "south", "west"})
+      print(fmt::format("both, on a wall to the {}", wall).c_str(), report[fmt::format("global_{}", wall)]);
   }
   if (!a.output.empty())
     write_exr_image(a.output,
@@ -94,12 +107,13 @@ int run(const Arguments& a) {
 
 int main(int argc, char** argv) {
   using namespace vitrail;
-  CLI::App app("The sun's position, and the light of the sun and the clear sky, by place and time.",
-               "vitrail sky");
+  CLI::App app("The sun's position, and the light of the sun and the sky, by place and time.", "vitrail sky");
   Arguments a;
-  app.add_option("SKY", a.sky,
-                 "LATITUDE,LONGITUDE,TIME[,turbidity=3,albedo=0.2,sun=1,sky=1], degrees as 33.9S, TIME as "
-                 "2026-06-21T12:00+02:00")
+  app.add_option(
+         "SKY", a.sky,
+         "LATITUDE,LONGITUDE,TIME[,turbidity=3,albedo=0.2,cie=1,direct=640W,diffuse=210W,sun=1,sky=1], "
+         "degrees as 33.9S, TIME as 2026-06-21T12:00+02:00; or an hour of a weather file: "
+         "paris.epw@06-21T12:00")
       ->required();
   app.add_option("-o,--output", a.output,
                  "write the sky without the sun as .exr in linear sRGB, by latitude and longitude: the "

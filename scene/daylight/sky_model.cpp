@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/daylight/photometry.h"
 #include "scene/daylight/sky_tables.h"
 #include "scene/geometry/pi.h"
 #include "scene/geometry/portable_math.h"
@@ -79,6 +80,17 @@ SkyModel::SkyModel(const SkyLight& light)
   const double half = portable_sin(model_sun_radius_rad / 2) / portable_sin(radius / 2);
   sun_scale_ = static_cast<double>(light.sun_scale) * half * half;  // 1 − cos x = 2 sin²(x/2)
 
+  const std::optional<SkyDistribution>& given = *light.distribution;
+  given ? set_given(*given) : set_clear(light);
+  if (has_sky()) make_curves();
+  if (given && has_sky()) {  // what was relative till now
+    const double lx = photometric(to_xyz(spectrum_of_bands(sky_irradiance())).y);
+    for (double& radiance : radiance_) radiance *= lx > 0 ? sky_scale_ * given->diffuse_lx / lx : 0;
+  }
+  set_sun(light);
+}
+
+void SkyModel::set_clear(const SkyLight& light) {
   const double elevation = pi / 2 - portable_acos(to_sun_.z);
   const Between turbidity(static_cast<double>(light.turbidity) - 1, sky_tables::turbidities - 1);
   const auto weights = bezier(portable_pow(std::max(0.0, elevation) / (pi / 2), 1.0 / 3));
@@ -105,13 +117,26 @@ SkyModel::SkyModel(const SkyLight& light)
                    });
     horizon_[b] = static_cast<float>(bands_[b].shape[7]);
   }
-  if (has_sky()) {
-    gradient_ = BandCurves(gradient_segments,
-                           [&](double root, std::size_t b) { return bands_[b].gradient(root * root); });
-    scattering_ = BandCurves(scattering_segments, [&](double place, std::size_t b) {
-      return bands_[b].scattering(cosine_of_place(place));
-    });
+}
+
+// The same equation without its glow and its horizon.
+void SkyModel::set_given(const SkyDistribution& sky) {
+  for (std::size_t b = 0; b < sky_bands; ++b) {
+    bands_[b] = {{sky.a, sky.b, sky.base, sky.c, sky.d, sky.e, 0, 0, 0}, 0};
+    radiance_[b] = static_cast<double>(cie_d65()[static_cast<std::size_t>(band_nm(b) - lambda_min_nm)]);
   }
+}
+
+void SkyModel::make_curves() {
+  gradient_ = BandCurves(gradient_segments,
+                         [&](double root, std::size_t b) { return bands_[b].gradient(root * root); });
+  scattering_ = BandCurves(scattering_segments, [&](double place, std::size_t b) {
+    return bands_[b].scattering(cosine_of_place(place));
+  });
+}
+
+void SkyModel::set_sun(const SkyLight& light) {
+  const Between turbidity(static_cast<double>(light.turbidity) - 1, sky_tables::turbidities - 1);
   for (std::size_t s = 0; s < sky_tables::sun_segments; ++s)
     for (std::size_t b = 0; b < sky_bands; ++b)
       for (std::size_t k = 0; k < sky_tables::sun_powers; ++k)
@@ -131,9 +156,10 @@ SkyModel::SkyModel(const SkyLight& light)
   }
 }
 
-// Equation 8 of 2012, with √cos θ as the authors' program has it.
+// Equation 8 of 2012, with √cos θ as the authors' program has it. Given skies end at cos θ = 0.01, as
+// Radiance's do: below it Perez's exponential may rise without bound.
 double SkyModel::Band::gradient(double cosine) const {
-  return 1 + shape[0] * portable_exp(shape[1] / (cosine + 0.01));
+  return 1 + shape[0] * portable_exp(shape[1] / std::max(cosine + above_horizon, 0.01));
 }
 
 double SkyModel::Band::scattering(double cos_gamma) const {
@@ -274,7 +300,7 @@ std::array<double, sky_bands> SkyModel::sun_irradiance(Vector3d normal) const {
   return sum;
 }
 
-std::array<double, sky_bands> SkyModel::sky_irradiance() const {
+std::array<double, sky_bands> SkyModel::sky_irradiance(Vector3d normal) const {
   std::array<double, sky_bands> sum{};
   if (!has_sky()) return sum;
   constexpr int rows = 128, columns = 256;  // uniform in θ, where the model bends at the horizon
@@ -283,8 +309,9 @@ std::array<double, sky_bands> SkyModel::sky_irradiance() const {
     const double theta = (row + 0.5) * step, cosine = portable_cos(theta), sine = portable_sin(theta);
     for (int column = 0; column < columns; ++column) {
       const double phi = 2 * pi * (column + 0.5) / columns;
-      add(sum, sky({sine * portable_cos(phi), sine * portable_sin(phi), cosine}),
-          cosine * sine * step * (2 * pi / columns));
+      const Vector3d d{sine * portable_cos(phi), sine * portable_sin(phi), cosine};
+      const double facing = dot(d, normal);
+      if (facing > 0) add(sum, sky(d), facing * sine * step * (2 * pi / columns));
     }
   }
   return sum;

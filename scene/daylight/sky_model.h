@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The clear sky of Hošek and Wilkie ("An analytic model for full spectral sky-dome radiance", 2012) and their
 // sun ("Adding a solar-radiance function to the Hošek-Wilkie skylight model", 2013): ten bands from 360 to
-// 720 nm, linear in between, held beyond; linear in turbidity and albedo, as Mitsuba 3 has them. All numbers
-// have the same bits on every machine.
+// 720 nm, linear in between, held beyond; linear in turbidity and albedo, as Mitsuba 3 has them. A sky with a
+// distribution of its own (sky_distribution.h) is D65 in these bands, under the same sun. All numbers have
+// the same bits on every machine.
 #pragma once
 
 #include <array>
@@ -43,8 +44,9 @@ class SkyModel {
   // ∫ L cos θ dω over what of the sun's disc is above the horizon and before a plane with this unit normal,
   // W·m⁻²·nm⁻¹. Along to_sun(): what parallel light in its place has.
   std::array<double, sky_bands> sun_irradiance(Vector3d normal) const;
-  // ∫ L cos θ dω over the sky: of a plane that faces up, within 10⁻⁴.
-  std::array<double, sky_bands> sky_irradiance() const;
+  // ∫ L cos θ dω over what of the sky is before a plane with this unit normal: of one that faces up within
+  // 10⁻⁴.
+  std::array<double, sky_bands> sky_irradiance(Vector3d normal = {0, 0, 1}) const;
 
   // What the sky alone is computed from, as BandCurves and sky() have it: for several directions at a time.
   struct Curves {
@@ -57,6 +59,7 @@ class SkyModel {
  private:
   struct Band {
     std::array<double, 9> shape{};  // A … I of the paper's equation 8
+    double above_horizon = 0.01;    // added to cos θ there
     double gradient(double cosine) const;
     double scattering(double cos_gamma) const;  // without what depends on θ
   };
@@ -65,6 +68,10 @@ class SkyModel {
     double above_rad;  // the segment's beginning
     double cos_psi;    // between the line of sight and the sun's normal
   };
+  void set_clear(const SkyLight& light);  // the bands
+  void set_given(const SkyDistribution& sky);
+  void set_sun(const SkyLight& light);
+  void make_curves();
   BandValues relative_sky(Vector3d d) const;  // of each band's `radiance`
   SunDirection sun_direction(Vector3d d) const;
   double sun(const SunDirection& at, std::size_t band) const;

@@ -156,9 +156,12 @@ auto visit_fields(Is<EnvironmentLight> auto& l, auto&& f) {
   return f(l.filename, *l.light_to_world, l.projection, *l.scale, l.illuminance, *l.portal, l.encoding,
            l.primaries);
 }
+auto visit_fields(Is<SkyDistribution> auto& s, auto&& f) {
+  return f(s.a, s.b, s.base, s.c, s.d, s.e, s.diffuse_lx);
+}
 auto visit_fields(Is<SkyLight> auto& l, auto&& f) {
   return f(*l.light_to_world, l.to_sun, l.turbidity, *l.albedo, l.sky_scale, l.sun_scale, l.sun_diameter_deg,
-           l.limb_darkening);
+           l.limb_darkening, *l.distribution);
 }
 
 // A record whose fields are listed here.

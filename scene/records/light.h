@@ -114,7 +114,16 @@ struct EnvironmentLight {
   bool operator==(const EnvironmentLight&) const = default;
 };
 
-// The clear sky and the sun's disc, by the model of scene/daylight/sky_model.h. In the light's frame +z is
+// How bright a sky is in one direction beside another, by the angles θ from the zenith and γ from the sun:
+// (1 + a·e^(b/cos θ)) · (base + c·e^(d·γ) + e·cos²γ). In ISO 15469 base is 1 − c·e^(d·π/2), for Perez 1. Its
+// spectrum is D65.
+struct SkyDistribution {
+  double a = 0, b = -1, base = 1, c = 0, d = -1, e = 0;
+  double diffuse_lx = 0;  // on a horizontal plane, where the light's sky_scale is 1
+  bool operator==(const SkyDistribution&) const = default;
+};
+
+// The sky and the sun's disc, by the model of scene/daylight/sky_model.h. In the light's frame +z is
 // the zenith; nothing shines from below the horizon, or with the sun there.
 struct SkyLight {
   Boxed<Transform> light_to_world;
@@ -124,6 +133,7 @@ struct SkyLight {
   float sky_scale = 1, sun_scale = 1;                         // 0: without it
   float sun_diameter_deg = 0.5358f;                           // another one spreads the same irradiance
   bool limb_darkening = true;                                 // else the disc is uniform
+  Boxed<std::optional<SkyDistribution>> distribution;  // of the sky, in place of a clear one's; the sun stays
   bool operator==(const SkyLight&) const = default;
 };
 

@@ -4,7 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "scene/daylight/photometry.h"
+#include "scene/daylight/sky_model.h"
 #include "scene/spectra/rgb_to_spectrum.h"
+#include "tests/support/temporary_directory.h"
 
 namespace vitrail::given_sky_test {
 namespace {
@@ -46,6 +51,48 @@ TEST(GivenSky, TakesNothingTwice) {
   EXPECT_FLOAT_EQ(parse_sky(place + "4,albedo=0.3").light.turbidity, 4);
   for (const char* twice : {"turbidity=3,turbidity=4", "3,turbidity=4", "3,4"})
     EXPECT_THROW(parse_sky(place + twice), UsageError) << twice;
+}
+
+double lux(const std::array<double, sky_bands>& bands) {
+  return photometric(to_xyz(spectrum_of_bands(bands)).y);
+}
+
+TEST(GivenSky, IsAsBrightAsItWasMeasured) {
+  const std::string place = "48.86,2.35,2026-03-20T12:00+01:00,";
+  for (const char* type : {"", "cie=1,", "cie=clear,"}) {
+    const GivenSky sky = parse_sky(place + type + "direct=41200lx,diffuse=24300lx");
+    const SkyModel model(sky.light);
+    EXPECT_NEAR(lux(model.sun_irradiance(model.to_sun())), 41200, 5) << type;
+    EXPECT_NEAR(lux(model.sky_irradiance()), 24300, 5) << type;
+    EXPECT_FALSE(sky.is_clear);
+  }
+  const SkyModel half(parse_sky(place + "direct=41200lx,diffuse=24300lx,sun=0.5,sky=2").light);
+  EXPECT_NEAR(lux(half.sun_irradiance(half.to_sun())), 20600, 5);
+  EXPECT_NEAR(lux(half.sky_irradiance()), 48600, 10);
+  const SkyModel overcast(parse_sky(place + "cie=overcast").light);
+  EXPECT_FALSE(overcast.has_sun());
+  EXPECT_TRUE(parse_sky(place + "turbidity=4").is_clear);
+}
+
+TEST(GivenSky, TakesAnHourOfAWeatherFile) {
+  const test::TemporaryDirectory directory;
+  std::ofstream(directory / "a.b.epw")
+      << "LOCATION,Paris,-,FRA,made up,0,48.86,2.35,1.0,35\nDATA PERIODS,1,1,Data,Sunday,1/1,12/31\n"
+         "2019,6,21,12,60,?,20,10,50,99000,0,1400,300,500,640,110\n";
+  const std::string file = (directory / "a.b.epw").string();
+  const GivenSky hour = parse_sky(file + "@06-21T11:00,up=z"),
+                 words = parse_sky("48.86,2.35,2019-06-21T11:30+01:00,direct=640W,diffuse=110W");
+  EXPECT_EQ(hour.light, words.light);
+  EXPECT_EQ(hour.up, "z");
+  EXPECT_THROW(parse_sky(file + "@06-21T12:00"), Error);
+  EXPECT_THROW(parse_sky(file + "@13-21T12:00"), UsageError);
+}
+
+TEST(GivenSky, RefusesWhatItCannotMean) {
+  const std::string place = "48.86,2.35,2026-03-20T12:00+01:00,";
+  for (const char* words : {"cie=0", "cie=16", "cie=1.5", "cie=cloudy", "direct=640", "direct=640W",
+                            "diffuse=-1W", "direct=640W,diffuse=100lx", "diffuse=nanW", "diffuse=1e9lx"})
+    EXPECT_THROW(parse_sky(place + words), UsageError) << words;
 }
 
 TEST(GivenSky, StandsAsTheCameraDoesUnlessToldOtherwise) {

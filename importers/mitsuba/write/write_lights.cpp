@@ -9,6 +9,7 @@
 #include "images/image_files.h"
 #include "importers/images/environment_images.h"
 #include "importers/images/joined_surroundings.h"
+#include "importers/images/sky_image.h"
 #include "importers/mitsuba/write/lamp_images.h"
 #include "importers/mitsuba/write/rgb_variants.h"
 #include "importers/mitsuba/write/write_images.h"
@@ -162,7 +163,15 @@ void write(Context& context, Element root, const EnvironmentLight& light) {
   }
 }
 
-void write(Context&, Element root, const SkyLight& light) {
+void write(Context& context, Element root, const SkyLight& light) {
+  if (*light.distribution) {
+    context.approximated(
+        "Mitsuba's sky is clear: this one is an image in linear sRGB, and its sun parallel light");
+    for (const LightModel& part :
+         sky_as_image(light, EnvironmentLight::Projection::latitude_longitude, context.images.new_file()))
+      std::visit([&](const auto& model) { write(context, root, model); }, part);
+    return;
+  }
   Element element = add(root, "emitter", "sunsky");
   add_transform(element, light.light_to_world);
   add_coordinates(element, "vector", "sun_direction",

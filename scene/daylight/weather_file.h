@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hours of measured sun and sky.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/daylight/sun_position.h"
+
+namespace vitrail {
+
+// The sun and the sky of an hour, W/m².
+struct WeatherHour {
+  Place place;
+  LocalTime middle;                 // of the hour, by the file's clock
+  double direct_normal_w = 0;       // of the sun, across its direction
+  double diffuse_horizontal_w = 0;  // of the sky, on a horizontal plane
+};
+
+// Reads the hour that `moment` lies in, of an EnergyPlus weather file (.epw) or of Radiance's (.wea): its
+// month and day, and its time by the file's clock; the year is the file's. A moment at a full hour is of the
+// hour that begins then. Throws Error with the place: where a line is damaged, where there is no such hour,
+// and where its values are missing (9999).
+WeatherHour read_weather_hour(const std::filesystem::path& file, const LocalTime& moment);
+
+}  // namespace vitrail
