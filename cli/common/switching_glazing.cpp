@@ -48,7 +48,7 @@ GlazingSetting parse_setting(const std::string& text) {
   const auto* kind = std::ranges::find(kinds, quantity, &QuantityKind::name);
   if (kind == std::end(kinds))
     refuse(
-        "these can be set: scale, sun or turbidity of lights; color or roughness of materials; state, "
+        "these can be set: scale, sun, turbidity or sky of lights; color or roughness of materials; state, "
         "temperature, uv or seconds of glass that switches");
   GlazingSetting setting{text.substr(0, dot), kind->quantity};
   const char* end = number.data() + number.size();

@@ -9,9 +9,11 @@
 #include <limits>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "bundle/checksum.h"
 #include "bundle/light_names.h"
+#include "scene/daylight/given_sky.h"
 #include "scene/records/material_traits.h"
 #include "scene/spectra/matrix_r.h"
 #include "scene/spectra/rgb_to_spectrum.h"
@@ -33,12 +35,19 @@ constexpr Property properties[] = {{"scale", 1, 0, infinite, "a scale is a numbe
                                    {"sun", 3, -infinite, infinite, "a direction has three numbers, x:y:z"},
                                    {"turbidity", 1, 1, 10, "a turbidity is in [1, 10]"},
                                    {"color", 3, 0, 1, "a colour has three numbers in [0, 1], r:g:b"},
-                                   {"roughness", 1, 0, 1, "a roughness is in [0, 1]"}};
+                                   {"roughness", 1, 0, 1, "a roughness is in [0, 1]"},
+                                   {"sky", 0, 0, 0, "a sky is told as of --sky"}};
 
-// "lamp.scale=2": where the dot and the equals sign are; npos: it has none.
+constexpr std::string_view sky_property = ".sky=";
+
+// "lamp.scale=2": where the dot and the equals sign are; npos: it has none. The words of a sky have such
+// signs themselves.
 struct Places {
   explicit Places(const std::string& text)
-      : equals(text.rfind('=')), dot(equals == text.npos ? text.npos : text.rfind('.', equals)) {}
+      : equals(text.rfind('=')), dot(equals == text.npos ? text.npos : text.rfind('.', equals)) {
+    if (const std::size_t sky = text.find(sky_property); sky != text.npos)
+      dot = sky, equals = sky + sky_property.size() - 1;
+  }
   std::size_t equals, dot;
 };
 
@@ -110,8 +119,12 @@ void edit_light(Light& light, const SceneEdit& edit) {
     const Vector3d to_sun = normalize(Vector3d{edit.values[0], edit.values[1], edit.values[2]});
     if (sky) sky->to_sun = normalize(transform_vector(inverse(sky->light_to_world), to_sun));
     if (distant) distant->direction = -to_sun;
+  } else if (edit.property == "sky" && sky) {
+    const Transform stands = sky->light_to_world;
+    *sky = *edit.sky;
+    sky->light_to_world = stands;
   } else {
-    refuse(edit.text, sky       ? "a sky has a scale, a sun and a turbidity"
+    refuse(edit.text, sky       ? "a sky has a scale, a sun, a turbidity, or another sky"
                       : distant ? "a distant light has a scale and a sun"
                                 : "a light has a scale");
   }
@@ -277,7 +290,14 @@ SceneEdit parse_scene_edit(const std::string& text) {
   const auto* const property = std::ranges::find(properties, property_in(text), &Property::name);
   if (property == std::end(properties) || at.dot == 0)
     refuse(text, "it has to be NAME.PROPERTY=VALUE, as in lamp.scale=2");
-  SceneEdit edit{text, text.substr(0, at.dot), property->name, {}};
+  SceneEdit edit{text, text.substr(0, at.dot), property->name, {}, {}};
+  if (edit.property == "sky") {
+    const GivenSky given = parse_sky(text.substr(at.equals + 1));
+    if (!given.up.empty() || !given.north.empty())
+      refuse(text, "the bundle knows which of its axes are up and north");
+    edit.sky = given.light;
+    return edit;
+  }
   std::istringstream list(text.substr(at.equals + 1));
   for (std::string part; std::getline(list, part, ':');) {
     double value = 0;

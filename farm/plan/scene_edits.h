@@ -3,6 +3,7 @@
 // bundle which is made of the scene edited in that way.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,13 +16,15 @@ namespace vitrail {
 // shines, else by kind and number (area-1):
 // - scale, at least 0: times its light;
 // - sun=x:y:z, towards the sun in the world, of a sky or a distant light;
-// - turbidity, 1 … 10, of a sky.
+// - turbidity, 1 … 10, of a sky;
+// - sky=WORDS, as of --sky (scene/daylight/given_sky.h) without up and north: another place, time or weather.
 // Of a material, by the name that the scene's file gives:
 // - color=r:g:b, linear sRGB in [0, 1]: its diffuse reflectance or base colour;
 // - roughness: the α of its microfacets, or of Disney's material its roughness.
 struct SceneEdit {
   std::string text, name, property;
-  std::vector<double> values;  // one or three
+  std::vector<double> values;   // one or three
+  std::optional<SkyLight> sky;  // of the property `sky`
 };
 
 // Whether the property of a text is one of these.

@@ -1,34 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sky that the user gives, by place and time.
+// A sky that the user gives (scene/daylight/given_sky.h) in a scene.
 #pragma once
 
 #include <string>
 
-#include "scene/daylight/sun_position.h"
+#include "scene/daylight/given_sky.h"
 #include "scene/records/scene.h"
 
 namespace vitrail {
-
-// "LATITUDE,LONGITUDE,TIME[,KEY=VALUE …]": degrees (north and east positive, or 33.9S and 70.7W) and a moment
-// (local_time). Keys are turbidity=3 (a bare number too), albedo=0.2 (of the ground), up and north. The last
-// two take an axis: +x, -y, z. sun=0 and sky=0 leave out the one or the other.
-//
-// cie=1 … 15 is a sky of the CIE; overcast (1), uniform (5), intermediate (7) and clear (12) are names of
-// some. diffuse=210W,direct=640W, or in lx, are irradiances or illuminances: of the sky on the ground, and of
-// the sun across its direction. Without cie the sky is Perez's for these two.
-//
-// "FILE@MM-DDTHH:MM[,KEY=VALUE …]" takes place, zone, direct and diffuse from an hour of a weather file (.epw
-// or .wea); the sun stands where it does in the middle of that hour.
-struct GivenSky {
-  Place place;
-  LocalTime time;
-  SunPosition sun;
-  std::string up, north;  // axes of the world; up "": the camera's, north "": −z where y is up, else +y
-  bool is_clear = true;   // by its turbidity, not by a distribution
-  SkyLight light;         // but for light_to_world
-};
-// Throws UsageError.
-GivenSky parse_sky(const std::string& words);
 
 // +x east, +y north, +z up, to the world with these axes. Throws UsageError where they are not across.
 Transform sky_to_world(const std::string& up, const std::string& north);

@@ -144,6 +144,26 @@ TEST_F(SetScene, SkyAndPlaceOfTheCamera) {
   expect_edit("--look-at 3,-2,1,0,0,.3,0,0,1", {.origin = "3, -2, 1"});
 }
 
+// Of a bundle under another sky.
+TEST_F(SetScene, AnotherSkyIsThatOfABundleMadeUnderIt) {
+  const std::string plain = bundle("plain.xml", mitsuba_scene({})), before = hash(plain);
+  for (const char* words :
+       {"48.86,2.35,2026-06-21T12:00+02:00,turbidity=5", "48.86,2.35,2026-06-21T12:00+02:00,cie=3",
+        "48.86,2.35,2026-06-21T12:00+02:00,direct=300W,diffuse=250W,sun=0.5"}) {
+    const CommandResult made =
+        run(fmt::format("{} {} -o {} --force --quiet --sky {},up=z,north=y", vitrail("partition"),
+                        path("plain.xml"), path("other.vit"), words));
+    ASSERT_EQ(made.status, 0) << made.output;
+    const std::string set = hash(plain, fmt::format("--set sky-1.sky={}", words));
+    EXPECT_EQ(set, hash(path("other.vit"))) << words;
+    EXPECT_NE(set, before) << words;
+  }
+  expect_refused(plain, "--set sky-1.sky=48.86,2.35", "--sky takes LATITUDE");
+  expect_refused(plain, "--set sky-1.sky=48.86,2.35,2026-06-21T12:00Z,up=y", "knows which of its axes");
+  expect_refused(bundle("plain.pbrt", pbrt_scene({})), "--set point-2.sky=48.86,2.35,2026-06-21T12:00Z",
+                 "a light has a scale");
+}
+
 // The camera that a mesh without one gets looks down; moved, its horizon is level, as z or y is up.
 TEST_F(SetScene, ALevelCameraStaysLevel) {
   const std::string mesh = bundle("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 .2\nf 1 2 3\n");
