@@ -99,18 +99,20 @@ OutputLock::OutputLock(const std::filesystem::path& output) : file_(lock_of(outp
     const std::string who = holder(descriptor_);
     if (taken == Taken::not_known && holder_may_live(who)) {
       ::close(std::exchange(descriptor_, -1));
-      throw MachineError(
+      throw BeingWritten(
           fmt::format("{} belongs to another render ({}), which runs or was killed: this file system has no "
                       "locks; remove {} if that process is gone",
-                      output.string(), who, file_.string()));
+                      output.string(), who, file_.string()),
+          who, /*may_be_gone=*/true);
     }
     if (taken != Taken::by_another && is_still_named(descriptor_, file_)) break;
     ::close(std::exchange(descriptor_, -1));
     if (taken == Taken::by_another)
-      throw MachineError(
+      throw BeingWritten(
           fmt::format("{} is being written by another render ({}): wait for it, or give another "
                       "output",
-                      output.string(), who));
+                      output.string(), who),
+          who, /*may_be_gone=*/false);
   }
   const std::string who = this_process();
   if (::ftruncate(descriptor_, 0) != 0 || ::pwrite(descriptor_, who.data(), who.size(), 0) < 0) {

@@ -3,12 +3,25 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <utility>
+
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 
+// Another job writes that output.
+struct BeingWritten : MachineError {
+  BeingWritten(const std::string& message, std::string who, bool may_be_gone)
+      : MachineError(message), holder(std::move(who)), is_only_named(may_be_gone) {}
+  std::string holder;  // "process 12 on node7"
+  bool is_only_named;  // the file system has no locks, and the process may have been killed
+};
+
 // Held by the one job that may write a film: OUTPUT.lock beside it, which the system frees when the process
-// ends, however it ends. Throws MachineError where another job has it, and says which. Where the file system
-// has no locks, the process and host in that file are believed.
+// ends, however it ends. Throws BeingWritten where another job has it, and says which. Where the file system
+// has no locks, the process and host in that file are believed. Throws MachineError where there is no such
+// folder.
 class OutputLock {
  public:
   explicit OutputLock(const std::filesystem::path& output);

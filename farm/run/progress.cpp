@@ -25,12 +25,6 @@ ProgressManner manner_of(ProgressMode mode) {
                                        : ProgressManner::silent;
 }
 
-// Standard output, which nothing else of a render writes to. Lost where that is full or nobody reads it.
-void print_json(const Json& event) {
-  const std::string line = event.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-  [[maybe_unused]] const ssize_t lost = ::write(STDOUT_FILENO, line.data(), line.size());
-}
-
 // Where there are several ranks: whether some drown in rays while others wait for them.
 std::string waiting_text(const std::vector<RankReport>& ranks) {
   if (ranks.size() < 2) return {};
@@ -51,6 +45,12 @@ const char* word(Ending ending) {
 }
 
 }  // namespace
+
+// Standard output, which nothing else of a render writes to. Lost where that is full or nobody reads it.
+void print_event(const Json& event) {
+  const std::string line = event.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  [[maybe_unused]] const ssize_t lost = ::write(STDOUT_FILENO, line.data(), line.size());
+}
 
 Progress::Progress(const RenderOptions& options, int rank, const Film& film, double samples)
     : mode_(rank == 0 ? options.outputs.progress : ProgressMode::none),
@@ -87,16 +87,16 @@ void Progress::print(const Round& round, double elapsed_s) {
   const double left_s = remaining_s(done, elapsed_s);
   const double rate = elapsed_s > 0 ? static_cast<double>(sums.rays_traced) / elapsed_s : 0;
   if (mode_ == ProgressMode::json)
-    return print_json({{"event", "progress"},
-                       {"progress", done},
-                       {"samples_per_pixel", samples_ * done},
-                       {"elapsed_s", elapsed_s},
-                       {"remaining_s", left_s},
-                       {"rays", sums.rays_traced},
-                       {"rays_waiting", sums.born - sums.died},
-                       {"rays_waiting_by_rank", by_rank(round, &RankReport::waiting)},
-                       {"resident_domains_by_rank", by_rank(round, &RankReport::resident)},
-                       {"domain_loads", sums.domain_loads}});
+    return print_event({{"event", "progress"},
+                        {"progress", done},
+                        {"samples_per_pixel", samples_ * done},
+                        {"elapsed_s", elapsed_s},
+                        {"remaining_s", left_s},
+                        {"rays", sums.rays_traced},
+                        {"rays_waiting", sums.born - sums.died},
+                        {"rays_waiting_by_rank", by_rank(round, &RankReport::waiting)},
+                        {"resident_domains_by_rank", by_rank(round, &RankReport::resident)},
+                        {"domain_loads", sums.domain_loads}});
   ProgressNews news{done, "render", left_s, {}};
   news.details = {fmt::format("{:.0f} of {:.0f} samples a pixel", samples_ * done, samples_),
                   fmt::format("{:.2f} Mray/s", rate * 1e-6)};
@@ -174,7 +174,7 @@ void print_end(const RenderOptions& options, const RenderStats& s) {
     if (!o.picture.empty()) end["picture"] = o.picture.string();
     if (o.keeps_film) end["film"] = o.film.string();
     end["film_hash"] = fmt::format("{:016x}", s.film_hash);
-    return print_json(end);
+    return print_event(end);
   }
   if (!writes_film(s.ending)) return;
   const std::string name = (o.picture.empty() ? o.film : o.picture).string();

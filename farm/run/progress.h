@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <nlohmann/json_fwd.hpp>
 
 #include "bundle/manifest.h"
 #include "farm/plan/options.h"
@@ -40,6 +41,8 @@ class Progress {
 void print_start(const RenderOptions& options, const Manifest& manifest, const Goal& goal, int ranks,
                  int threads);
 void print_end(const RenderOptions& options, const RenderStats& stats);
+// A line of --progress json.
+void print_event(const nlohmann::ordered_json& event);
 // Says so where more than a hundredth of the sunlight in glass met faces that are not parallel, which only
 // photons pass.
 void print_wedges(const RenderOptions& options, const TraceCounters& traced);

@@ -46,7 +46,28 @@ void agree(Transport& transport, const std::function<void()>& step) {
   if (sums.bad_input + sums.machine_failure > 0) leave(failure, sums);
 }
 
+void agree_on_root(Transport& transport, const std::function<void()>& step) {
+  std::exception_ptr failure;
+  try {
+    if (transport.rank() == 0) beside(transport, step);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  agree(transport, [&] {
+    if (failure) std::rethrow_exception(failure);
+  });
+}
+
+namespace {
+
+std::uint64_t failures = 0;  // of the thread that has the transport
+
+}  // namespace
+
+std::uint64_t agreed_failures() { return failures; }
+
 void leave(std::exception_ptr own, const RoundSums& sums) {
+  ++failures;
   if (own) std::rethrow_exception(own);
   throw OtherRankFailed(sums.bad_input > 0);
 }
