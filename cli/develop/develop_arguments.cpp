@@ -7,10 +7,25 @@
 
 #include "cli/develop/chosen_layers.h"
 #include "denoise/denoiser.h"
+#include "images/image_files.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/say.h"
 
 namespace vitrail {
+
+namespace {
+
+std::string layout_in_words(const std::string& picture) {
+  try {
+    const ImageLayout layout = read_image_layout(picture);
+    read_stored_rows(picture, [](const StoredImage&) {});
+    return fmt::format("{} {} {}", layout.width, layout.height, layout.channels);
+  } catch (const Error& e) {
+    return e.what();
+  }
+}
+
+}  // namespace
 
 void declare(CLI::App& app, DevelopArguments& a) {
   app.add_option("FILM", a.films,
@@ -66,6 +81,13 @@ void declare(CLI::App& app, DevelopArguments& a) {
         throw CLI::Success();
       },
       "print which denoiser is found, and end");
+  // For render --frames: decodes all of a picture, and prints its width, height and channels, or why not.
+  app.add_option_function<std::string>("--layout-of",
+                                       [](const std::string& picture) {
+                                         show("{}\n", layout_in_words(picture));
+                                         throw CLI::Success();
+                                       })
+      ->group("");
   app.add_flag("--strict", a.strict, "refuse films that are not finished");
   app.add_flag("--quiet", a.quiet, "print problems only");
 }
