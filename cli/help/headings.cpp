@@ -20,10 +20,12 @@ const std::vector<Heading> of_render{
     {"What to render",
      "input=SCENE|BUNDLE width=PIXELS height=PIXELS scale=FACTOR crop=X0,X1,Y0,Y1 max-depth integrator "
      "hide-emitters "
-     "camera=FILE look-at=X,Y,Z,X,Y,Z fov=DEGREES frames=FILE sensors=FILE set=NAME.PROPERTY=VALUE"},
+     "camera=FILE look-at=X,Y,Z,X,Y,Z fov=DEGREES frames=FILE range=NUMBERS sensors=FILE "
+     "set=NAME.PROPERTY=VALUE"},
     {"How good", "quality spp target-error=ERROR adaptive seed clamp=RADIANCE denoise find-denoiser"},
     {"How long",
-     "time=SECONDS dry-run checkpoint-every=SECONDS resume force restarts=TIMES launcher=COMMAND"},
+     "time=SECONDS dry-run checkpoint-every=SECONDS resume force restarts=TIMES launcher=COMMAND "
+     "retries=TIMES"},
     {"On how many", "threads distribution homes=FILE patience=SECONDS"},
     {"In how much memory", "memory=SIZE"},
     {"What to write",

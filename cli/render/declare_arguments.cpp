@@ -192,6 +192,14 @@ void declare_outputs(CLI::App& app, RenderArguments& a) {
       "--set, --seed or --spp. "
       "--output has %04d for its number, from 1. A picture that is there stays; if it is not what its line "
       "asks for, the difference is named");
+  app.add_option(
+      "--range", a.range,
+      "of --frames: render these alone, by their numbers: 7, 1-30,47, or 1-100x2 for every second");
+  app.add_option(
+         "--retries", a.retries,
+         "of --frames: try frames that the machine failed again, at most this often, after the others")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
   app.add_option("--preview", a.preview,
                  "write the picture so far to this file, .png or another: soon, after twice the time and so "
                  "on, and when the render is stopped");
@@ -216,8 +224,10 @@ void declare_words(CLI::App& app, RenderArguments& a) {
   app.add_flag("--quiet", a.quiet, "print problems only");
 }
 
-// For tests: not in the help.
-void declare_tests(CLI::App& app, RenderOptions& o) {
+// For tests and for supervise_job: not in the help.
+void declare_hidden(CLI::App& app, RenderArguments& a) {
+  RenderOptions& o = a.options;
+  app.add_option("--held-lock", a.held_lock)->group("");
   app.add_option("--shuffle-delivery", o.resources.shuffle_seed)->group("");
   app.add_option("--domain-memory", o.resources.domain_memory_bytes)->group("");
 }
@@ -246,7 +256,7 @@ void declare(CLI::App& app, RenderArguments& a) {
                "bake all images and cut the scene: keep nothing, and use nothing that is kept, in "
                "$XDG_CACHE_HOME/vitrail or ~/.cache/vitrail");
   declare_words(app, a);
-  declare_tests(app, a.options);
+  declare_hidden(app, a);
 }
 
 }  // namespace vitrail

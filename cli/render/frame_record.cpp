@@ -3,8 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <fstream>
+#include <memory>
+#include <span>
+#include <thread>
+#include <vector>
 
+#include "bundle/checksum.h"
+#include "farm/files/output_lock.h"
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
 
@@ -33,18 +40,56 @@ WorkWords from_json(const Json& json) {
   return work;
 }
 
+std::optional<FileMark> mark_from_json(const Json& json) {
+  const auto found = json.find("file");
+  if (found == json.end()) return std::nullopt;
+  return FileMark{found->at("bytes").get<std::uint64_t>(),
+                  std::stoull(found->at("hash").get<std::string>(), nullptr, 16)};
+}
+
+// Others hold it for as long as it takes to write the file.
+std::unique_ptr<OutputLock> wait_for_lock(const std::filesystem::path& file) {
+  using namespace std::chrono_literals;
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  for (;;) {
+    try {
+      return std::make_unique<OutputLock>(file);
+    } catch (const BeingWritten&) {
+      if (std::chrono::steady_clock::now() > end) throw;
+      std::this_thread::sleep_for(20ms);
+    }
+  }
+}
+
 std::string key_of(const std::filesystem::path& picture) { return picture.filename().string(); }
 
 }  // namespace
 
-FrameRecord::FrameRecord(std::filesystem::path file) : file_(std::move(file)) {
+FileMark mark_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::vector<char> part(1 << 20);
+  FileMark mark;
+  Hasher hasher;
+  while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0) {
+    const auto bytes = static_cast<std::size_t>(in.gcount());
+    hasher.add(std::as_bytes(std::span(part.data(), bytes)));
+    mark.bytes += bytes;
+  }
+  if (!in.eof()) throw MachineError("cannot read " + file.string());
+  mark.hash = hasher.digest();
+  return mark;
+}
+
+FrameRecord::FrameRecord(std::filesystem::path file) : file_(std::move(file)) { read_again(); }
+
+void FrameRecord::read_again() {
   std::ifstream in(file_);
   if (!in) return;
   try {
     const Json json = Json::parse(in);
     if (json.at("format") != format) throw std::invalid_argument("another format");
     pictures_ = json.at("pictures");
-    for (const auto& [name, work] : pictures_.items()) from_json(work);
+    for (const auto& [name, work] : pictures_.items()) from_json(work), mark_from_json(work);
   } catch (const std::exception&) {
     throw Error("this is not a record of frames; remove it, or give another --output", {file_.string()});
   }
@@ -56,16 +101,31 @@ std::string FrameRecord::differences(const std::filesystem::path& picture, const
   return vitrail::differences(from_json(*found), asked);
 }
 
-void FrameRecord::put(const std::filesystem::path& picture, const WorkWords& work) {
+std::optional<FileMark> FrameRecord::mark(const std::filesystem::path& picture) const {
+  const auto found = pictures_.find(key_of(picture));
+  return found == pictures_.end() ? std::nullopt : mark_from_json(*found);
+}
+
+void FrameRecord::put(const std::filesystem::path& picture, const WorkWords& work, const FileMark& mark) {
   Json json = to_json(work);
-  Json& kept = pictures_[key_of(picture)];
-  if (kept == json) return;
-  kept = std::move(json);
-  write();
+  json["file"] = {{"bytes", mark.bytes}, {"hash", fmt::format("{:016x}", mark.hash)}};
+  change([&](Json& pictures) {
+    Json& kept = pictures[key_of(picture)];
+    const bool is_new = kept != json;
+    kept = std::move(json);
+    return is_new;
+  });
 }
 
 void FrameRecord::remove(const std::filesystem::path& picture) {
-  if (pictures_.erase(key_of(picture)) > 0) write();
+  change([&](Json& pictures) { return pictures.erase(key_of(picture)) > 0; });
+}
+
+void FrameRecord::change(const std::function<bool(Json& pictures)>& changed) {
+  const std::unique_ptr<OutputLock> alone = wait_for_lock(file_);
+  remove_temporaries(file_);
+  read_again();
+  if (changed(pictures_)) write();
 }
 
 void FrameRecord::write() const {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <sstream>
+#include <fstream>
 
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
@@ -22,9 +22,15 @@ bool may_have(const std::string& word) {
   return std::ranges::find(of_frames, word.substr(0, word.find('='))) != std::end(of_frames);
 }
 
-bool is_option(const std::string& word) {
-  return word.size() > 1 && word[0] == '-' &&
-         (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
+std::vector<Frame::Word> words_of(const std::string& line) {
+  constexpr const char* blanks = " \t\r\v\f";
+  const std::string text = line.substr(0, line.find('#'));
+  std::vector<Frame::Word> words;
+  for (std::size_t end = 0, begin; (begin = text.find_first_not_of(blanks, end)) != text.npos;) {
+    end = std::min(text.find_first_of(blanks, begin), text.size());
+    words.push_back({text.substr(begin, end - begin), static_cast<int>(begin) + 1});
+  }
+  return words;
 }
 
 // What stands around "%04d".
@@ -48,25 +54,30 @@ NumberedName parts_of(const std::filesystem::path& name) {
 
 }  // namespace
 
+bool is_option(const std::string& word) {
+  return word.size() > 1 && word[0] == '-' &&
+         (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
+}
+
 std::vector<Frame> read_frames(const std::filesystem::path& file) {
   note_input(file);
   std::ifstream in = open_regular(file);
   if (!in) throw Error("cannot read the frames", {file.string()});
   std::vector<Frame> frames;
-  std::size_t line = 0;
+  int line = 0;
   for (std::string text; std::getline(in, text);) {
-    Frame frame{++line, {}};
-    std::istringstream words(text.substr(0, text.find('#')));
-    for (std::string word; words >> word;) {
-      if (is_option(word) && !may_have(word))
-        throw Error(fmt::format("a frame has {}, but not {}", fmt::join(of_frames, ", "), word),
-                    {file.string(), static_cast<int>(line), static_cast<int>(text.find(word)) + 1}, text);
-      frame.words.push_back(word);
-    }
+    Frame frame{frames.size() + 1, ++line, words_of(text), text};
     if (!frame.words.empty()) frames.push_back(std::move(frame));
   }
   if (frames.empty()) throw Error("there is no frame: a line of options is one", {file.string()});
   return frames;
+}
+
+void require_options_of_frames(const Frame& frame, const std::filesystem::path& file) {
+  for (const Frame::Word& word : frame.words)
+    if (is_option(word.text) && !may_have(word.text))
+      throw Error(fmt::format("a frame has {}, but not {}", fmt::join(of_frames, ", "), word.text),
+                  {file.string(), frame.line, word.column}, frame.text);
 }
 
 std::filesystem::path numbered(const std::filesystem::path& name, std::size_t number) {

@@ -10,13 +10,25 @@ namespace vitrail {
 
 // A line of the file: options of render that change the picture.
 struct Frame {
-  std::size_t line = 0;  // in the file, from 1
-  std::vector<std::string> words;
+  struct Word {
+    std::string text;
+    int column = 0;  // in the line, from 1
+  };
+  std::size_t number = 0;  // in the list, from 1
+  int line = 0;            // in the file, from 1
+  std::vector<Word> words;
+  std::string text;  // the line
 };
 
 // Words with blanks between them; # and what follows is a comment, and a line without words is no frame.
-// Throws Error with the line where an option is not one that a frame may have.
+// Throws Error where there is no frame.
 std::vector<Frame> read_frames(const std::filesystem::path& file);
+
+// Whether a word begins an option: "--seed" and "-o", but not "-1".
+bool is_option(const std::string& word);
+
+// Throws Error with the line and column where an option is not one that a frame may have.
+void require_options_of_frames(const Frame& frame, const std::filesystem::path& file);
 
 // "%04d" in the name becomes the number. Throws UsageError where there is not one such place.
 std::filesystem::path numbered(const std::filesystem::path& name, std::size_t number);

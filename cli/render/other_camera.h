@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
+// Of another scene than the bundle's, the camera alone.
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "bundle/view.h"
-#include "farm/transport/transport.h"
 
 namespace vitrail {
 
-// The view of a scene file of any format, which vitrail-partition reads on rank 0 into `between`, a file that
-// is gone then. To be called by all ranks together. Throws Error, and what run_program throws.
-View view_of_scene(Transport& transport, const std::filesystem::path& scene,
-                   const std::filesystem::path& between);
+// The views of scenes as text, by their files: read once for all frames.
+using KnownViews = std::map<std::filesystem::path, std::string>;
+
+// What view_from_text takes. vitrail-partition reads the scene; what it writes lies beside `output` for a
+// moment. Throws what run_program does.
+std::string text_of_view(const std::filesystem::path& scene, const std::filesystem::path& output,
+                         KnownViews& known);
+
+View view_from_text(const std::string& text);
 
 }  // namespace vitrail

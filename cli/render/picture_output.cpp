@@ -74,7 +74,10 @@ void check_outputs(const RenderArguments& a) {
   // A film that is kept speaks for the picture beside it.
   if (!o.keeps_film || !fs::exists(o.film)) require_own_picture(o.picture, o.force);
   require_own_picture(a.preview, o.force);
-  // Before hours of rendering.
+  require_denoiser(a);
+}
+
+void require_denoiser(const RenderArguments& a) {
   if (a.denoised) run_program("vitrail-develop", {"--find-denoiser"}, nullptr, "/dev/null");
 }
 
@@ -85,7 +88,8 @@ AfterFilm developing(const RenderArguments& a) {
   return {is_png(picture) ? 0 : 0.19, 4e-9};  // the image library is loaded; the film read, converted, packed
 }
 
-void write_picture_of_film(const RenderArguments& a, const RenderStats& stats) {
+void write_picture_of_film(const RenderArguments& a, const RenderStats& stats,
+                           const std::function<void()>& once_written) {
   const JobOutputs& o = a.options.outputs;
   if (o.picture.empty() || o.dry_run) return;
   if (!(o.keeps_film && stats.finished_before && !o.force && is_newer(o.picture, o.film)))
@@ -93,6 +97,7 @@ void write_picture_of_film(const RenderArguments& a, const RenderStats& stats) {
   else if (a.denoised && !a.quiet)
     say("vitrail: {} is newer than its film and stays; vitrail develop {} -o {} --denoise replaces it\n",
         o.picture.string(), o.film.string(), o.picture.string());
+  if (once_written) once_written();
   if (!o.keeps_film && stats.ending == Ending::finished) fs::remove(o.film);
 }
 

@@ -35,8 +35,6 @@ bool RenderArguments::is_bundle() const {
   return std::filesystem::exists(input / "manifest.json") || input.extension() == ".vit";
 }
 
-namespace {
-
 void require_renderable(const RenderArguments& a) {
   const std::string name = a.input.string();
   std::error_code unknown;
@@ -59,6 +57,8 @@ void require_renderable(const RenderArguments& a) {
   if (a.strict && a.is_bundle())
     throw UsageError("a bundle is made already, and its scene is not read again: give --strict to partition");
 }
+
+namespace {
 
 void prepare_dry_run(RenderOptions& o) {
   constexpr double long_enough_s = 3;
@@ -114,6 +114,9 @@ void interpret_camera(RenderArguments& a) {
 }  // namespace
 
 void interpret(const CLI::App& app, RenderArguments& a) {
+  if (a.frames.empty() && a.range) throw UsageError("--range takes frames of a list: give --frames");
+  if (a.frames.empty() && a.retries > 0)
+    throw UsageError("--retries is for the frames of a list: give --frames");
   interpret_camera(a);
   require_renderable(a);
   a.name_outputs();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 
 #include "cli/common/import_arguments.h"
 #include "cli/common/mesh_options.h"
@@ -13,6 +14,9 @@ namespace vitrail {
 
 struct RenderArguments {
   std::filesystem::path input, output, film, frames, camera_file;
+  std::optional<std::string> range;  // of frames; empty: all
+  int retries = 0;                   // of those that fail
+  std::filesystem::path held_lock;  // while frames are rendered, for the process that supervises; empty: none
   int bins = 0, max_depth = 0;
   std::string memory, crop, integrator, aov, aov_space, camera, look_at, target_error, quality,
       progress = "auto";
@@ -35,6 +39,10 @@ struct RenderArguments {
 };
 
 void declare(CLI::App& app, RenderArguments& arguments);
+
+// Throws Error where there is no such bundle or scene, and UsageError for options that a bundle does not
+// have.
+void require_renderable(const RenderArguments& arguments);
 
 // Fills in `options`, but for the bundle of a scene that is yet to be made. Throws UsageError, and Error
 // where the input is not what can be rendered.

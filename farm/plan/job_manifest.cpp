@@ -138,7 +138,11 @@ void override_film(Manifest& m, const PictureSettings& picture, const std::files
 }  // namespace
 
 JobManifest read_job_manifest(const RenderOptions& options) {
-  JobManifest read{read_manifest(options.bundle), std::nullopt};
+  return job_manifest(options, read_manifest(options.bundle));
+}
+
+JobManifest job_manifest(const RenderOptions& options, Manifest manifest) {
+  JobManifest read{std::move(manifest), std::nullopt};
   Manifest& m = read.manifest;
   if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
   set_sheets(options.picture.sheets, options.bundle, m);

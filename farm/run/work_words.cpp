@@ -36,8 +36,8 @@ WorkWords words_of_work(const FilmKey& key, const FilmSettings& film, std::strin
   return work;
 }
 
-WorkWords words_of_work(const RenderOptions& options) {
-  const Manifest m = read_job_manifest(options).manifest;
+WorkWords words_of_work(const RenderOptions& options, const Manifest& bundle) {
+  const Manifest m = job_manifest(options, bundle).manifest;
   WorkWords work = words_of_work(key_of(m, options.picture), m.film, about(m, options));
   work.fields.emplace_back("samples a pixel",
                            words(goal_of(options, m.settings), options.resources.time_limit_s));

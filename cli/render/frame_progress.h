@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "cli/render/check_frames.h"
+#include "farm/plan/options.h"
+
+namespace vitrail {
+
+// What a user sees of a list: a line before each frame, or an event of JSON. On rank 0.
+class FrameProgress {
+ public:
+  FrameProgress(const FrameList& list, const RenderArguments& command);
+
+  // Frames that are done by now, here or elsewhere. What was there at the first call took no time of this
+  // command's.
+  void done(std::size_t frames);
+
+  // Before the frame is rendered.
+  void begins(std::size_t i);
+  // In place of rendering it: "is there and stays".
+  void says(std::size_t i, const std::string& what) const;
+
+ private:
+  std::string place(std::size_t i) const;  // "frame 7 of 50: f0007.png"
+  double left_s() const;                   // negative: not known yet
+
+  const FrameList& list_;
+  bool quiet_, json_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::optional<std::size_t> before_;
+  std::size_t done_ = 0;
+};
+
+}  // namespace vitrail

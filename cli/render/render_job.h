@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The job of one picture, on all ranks.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "cli/render/other_camera.h"
+#include "cli/render/render_arguments.h"
+#include "farm/files/output_lock.h"
+#include "farm/transport/transport.h"
+
+namespace vitrail {
+
+// Takes what of the picture is known from the bundle alone, or from another scene's camera. On one rank
+// alone; `manifest`: the bundle's, read already.
+void complete_picture(RenderArguments& arguments, const Manifest& manifest, KnownViews& views);
+
+// Takes the right to write the film, and removes what a killed writer left half written. On rank 0 alone.
+// Throws as OutputLock does.
+void lock_film(const RenderArguments& arguments, std::optional<OutputLock>& lock);
+
+struct JobSteps {
+  KnownViews* views = nullptr;         // read before, on rank 0
+  std::function<void()> once_written;  // write_picture_of_film's
+};
+
+// Interprets the arguments, checks the outputs, locks the film and renders, on all ranks together. Returns
+// the exit status.
+int render_job(const CLI::App& app, Transport& transport, RenderArguments& arguments);
+
+// The part after that, with a film that rank 0 has locked.
+int render_locked(Transport& transport, RenderArguments& arguments, const JobSteps& steps = {});
+
+// Returns the job's exit status. What it throws says which rank speaks, where there are several.
+int guarded(const Transport& transport, const std::function<int()>& job);
+
+}  // namespace vitrail
