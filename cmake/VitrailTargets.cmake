@@ -95,7 +95,8 @@ endfunction()
 # vitrail_test(NAME LABEL l SOURCES … LIBRARIES … [TIMEOUT s] [COST s] [ALONE]): tests of these sources, registered with ctest, and the
 # program test_NAME that runs them. All tests of a folder of tests/ are linked into one program, test_in_FOLDER, of which
 # test_NAME is a link: it looks up which files are NAME's. ALONE: a program of its own. The limit of time is one that only
-# a hang reaches. COST: about how long the test takes; the longest begin first, so that none is left alone at the end.
+# a hang reaches. COST: about how many seconds the test takes, where it is ten or more; the longest begin first, so that none is left
+# alone at the end.
 function(vitrail_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "ALONE" "LABEL;TIMEOUT;COST" "SOURCES;LIBRARIES")
   if(NOT arg_TIMEOUT)
