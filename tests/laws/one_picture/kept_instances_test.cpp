@@ -12,6 +12,7 @@
 #include "farm/scheduler/residency.h"
 #include "partitioner/partition.h"
 #include "tests/support/command.h"
+#include "tests/support/ranks.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"
@@ -139,7 +140,7 @@ class Films {
                         const std::string& more = "") const {
     const auto stats = directory_ / "stats.json";
     const CommandResult done = run(fmt::format(
-        "{} '{}' -o '{}' --force --spp 4 --threads {} --stats '{}' {}", mpi_vitrail("render", ranks),
+        "{} '{}' -o '{}' --force --spp 4 --threads {} --stats '{}' {}", vitrail_on(ranks, "render"),
         bundle.string(), (directory_ / "a.film").string(), threads, stats.string(), more));
     EXPECT_EQ(done.status, 0) << done.output;
     return done.status == 0 ? read_json(stats) : nlohmann::json();

@@ -52,6 +52,14 @@ class KillAndResume : public ::testing::Test {
     }
   }
   nlohmann::json stats(const std::string& film) const { return read_json(directory_ / (film + ".json")); }
+  // Of the usual film that nothing happened to, rendered once for all tests.
+  nlohmann::json whole_hash() const {
+    static nlohmann::json known;
+    if (known.is_null() && run(command("whole.film", "")).status == 0)
+      known = stats("whole.film")["film_hash"];
+    EXPECT_FALSE(known.is_null());
+    return known;
+  }
 
   TemporaryDirectory directory_;
   std::filesystem::path bundle_;
@@ -131,8 +139,7 @@ TEST_F(KillAndResume, TermWritesACheckpointAndEndsByItself) {
     EXPECT_TRUE(std::filesystem::exists(directory_ / "stopped.film.partial"));
     EXPECT_FALSE(std::filesystem::exists(directory_ / "stopped.film"));
     ASSERT_EQ(run(command("stopped.film", "--resume")).status, 0);
-    ASSERT_EQ(run(command("whole.film", "--force")).status, 0);
-    EXPECT_EQ(stats("stopped.film")["film_hash"], stats("whole.film")["film_hash"]);
+    EXPECT_EQ(stats("stopped.film")["film_hash"], whole_hash());
     std::filesystem::remove(directory_ / "stopped.film");
   }
 }

@@ -10,6 +10,7 @@
 #include "film/film_progress.h"
 #include "tests/support/command.h"
 #include "tests/support/paths.h"
+#include "tests/support/ranks.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::one_picture_of_alpha_test {
@@ -31,7 +32,7 @@ class OnePictureOfAlpha : public testing::Test {
   }
   Film render(const fs::path& input, const std::string& more, int ranks = 1) {
     const fs::path film = directory_ / "picture.film";
-    must(fmt::format("{} '{}' -o '{}' --quiet --force {}", mpi_vitrail("render", ranks), input.string(),
+    must(fmt::format("{} '{}' -o '{}' --quiet --force {}", vitrail_on(ranks, "render"), input.string(),
                      film.string(), more));
     return read_film(film, nullptr);
   }

@@ -11,6 +11,7 @@
 #include "film/film_progress.h"
 #include "tests/support/command.h"
 #include "tests/support/paths.h"
+#include "tests/support/ranks.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::one_picture_of_layers_test {
@@ -39,7 +40,7 @@ class OnePictureOfLayers : public testing::Test {
   }
   Film render(const std::filesystem::path& bundle, const std::string& more, int ranks = 1,
               const std::string& film = "picture.film", bool anew = true) {
-    must(fmt::format("{} '{}' -o '{}' --quiet {} {}", mpi_vitrail("render", ranks), bundle.string(),
+    must(fmt::format("{} '{}' -o '{}' --quiet {} {}", vitrail_on(ranks, "render"), bundle.string(),
                      (directory_ / film).string(), anew ? "--force" : "", more));
     return read_film(directory_ / film, nullptr);
   }

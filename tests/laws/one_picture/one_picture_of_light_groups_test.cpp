@@ -12,6 +12,7 @@
 #include "film/film_progress.h"
 #include "tests/support/command.h"
 #include "tests/support/paths.h"
+#include "tests/support/ranks.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::one_picture_of_light_groups_test {
@@ -43,7 +44,7 @@ class LightGroupsOfPictures : public testing::Test {
   }
   Film render(const fs::path& input, const std::string& more, int ranks = 1) {
     const fs::path film = directory_ / "picture.film";
-    must(fmt::format("{} '{}' -o '{}' --quiet --force {}", mpi_vitrail("render", ranks), input.string(),
+    must(fmt::format("{} '{}' -o '{}' --quiet --force {}", vitrail_on(ranks, "render"), input.string(),
                      film.string(), more));
     return read_film(film, nullptr);
   }

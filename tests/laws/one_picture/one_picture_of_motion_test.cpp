@@ -11,6 +11,7 @@
 #include "bundle/verify.h"
 #include "partitioner/partition.h"
 #include "tests/support/command.h"
+#include "tests/support/ranks.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"
@@ -106,7 +107,7 @@ class OnePictureOfMotion : public testing::Test {
                      const std::string& environment = "") {
     const auto stats = directory_ / "stats.json";
     const CommandResult done = run(fmt::format("{} {} '{}' -o '{}' --force --spp 4 --stats '{}' {}",
-                                               environment, mpi_vitrail("render", ranks), bundle.string(),
+                                               environment, vitrail_on(ranks, "render"), bundle.string(),
                                                (directory_ / "a.film").string(), stats.string(), more));
     EXPECT_EQ(done.status, 0) << done.output;
     if (done.status != 0) return "";

@@ -16,6 +16,7 @@
 #include "tests/support/command.h"
 #include "tests/support/paths.h"
 #include "tests/support/png.h"
+#include "tests/support/ranks.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::one_picture_of_photons_test {
@@ -49,7 +50,7 @@ class OnePictureOfPhotons : public ::testing::Test {
   std::string bundle(int domains) const { return (directory_ / fmt::format("{}.vit", domains)).string(); }
   std::string command(const std::string& film, int domains, int ranks, const std::string& more) const {
     return fmt::format("{} '{}' -o '{}' --width 40 --integrator photon --quiet --stats '{}' {}",
-                       mpi_vitrail("render", ranks), bundle(domains), (directory_ / film).string(),
+                       vitrail_on(ranks, "render"), bundle(domains), (directory_ / film).string(),
                        (directory_ / (film + ".json")).string(), more);
   }
   nlohmann::json stats(const std::string& film) const { return read_json(directory_ / (film + ".json")); }
@@ -115,7 +116,8 @@ TEST_F(OnePictureOfPhotons, KilledAndContinued) {
     while (job.running() && std::filesystem::last_write_time(partial, none) == before)
       std::this_thread::sleep_for(2ms);
     std::this_thread::sleep_for(std::chrono::milliseconds(37 * tries));
-    for (const pid_t pid : job.ranks()) kills += ::kill(pid, SIGKILL) == 0;
+    for (const pid_t pid : tries % 2 == 0 ? std::vector{job.pid()} : job.ranks())
+      kills += job.running() && ::kill(pid, SIGKILL) == 0;
     job.wait();
   }
   EXPECT_GT(kills, 0);
@@ -143,7 +145,7 @@ TEST_F(OnePictureOfPhotons, OfSensors) {
   const auto measure = [&](const std::string& film, int domains, int ranks, const std::string& more) {
     return fmt::format(
         "{} '{}' -o '{}' --integrator photon --photons 6000 --quiet --stats '{}' --sensors '{}' {}",
-        mpi_vitrail("render", ranks), bundle(domains), (directory_ / film).string(),
+        vitrail_on(ranks, "render"), bundle(domains), (directory_ / film).string(),
         (directory_ / (film + ".json")).string(), (directory_ / "sensors.txt").string(), more);
   };
   nlohmann::json first;
@@ -175,7 +177,8 @@ TEST_F(OnePictureOfPhotons, OfSensors) {
     Background job(measure("killed.film", 8, 1 + tries % 2, long_job + " --checkpoint-every 0.02"));
     while (job.running() && std::filesystem::last_write_time(partial, none) == before)
       std::this_thread::sleep_for(2ms);
-    for (const pid_t pid : job.ranks()) kills += ::kill(pid, SIGKILL) == 0;
+    for (const pid_t pid : tries % 2 == 0 ? std::vector{job.pid()} : job.ranks())
+      kills += job.running() && ::kill(pid, SIGKILL) == 0;
     job.wait();
   }
   EXPECT_GT(kills, 0);

@@ -13,6 +13,7 @@
 #include "tests/support/background.h"
 #include "tests/support/command.h"
 #include "tests/support/paths.h"
+#include "tests/support/ranks.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::one_picture_of_rounds_test {
@@ -36,7 +37,7 @@ class OnePictureOfRounds : public ::testing::Test {
   static std::filesystem::path file(const std::string& name) { return *directory_ / name; }
 
   static std::string command(const std::string& film, int domains, int ranks, const std::string& more) {
-    return fmt::format("{} '{}' -o '{}' --width 40 --stats '{}' {}", mpi_vitrail("render", ranks),
+    return fmt::format("{} '{}' -o '{}' --width 40 --stats '{}' {}", vitrail_on(ranks, "render"),
                        bundle(domains), file(film).string(), file(film + ".json").string(), more);
   }
   static nlohmann::json stats(const std::string& film) { return read_json(file(film + ".json")); }

@@ -10,6 +10,7 @@
 #include "bundle/reflectances/color_words.h"
 #include "tests/support/command.h"
 #include "tests/support/paths.h"
+#include "tests/support/ranks.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::one_picture_test {
@@ -18,6 +19,7 @@ namespace {
 constexpr std::uint64_t mib = 1 << 20;
 
 struct Bundle {
+  int domains = 0;
   std::uint64_t conversion = 0;  // what finding spectra of codes may take
   std::filesystem::path path;
   std::uint64_t bytes = 0, largest = 0;
@@ -25,7 +27,7 @@ struct Bundle {
 
 Bundle make_bundle(const TemporaryDirectory& directory, const std::filesystem::path& scene, int domains,
                    const std::string& more = "") {
-  Bundle bundle;
+  Bundle bundle{domains};
   bundle.path = directory / fmt::format("{}.vit", domains);
   const CommandResult made = run(fmt::format("{} '{}' -o '{}' --domains {} {}", vitrail("partition"),
                                              scene.string(), bundle.path.string(), domains, more));
@@ -42,10 +44,10 @@ Bundle make_bundle(const TemporaryDirectory& directory, const std::filesystem::p
 nlohmann::json render(const TemporaryDirectory& directory, const Bundle& bundle, int ranks, int threads,
                       const std::string& more) {
   const auto stats = directory / "stats.json";
-  const CommandResult done =
-      run(fmt::format("{} '{}' -o '{}' --force --crop 0,48,0,32 --spp 2 --threads {} --stats '{}' {}",
-                      mpi_vitrail("render", ranks), bundle.path.string(),
-                      (directory / "picture.film").string(), threads, stats.string(), more));
+  const CommandResult done = run(fmt::format(
+      "{} '{}' -o '{}' --force --crop 0,48,0,32 --spp 2 --threads {} --stats '{}' {}",
+      bundle.domains == 1 ? mpi_vitrail("render", ranks) : vitrail_on(ranks, "render"), bundle.path.string(),
+      (directory / "picture.film").string(), threads, stats.string(), more));
   EXPECT_EQ(done.status, 0) << done.output;
   return done.status == 0 ? read_json(stats) : nlohmann::json();
 }
