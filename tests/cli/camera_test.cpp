@@ -8,6 +8,7 @@
 
 #include "film/film_progress.h"
 #include "tests/support/command.h"
+#include "tests/support/ranks.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::camera_test {
@@ -31,7 +32,7 @@ class CameraTyped : public ::testing::Test {
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
   Film render(const std::string& in, const std::string& more, int ranks = 1) const {
     const CommandResult done =
-        run(fmt::format("{} {} -o {} --spp 16 --force --quiet {}", mpi_vitrail("render", ranks), path(in),
+        run(fmt::format("{} {} -o {} --spp 16 --force --quiet {}", vitrail_on(ranks, "render"), path(in),
                         path("out.film"), more));
     EXPECT_EQ(done.status, 0) << done.output;
     return read_film(directory_ / "out.film", nullptr);

@@ -61,9 +61,9 @@ TEST(Everyday, SaysWhereItStandsAndIsSilentIfAsked) {
 TEST(Everyday, ProgressAsJsonLines) {
   const TemporaryDirectory directory;
   const auto events = directory / "events";
-  const std::string line =
-      fmt::format("{} '{}' -o '{}' --spp 65536 --crop 0,64,0,64 --time 2.5 --progress json > '{}'; true",
-                  vitrail("render"), scene, (directory / "a.film").string(), events.string());
+  const std::string line = fmt::format(
+      "{} '{}' -o '{}' --spp 65536 --crop 0,64,0,64 --threads 1 --time 2.5 --progress json > '{}'; true",
+      vitrail("render"), scene, (directory / "a.film").string(), events.string());
   for (const int run_number : {1, 2}) {
     const CommandResult result = run(line);
     std::ifstream lines(events);
@@ -90,7 +90,7 @@ TEST(Everyday, ARenderOfSomeSeconds) {
   const auto film = directory / "a.film", stats = directory / "stats.json",
              profile = directory / "profile.json";
   const std::string line =
-      fmt::format("{} '{}' -o '{}' --crop 0,64,0,64 --time 1.5 --stats '{}' --profile '{}'",
+      fmt::format("{} '{}' -o '{}' --crop 0,64,0,64 --threads 1 --time 1.5 --stats '{}' --profile '{}'",
                   vitrail("render"), scene, film.string(), stats.string(), profile.string());
   const auto samples = [&] { return read_json(stats)["samples"].get<std::uint64_t>(); };
   ASSERT_EQ(run(line).status, 0);

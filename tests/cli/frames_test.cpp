@@ -8,6 +8,7 @@
 
 #include "tests/support/command.h"
 #include "tests/support/paths.h"
+#include "tests/support/ranks.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::frames_test {
@@ -28,7 +29,7 @@ class Frames : public ::testing::Test {
   void write_frames(const std::string& text) const { std::ofstream(directory_ / "frames.txt") << text; }
   CommandResult render(const std::string& more, int ranks = 1) const {
     return run(
-        fmt::format("{} {} --width 16 --spp 2 {}", mpi_vitrail("render", ranks), path("box.vit"), more));
+        fmt::format("{} {} --width 16 --spp 2 {}", vitrail_on(ranks, "render"), path("box.vit"), more));
   }
   CommandResult render_frames(const std::string& more = "", int ranks = 1) const {
     return render(fmt::format("--frames {} -o {} {}", path("frames.txt"), path("f%03d.png"), more), ranks);

@@ -10,6 +10,7 @@
 
 #include "tests/support/command.h"
 #include "tests/support/paths.h"
+#include "tests/support/ranks.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::povray_test {
@@ -150,7 +151,7 @@ TEST_F(Povray, TheFilmOfOneDomainInAnEighthOfTheMemory) {
     }
     const CommandResult done = run(fmt::format(
         "cd '{}' && {} {} -o a.film --force --width 96 --height 72 --spp 2 --quiet --stats stats.json {}",
-        folder_.path().string(), mpi_vitrail("render", ranks), bundle, more));
+        folder_.path().string(), vitrail_on(ranks, "render"), bundle, more));
     EXPECT_EQ(done.status, 0) << done.output;
     return done.status == 0 ? read_json(folder_ / "stats.json") : nlohmann::json();
   };

@@ -124,7 +124,7 @@ class Previews : public PartitionedBox {
 TEST_F(Previews, AViewerIsShownWhatIsDone) {
   StandInViewer viewer;
   const CommandResult done =
-      run(line(fmt::format("--spp 65536 --time 3 --display-server localhost:{}", viewer.port())));
+      run(line(fmt::format("--spp 65536 --time 2.2 --display-server localhost:{}", viewer.port())));
   ASSERT_EQ(done.status, 0) << done.output;
   viewer.wait();
   EXPECT_EQ(viewer.problem, "");
@@ -146,7 +146,7 @@ TEST_F(Previews, AViewerThatIsNotThereEndsNothing) {
 }
 
 TEST_F(Previews, APreviewIsThereAtOnceAndWhereTheRenderIsStopped) {
-  Background job(line(fmt::format("--spp 4000000 --preview '{}'", path("p.png"))));
+  Background job(line(fmt::format("--spp 400000 --preview '{}'", path("p.png"))));
   const auto begin = std::chrono::steady_clock::now();
   while (job.running() && !std::filesystem::exists(path("p.png"))) std::this_thread::sleep_for(5ms);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 20s);

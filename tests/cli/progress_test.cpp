@@ -59,11 +59,11 @@ void expect_one_line(const std::string& output, std::size_t columns) {
 TEST(Progress, OnTerminalsOfThreeWidths) {
   const TemporaryDirectory directory;
   for (const unsigned short columns : std::array<unsigned short, 3>{45, 80, 200}) {
-    const std::string output = run_on_terminal(
-        fmt::format(
-            "{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --spp 20000 --crop 0,64,0,64 --time 2",
-            vitrail("render"), source_dir(), (directory / "x.png").string()),
-        columns);
+    const std::string output =
+        run_on_terminal(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --spp 20000 "
+                                    "--crop 0,64,0,64 --threads 1 --time 1",
+                                    vitrail("render"), source_dir(), (directory / "x.png").string()),
+                        columns);
     EXPECT_THAT(output,
                 AllOf(HasSubstr("render "), HasSubstr(" % "), HasSubstr("\033[32m"), HasSubstr("x.png: ")));
     expect_one_line(output, columns);
@@ -72,11 +72,11 @@ TEST(Progress, OnTerminalsOfThreeWidths) {
 
 TEST(Progress, WithoutColorsWhereTheyAreNotWanted) {
   const TemporaryDirectory directory;
-  const std::string output = run_on_terminal(
-      fmt::format(
-          "NO_COLOR=1 {} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --crop 0,64,0,64 --time 1",
-          vitrail("render"), source_dir(), (directory / "x.png").string()),
-      80);
+  const std::string output =
+      run_on_terminal(fmt::format("NO_COLOR=1 {} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --crop "
+                                  "0,64,0,64 --threads 1 --time .5",
+                                  vitrail("render"), source_dir(), (directory / "x.png").string()),
+                      80);
   EXPECT_THAT(output, AllOf(HasSubstr("render "), Not(HasSubstr("\033[32m"))));
 }
 
@@ -96,7 +96,7 @@ TEST(Progress, TheLastEventSaysThatTheRenderWasStopped) {
   const TemporaryDirectory directory;
   const CommandResult stopped =
       run(fmt::format("timeout --preserve-status -s INT 3 {} '{}/examples/cornell-box/cornell-box.pbrt' -o "
-                      "'{}' --spp 1000000 "
+                      "'{}' --threads 1 --spp 20000 "
                       "--progress json --quiet 2>&1 | tail -n 2",
                       vitrail("render"), source_dir(), (directory / "x.png").string()));
   EXPECT_THAT(stopped.output, AllOf(HasSubstr("\"event\":\"end\""), HasSubstr("\"ending\":\"interrupted\"")));
@@ -106,9 +106,10 @@ TEST(Progress, TheLastEventSaysThatTheRenderWasStopped) {
 
 TEST(Progress, ALogHasALineSoon) {
   const TemporaryDirectory directory;
-  const CommandResult done = run(fmt::format(
-      "{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --spp 65536 --crop 0,64,0,64 --time 6",
-      vitrail("render"), source_dir(), (directory / "x.png").string()));
+  const CommandResult done =
+      run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --spp 65536 --crop 0,64,0,64 "
+                      "--threads 1 --time 4",
+                      vitrail("render"), source_dir(), (directory / "x.png").string()));
   EXPECT_EQ(done.status, 0) << done.output;
   EXPECT_THAT(done.output,
               AllOf(HasSubstr("vitrail: rendering "), HasSubstr("vitrail: render "), HasSubstr(" left, ")));
