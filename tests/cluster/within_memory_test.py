@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """within_memory_test.py PROGRAMS SOURCE: each integrator and each writer in a memory cgroup of exactly --memory, on one rank or on
 two, with VITRAIL_LONG_TESTS on both, with the least --memory that is not refused. Nothing is killed, no rank takes more by its own VmHWM, and the film is that of
-all memory. `partition` too, also where it refuses: many lamps, many triangles. Groups of version 1 or 2, as root; status 77 where
-there are none."""
+all memory. `partition` too, also where it refuses: many lamps, many triangles; without VITRAIL_LONG_TESTS in half of the budgets.
+Groups of version 1 or 2, as root; status 77 where there are none."""
 import json
 import math
 import os
@@ -15,6 +15,7 @@ import tempfile
 
 programs, source = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
 MIB = 1 << 20
+LONG = bool(os.environ.get("VITRAIL_LONG_TESTS"))
 LARGE = 560, 400  # pixels of 824 bytes: several times what a rank has; the kernel takes half a minute to write them in a group
 INTO_GROUP = 'echo $$ > {0}.${{OMPI_COMM_WORLD_RANK:-0}}/cgroup.procs; exec "$@"'
 
@@ -115,9 +116,9 @@ def measure(folder, ranks, name, options):
     return f"{little['peak_rss_bytes']} bytes of {budget}" if little["peak_rss_bytes"] > budget else None
 
 
-def write_sheet(file, triangles, lit):
-    """A wavy sheet of so many triangles, which shine or not, written into a scene: by a process of its own, for the greatest size of
-    this one would count for those that it starts."""
+def write_sheet(folder, triangles):
+    """A wavy sheet of so many triangles, sheet.pbrt, and the scenes where it shines and does not, lit.pbrt and unlit.pbrt: by a process
+    of its own, for the greatest size of this one would count for those that it starts."""
     pid = os.fork()
     if pid > 0:
         assert os.waitpid(pid, 0)[1] == 0
@@ -127,9 +128,9 @@ def write_sheet(file, triangles, lit):
     corners = [(y * (side + 1) + x, y * (side + 1) + x + 1, (y + 1) * (side + 1) + x) for y in range(side) for x in range(side)]
     corners += [(b, c + 1, c) for _, b, c in corners]
     text = " ".join(f"{v:.6g}" for p in points for v in p), " ".join(str(i) for t in corners for i in t)
-    light = 'AreaLightSource "diffuse"' if lit else 'LightSource "infinite"'
-    file.write_text(f'Camera "perspective"\nFilm "rgb"\nWorldBegin\n{light}\n'
-                    f'Shape "trianglemesh" "point3 P" [{text[0]}] "integer indices" [{text[1]}]\n')
+    (folder / "sheet.pbrt").write_text(f'Shape "trianglemesh" "point3 P" [{text[0]}] "integer indices" [{text[1]}]\n')
+    for name, light in ("lit", 'AreaLightSource "diffuse"'), ("unlit", 'LightSource "infinite"'):
+        (folder / f"{name}.pbrt").write_text(f'Camera "perspective"\nFilm "rgb"\nWorldBegin\n{light}\nInclude "sheet.pbrt"\n')
     os._exit(0)
 
 
@@ -164,12 +165,11 @@ def main():
                         "--quiet"], check=True)
         budgets = [16, 20, 24, 32, 40, 48, 64, 80, 100, 128, 160, 200, 256, 320]
         wrong += measure_partition(folder, scene, budgets[:8], 48, ["--domains", 64])
-        for lit, fits in ((False, 128), (True, 200)):
-            sheet = folder / ("lit.pbrt" if lit else "unlit.pbrt")
-            write_sheet(sheet, 1.2e6, lit)
-            wrong += measure_partition(folder, sheet.name, budgets, fits)
+        write_sheet(folder, 1.2e6)
+        for i, (sheet, fits) in enumerate((("unlit.pbrt", 128), ("lit.pbrt", 200))):
+            wrong += measure_partition(folder, sheet, budgets if LONG else sorted({fits, *budgets[i::2]}), fits)
         for i, (what, options) in enumerate([*INTEGRATORS.items(), *WRITERS.items()]):
-            for ranks in (1, 2) if os.environ.get("VITRAIL_LONG_TESTS") else (1 + i % 2,):
+            for ranks in (1, 2) if LONG else (1 + i % 2,):
                 fault = measure(folder, ranks, what, options)
                 if fault:
                     wrong.append(f"{what}, {ranks} ranks: {fault}")
