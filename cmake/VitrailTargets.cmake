@@ -44,19 +44,6 @@ function(vitrail_without_precompiled_headers)
   set_target_properties(${ARGN} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON UNITY_BUILD OFF)
 endfunction()
 
-# VITRAIL_ALONE, a list of sources from the root, are in no batch: scripts/mutate compiles each many times, and what
-# it breaks may be warned of.
-function(vitrail_compile_alone)
-  foreach(source ${ARGN})
-    cmake_path(ABSOLUTE_PATH source OUTPUT_VARIABLE path)
-    cmake_path(RELATIVE_PATH path BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
-    if(path IN_LIST VITRAIL_ALONE)
-      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -Wno-error)
-    endif()
-  endforeach()
-endfunction()
-
 # vitrail_library(NAME SOURCES … LIBRARIES …): the library vitrail::NAME. The global property VITRAIL_LIBRARIES lists all targets.
 function(vitrail_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES")
@@ -64,7 +51,6 @@ function(vitrail_library name)
   add_library(vitrail::${name} ALIAS vitrail_${name})
   target_link_libraries(vitrail_${name} PUBLIC vitrail::options ${arg_LIBRARIES})
   target_precompile_headers(vitrail_${name} REUSE_FROM vitrail_precompiled)
-  vitrail_compile_alone(${arg_SOURCES})
   set_target_properties(vitrail_${name} PROPERTIES EXPORT_NAME ${name})
   set_property(GLOBAL APPEND PROPERTY VITRAIL_LIBRARIES vitrail_${name})
 endfunction()
