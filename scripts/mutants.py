@@ -188,7 +188,7 @@ def mutants_of(file, text):
     for i, (line, code, is_function) in enumerate(zip(text.splitlines(), blank.splitlines(), are_functions(blank))):
         code = code.rstrip()
         # After a head that ends its line, a single statement.
-        starts = re.search(r"[;{}:]$", previous) is not None or re.match(r"\s*(?:\} )?(?:else$|(?:else )?(?:if|for|while) \(.*\)$)", previous)
+        starts = re.search(r"[;{}:]$", previous) or re.match(r"\s*(?:\} )?(?:else$|(?:else )?(?:if|for|while) \(.*\)$)", previous)
         if code.strip(" _"):
             previous = code
         is_of_table = not re.search("[a-zA-Z]{2}", code) or len(re.findall(NUMBER, code)) > 5
