@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scene/spectra/color.h"
 #include "scene/system/diagnostics.h"
 #include "tests/glazing/glazing_files.h"
 
@@ -27,14 +28,33 @@ TEST(Evaluation, OfAConstantIsTheConstant) {
     ASSERT_EQ(e.averages.size(), 5u);
     for (const auto& [name, v] : e.averages) {
       EXPECT_NEAR(v.t, 0.5, 1e-12) << name;
+      EXPECT_NEAR(v.rf, 0.1, 1e-12) << name;
       EXPECT_NEAR(v.rb, 0.2, 1e-12) << name;
     }
     ASSERT_TRUE(e.has_color);
     EXPECT_NEAR(e.t.xyz[1], 50, 1e-9);
+    EXPECT_NEAR(e.rf.xyz[1], 10, 1e-9);
+    EXPECT_NEAR(e.rb.xyz[1], 20, 1e-9);
     EXPECT_NEAR(e.t.lab[0], 76.0693, 1e-4);  // 116·0.5^⅓ − 16
     EXPECT_NEAR(e.t.lab[1], 0, 1e-9);
     EXPECT_NEAR(e.t.lab[2], 0, 1e-9);
   }
+}
+
+// WinCalc's: of the visible 380 nm (three times) to 780 nm in steps of 80, of the infrared to 2328 nm in
+// steps of 172.
+TEST(Evaluation, CondensedTakesTheSpectrumOfFewWavelengths) {
+  std::vector<double> asked;
+  const auto spectrum = [&](std::vector<double> at) {
+    if (at.size() > 2) asked = at;
+    const std::size_t count = at.size();
+    return SystemSpectrum{std::move(at), std::vector<PaneValues>(count, {0.5, 0.1, 0.2})};
+  };
+  evaluate(spectrum, {300, 2500}, nfrc_2003(), Sampling::condensed);
+  std::vector<double> expected{300, 380 - 2e-3, 380, 380 + 2e-3, 460, 540, 620, 700};
+  for (int i = 0; i < 10; ++i) expected.push_back(780 + 172 * i);
+  expected.push_back(2500);
+  EXPECT_EQ(asked, expected);
 }
 
 // D65 seen by the observer of 1964: the white that CIE 15 gives.
@@ -63,6 +83,34 @@ TEST(ColorValues, FindDominantWavelengths) {
   ASSERT_TRUE(purple.complementary_nm);
   EXPECT_GT(*purple.complementary_nm, 500);
   EXPECT_LT(*purple.complementary_nm, 570);
+}
+
+// Light of both ends of the spectrum lies on the line of purples, wherever it does.
+TEST(ColorValues, FindPurplesPure) {
+  const std::array<double, 3> white{0.9505, 1, 1.089};
+  const auto &blue = cie_1931().front(), &red = cie_1931().back();
+  for (const double share : {0.2, 0.7}) {
+    std::array<double, 3> relative{};
+    for (std::size_t i = 0; i < 3; ++i)
+      relative[i] = (share * blue[i] / (blue[0] + blue[1] + blue[2]) +
+                     (1 - share) * red[i] / (red[0] + red[1] + red[2])) /
+                    white[i];
+    const ColorValues purple = color_values(relative, white, Observer::cie_1931);
+    EXPECT_NEAR(purple.purity, 1, 1e-5) << share;
+    EXPECT_EQ(purple.dominant_nm, share > 0.5 ? 360 : 830);
+  }
+}
+
+// A display of 80 cd/m² that reflects 0.2 cd/m² has to add a quarter of its range.
+TEST(ColorValues, AreShownOnADisplay) {
+  const std::array<double, 3> d65{0.9505, 1, 1.089};
+  const double quarter = (0.2 + (80 - 0.2) / 4) / 100;
+  const auto rgb_of = [&](double relative) {
+    return color_values({relative, relative, relative}, d65, Observer::cie_1931).rgb;
+  };
+  EXPECT_EQ(rgb_of(quarter), (std::array{137, 137, 137}));  // 255 (1.055·0.25^(1/2.4) − 0.055)
+  EXPECT_EQ(rgb_of(1), (std::array{255, 255, 255}));
+  EXPECT_EQ(rgb_of(0), (std::array{0, 0, 0}));
 }
 
 TEST(Standard, IsReadFromFiles) {

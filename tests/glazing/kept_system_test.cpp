@@ -104,7 +104,9 @@ TEST_F(KeptSystem, RefusesWhatIsNoSystem) {
   for (const std::string& wrong :
        {std::string("{"), std::string("[]"), std::string(R"({"name": "a", "layers": []})"),
         without("\"states\"", "\"status\""), without("\"rows\":[[300.0", "\"rows\":[[\"300\""),
-        without("\"rows\":[[300.0", "\"rows\":[[9300.0"), without("\"flipped\":false", "\"flipped\":1"),
+        without("\"rows\":[[300.0", "\"rows\":[[9300.0"),
+        without("\"rows\":[[300.0,", "\"rows\":[[300.0,1.5,"),
+        without("\"rows\":[[300.0,", "\"rows\":[[300.0,-0.5,"), without("\"flipped\":false", "\"flipped\":1"),
         text.substr(0, text.size() / 2)})
     EXPECT_THROW(kept_system(wrong, "kept"), Error) << wrong.substr(0, 60);
 }

@@ -32,6 +32,8 @@ TEST(Products, SayTheSameInEveryFormat) {
     const auto products = products_of(text);
     const auto pane = std::ranges::find(products, "Pane", &Product::name);
     expect_pane(pane == products.end() ? products.at(0) : *pane);
+    for (const Product& product : products)
+      EXPECT_THAT(product.notes, ::testing::Not(::testing::Contains(HasSubstr("##include")))) << product.name;
   }
 }
 
@@ -43,6 +45,9 @@ TEST(Products, KnowThicknessAndKind) {
     EXPECT_EQ(pane.thickness_mm, 6);
     EXPECT_EQ(pane.kind, PaneKind::clear);
   }
+  std::string film = igsdb_text;
+  film.replace(film.find("6.0"), 3, "0.1");
+  EXPECT_EQ(products_of(film).at(0).thickness_mm, 0.1);
   std::string coated = igsdb_text;
   coated.replace(coated.find("monolithic"), 10, "coated-glass");
   EXPECT_EQ(products_of(coated).at(0).kind, PaneKind::coated);
