@@ -42,8 +42,9 @@ Ways ways_of(const GlazedBsdf& b, Vector3d out, double eta) {
     const auto colored = static_cast<float>(b.metallic * (1 - whiteness(out.z)));
     w.mirrored = w.mirrored * (filled(1 - colored) + b.tint * colored);
   }
-  if (!refract(out, {0, 0, 1}, eta, w.bent)) {  // all of it is mirrored
-    w.mirrored = w.mirrored + w.through;
+  // All is mirrored, in no colour, whatever the finish mirrors and lets through.
+  if (!refract(out, {0, 0, 1}, eta, w.bent) && greatest(w.through) > 0) {
+    w.mirrored = filled(1);
     w.through = {};
   }
   // Highlights are for lamps alone, so that little of the paths goes on where light is spread.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // POV-Ray's finish of what also mirrors, or lets light through (scene/records/material.h has the equations).
 // The lit part is known to `eval`; the mirror and what is behind are deltas. Asked from either side, which
-// are alike but for the bending.
+// are alike but for the bending. Beyond the critical angle what lets light through mirrors all of it.
 #pragma once
 
 #include <optional>
