@@ -6,7 +6,6 @@
 #include "cli/common/main_guard.h"
 #include "cli/render/frame_job.h"
 #include "cli/render/frame_range.h"
-#include "cli/render/picture_output.h"
 #include "farm/files/signals.h"
 #include "scene/system/output_place.h"
 #include "scene/system/say.h"
@@ -138,7 +137,6 @@ FrameList read_frame_list(const RenderArguments& command) {
 void check_frames(const FrameList& list, const RenderArguments& command, std::span<char* const> typed,
                   KnownViews& views, const std::function<void(std::size_t, const WorkWords&)>& visit) {
   require_renderable(command);
-  require_denoiser(command);
   if (command.output.extension() != ".film") require_place(record_path(command.output));
   Checker checker(list, command, typed, views);
   constexpr std::size_t most_said = 10;

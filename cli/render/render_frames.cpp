@@ -123,6 +123,7 @@ void FrameRun::check() {
     check_frames(list_, command_, typed_, views_,
                  [&](std::size_t i, const WorkWords& asked) { survey(i, asked); });
     if (!others_.empty()) refuse_other_pictures(others_);
+    if (count(State::open) > 0) require_denoiser(command_);
   });
   std::vector<std::uint64_t> states;
   for (const State state : states_) states.push_back(static_cast<std::uint64_t>(state));
