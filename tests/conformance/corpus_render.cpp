@@ -43,11 +43,12 @@ void PrintTo(const CorpusScene& scene, std::ostream* out) { *out << scene.path; 
 
 std::string render_scene(const std::filesystem::path& scene, const std::filesystem::path& picture,
                          const std::string& arguments) {
-  std::filesystem::path bundle = picture;
-  bundle.replace_extension(".vit");
-  const CommandResult made = run(fmt::format("{} '{}' -o '{}' --domains 1 --quiet", vitrail("partition"),
-                                             scene.string(), bundle.string()));
-  if (made.status != 0) return made.output;
+  const std::filesystem::path bundle = picture.parent_path() / "bundle.vit";
+  if (!std::filesystem::exists(bundle)) {
+    const CommandResult made = run(fmt::format("{} '{}' -o '{}' --domains 1 --quiet", vitrail("partition"),
+                                               scene.string(), bundle.string()));
+    if (made.status != 0) return made.output;
+  }
   const CommandResult done =
       run(fmt::format("{} '{}' -o '{}' {}", vitrail("render"), bundle.string(), picture.string(), arguments));
   return done.status == 0 ? "" : done.output;

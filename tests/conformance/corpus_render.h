@@ -23,7 +23,8 @@ void PrintTo(const CorpusScene& scene, std::ostream* out);
 // Of the whole index; empty where there is no corpus.
 std::vector<CorpusScene> corpus_scenes();
 
-// Partitions into four domains and renders. `arguments` go to render. Returns what went wrong, or "".
+// Renders. `arguments` go to render. Returns what went wrong, or "". Partitions into one domain, once for all
+// pictures in a folder: they are of one scene.
 std::string render_scene(const std::filesystem::path& scene, const std::filesystem::path& picture,
                          const std::string& arguments);
 
