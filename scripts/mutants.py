@@ -49,8 +49,10 @@ class Mutant:
         """Returns the line that does as `after` where this mutant is active, by its number, and else as `before`."""
         start, end = self.slot.start, self.slot.end
         whole, broken = self.before[start:end], self.after[start:end + len(self.after) - len(self.before)]
-        active = f"::vitrail_mutant({number})"
-        both = f"{{ if ({active}) {{ {broken} }} else {{ {whole} }} }}" if self.slot.is_statement else f"{active} ? ({broken}) : ({whole})"
+        active, to = f"::vitrail_mutant({number})", "bool" if self.slot.kind == "condition" else ""
+        both = f"{active} ? {to}({broken}) : {to}({whole})"
+        if self.slot.kind == "statement":
+            both = f"{{ if ({active}) {{ {broken} }} else {{ {whole} }} }}"
         return self.before[:start] + both + self.before[end:]
 
 
@@ -59,7 +61,7 @@ class Slot:
     """A part of a line in whose place there may be two, of which one is chosen at run time."""
     start: int
     end: int
-    is_statement: bool = False  # else an expression
+    kind: str = "expression"  # or "condition" or "statement"
 
     def has(self, before, after):
         """Returns whether two lines differ in the slot alone."""
@@ -123,14 +125,14 @@ def parts(code, start, end, separator):
     yield first, end
 
 
-def expression(code, start, end):
+def expression(code, start, end, kind="expression"):
     """Yields the slot of an expression, or of what a declaration's name is set to; none where it is in no pair of round brackets."""
     start += len(code[start:end]) - len(code[start:end].lstrip())
     equal = list(parts(code, start, end, " = "))
     if len(equal) == 2 and re.fullmatch(DECLARED, code[start:equal[0][1]]):
-        start = equal[1][0]
+        start, kind = equal[1][0], "expression"
     if start < end and code[start] not in "[{" and len(list(parts(code, start, end, ","))) == 1 and closing(code[:end], start) is None:
-        yield Slot(start, end)
+        yield Slot(start, end, kind)
 
 
 def slots_of(code, is_function, starts):
@@ -145,8 +147,9 @@ def slots_of(code, is_function, starts):
             if end is None:
                 return
             for first, last in parts(code, at, end, ";"):
-                ranges = list(parts(code, first, last, " : "))
-                yield from expression(code, ranges[-1][0] if head[0].startswith("for") else first, last)
+                is_for, ranges = head[0].startswith("for"), list(parts(code, first, last, " : "))
+                kind = "condition" if head[0].startswith(("if", "while")) else "expression"
+                yield from expression(code, ranges[-1][0] if is_for else first, last, kind)
             at = end + 1
             at += code.startswith(" ", at)
     end = len(code)
@@ -154,12 +157,12 @@ def slots_of(code, is_function, starts):
     if is_whole and re.fullmatch(DECLARED + " = .*", code[at:end]):
         yield from expression(code, at, end - 1)
     elif is_whole and is_function and re.match(SIMPLE, code[at:]):
-        yield Slot(at, end, True)
+        yield Slot(at, end, "statement")
     elif member := re.match(r"\s*\.\w+ = (.*?),?$", code):
         yield from expression(code, *member.span(1))
     if not re.search(r"\b(?:struct|class|enum|union)\b", code):
         for block in re.finditer(r"[)\w>\]] \{ ([^{}]*;) \}", code):
-            yield Slot(*block.span(1), True)
+            yield Slot(*block.span(1), "statement")
     if is_function:
         for bracket in re.finditer(r"(?<![\]}])\(", code):
             end = closing(code, bracket.end())
@@ -199,7 +202,7 @@ def mutants_of(file, text):
         here = []
         for name, other in other_lines(line, code):
             slot = next((slot for slot in slots if slot.has(line, other)), None)
-            if slot and (name != "statement removed" or slot.is_statement and starts):
+            if slot and (name != "statement removed" or slot.kind == "statement" and starts):
                 here.append(Mutant(file, i + 1, name, line, other, slot))
         if here:
             found.append(here)
