@@ -98,22 +98,22 @@ TEST_F(SharedFrames, AreWaitedForAndTakenOver) {
   write_seeds(3);
   const std::string lock = path("f002.png.work.lock");
   for (const int ranks : {1, 2}) {
+    const std::string log = fmt::format("worker{}.log", ranks);
     write("f002.png.work.lock", "process 7 on node9");
     Background other(fmt::format("flock {} sleep 60", lock));
     wait_for([&] { return run(fmt::format("flock -n {} true", lock)).status != 0; });
     write("worker.sh",
-          fmt::format("exec env {} > {} 2>&1\n", command("--force", "f%03d.png", ranks), path("worker.log")));
+          fmt::format("exec env {} > {} 2>&1\n", command("--force", "f%03d.png", ranks), path(log)));
     Background worker("sh " + path("worker.sh"));
-    wait_for([&] { return bytes("worker.log").find("waits for ") != std::string::npos; });
+    wait_for([&] { return bytes(log).find("waits for ") != std::string::npos; });
     EXPECT_TRUE(exists("f001.png") && exists("f003.png"));
     EXPECT_FALSE(exists("f002.png"));
     EXPECT_TRUE(worker.running());
     ::kill(-other.pid(), SIGKILL);
     other.wait();
-    EXPECT_EQ(worker.wait(), 0) << bytes("worker.log");
-    EXPECT_THAT(bytes("worker.log"),
-                AllOf(HasSubstr("f002.png is rendered elsewhere, by process 7 on node9"),
-                      HasSubstr("waits for " + path("f002.png") + " (process 7 on node9)")));
+    EXPECT_EQ(worker.wait(), 0) << bytes(log);
+    EXPECT_THAT(bytes(log), AllOf(HasSubstr("f002.png is rendered elsewhere, by process 7 on node9"),
+                                  HasSubstr("waits for " + path("f002.png") + " (process 7 on node9)")));
     for (const char* name : {"f001.png", "f002.png", "f003.png"}) {
       EXPECT_TRUE(exists(name));
       std::filesystem::remove(path(name));
