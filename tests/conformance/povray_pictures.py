@@ -47,8 +47,9 @@ def by_povray(scene, folder, options, extra, original=None):
     target = folder / "povray.png"
     if b"frame_number" in text and b"clock_on" not in text:
         extra = [*extra, "+KFI1", "+KFF2", "+SF1", "+EF1"]
-    run(["povray", f"+I{scene}", f"+O{target}", f"+W{options.width}", f"+H{options.height}", "-D", "-GA", "+WT1",
-         f"+L{original.parent}", *extra], options.seconds, folder)
+    # Quoted: povray ends an unquoted name at a space, and shows the file of the rest of it, if there is one.
+    run(["povray", f'+I"{scene}"', f"+O{target}", f"+W{options.width}", f"+H{options.height}", "-D", "-GA", "+WT1",
+         f'+L"{original.parent}"', *extra], options.seconds, folder)
     pictures = sorted(folder.glob("povray*.png"))
     if not pictures:
         raise Skipped("povray refuses it")
