@@ -177,8 +177,8 @@ TEST(PovraySurfaces, LampsAndClearSurfaces) {
   }
 }
 
-// From inside beyond the critical angle all is mirrored, whatever the finish mirrors and lets through, as POV-Ray's
-// pictures show; weights and chances agree.
+// From inside beyond the critical angle all is mirrored, whatever the finish mirrors and lets through, as
+// POV-Ray's pictures show; weights and chances agree.
 TEST(PovraySurfaces, GlazedFromInside) {
   GlazedBsdf glazed;
   glazed.finish.reflectance = filled(0.2f);
