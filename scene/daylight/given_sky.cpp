@@ -99,7 +99,6 @@ void set(GivenSky& sky, Given& given, const std::string& key, const std::string&
 
 // By the sky's own model where nothing is given of it.
 std::optional<MeasuredSky> measured_sky(const GivenSky& sky, const Given& given) {
-  const Measured none;
   if (given.direct && !given.diffuse)
     throw UsageError("--sky: direct= is the sun's; diffuse= of the sky has to be there as well");
   if (!given.diffuse) return given.cie ? std::optional(cie_sky(*given.cie, sky.sun, sky.time)) : std::nullopt;

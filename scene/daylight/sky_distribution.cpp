@@ -159,20 +159,23 @@ MeasuredSky cie_sky(int type, const SunPosition& sun, const LocalTime& time) {
 
 MeasuredSky perez_sky(double direct_normal_w, double diffuse_horizontal_w, const SunPosition& sun,
                       const LocalTime& time) {
-  if (!(diffuse_horizontal_w > 0) || !(sun.elevation_deg > 0)) return {};
-  const PerezState state(direct_normal_w, diffuse_horizontal_w, sun, time);
+  // Of a sun without any sky the clearness would have no bound.
+  const double diffuse_w = std::max(diffuse_horizontal_w, 1e-6 * direct_normal_w);
+  if (!(diffuse_w > 0) || !(sun.elevation_deg > 0)) return {};
+  const PerezState state(direct_normal_w, diffuse_w, sun, time);
   return {state.distribution(), state.direct_lx()};
 }
 
 MeasuredSky perez_sky_of_lux(double direct_normal_lx, double diffuse_horizontal_lx, const SunPosition& sun,
                              const LocalTime& time) {
-  if (!(diffuse_horizontal_lx > 0) || !(sun.elevation_deg > 0)) return {};
+  const double diffuse_lx = std::max(diffuse_horizontal_lx, 1e-6 * direct_normal_lx);
+  if (!(diffuse_lx > 0) || !(sun.elevation_deg > 0)) return {};
   constexpr double usual_efficacy = 110;
-  double direct_w = direct_normal_lx / usual_efficacy, diffuse_w = diffuse_horizontal_lx / usual_efficacy;
+  double direct_w = direct_normal_lx / usual_efficacy, diffuse_w = diffuse_lx / usual_efficacy;
   // Efficacies change slowly, but they jump from one clearness to the next: there it may go to and fro.
   for (int i = 0; i < 50; ++i) {
     const PerezState state(direct_w, diffuse_w, sun, time);
-    diffuse_w *= diffuse_horizontal_lx / state.diffuse_lx();
+    diffuse_w *= diffuse_lx / state.diffuse_lx();
     if (direct_w > 0 && state.direct_lx() > 0) direct_w *= direct_normal_lx / state.direct_lx();
   }
   MeasuredSky sky{PerezState(direct_w, diffuse_w, sun, time).distribution(), direct_normal_lx};

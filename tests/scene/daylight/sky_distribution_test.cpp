@@ -194,7 +194,12 @@ TEST(SkyDistribution, ExtremesStayFinite) {
                   << height << " " << direct << " " << diffuse;
       }
   EXPECT_EQ(perez_sky(100, 100, {-1, 0}, spring).distribution.diffuse_lx, 0);
-  EXPECT_EQ(perez_sky(100, 0, sun, spring).direct_normal_lx, 0);
+  EXPECT_EQ(perez_sky(0, 0, sun, spring).direct_normal_lx, 0);
+  const MeasuredSky bare = perez_sky(800, 0, sun, spring), again = perez_sky_of_lux(80000, 0, sun, spring);
+  EXPECT_GT(bare.direct_normal_lx, 7e4);
+  EXPECT_LT(bare.distribution.diffuse_lx, 1);
+  EXPECT_EQ(again.direct_normal_lx, 80000);
+  EXPECT_TRUE(std::isfinite(again.distribution.c));
 }
 
 }  // namespace
