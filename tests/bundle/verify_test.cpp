@@ -230,8 +230,7 @@ class Features : public Verify {
 
 TEST_F(Features, RequiredOnesAreRefusedByName) {
   rewrite([](layout::DomainHeader& h) { h.features.required |= 1u << 31; });
-  EXPECT_THAT(problems(),
-              HasSubstr("domains/000000.dom: it needs 'feature 31', which this program does not"));
+  EXPECT_THAT(problems(), HasSubstr("domains/000000.dom: it needs 'skies', which this program does not"));
   rewrite([](layout::DomainHeader& h) { h.features.required = 0; });
   EXPECT_THAT(problems(), HasSubstr("features are not those of its sections"));
 }

@@ -44,15 +44,15 @@ TEST(Everyday, ProgramsStartWithFewLibraries) {
 
 TEST(Everyday, SaysWhereItStandsAndIsSilentIfAsked) {
   const TemporaryDirectory directory;
-  const std::string line = fmt::format("{} '{}' -o '{}' --spp 16 --crop 0,128,0,128", vitrail("render"),
-                                       scene, (directory / "a.film").string());
+  const std::string line = fmt::format("{} '{}' -o '{}' --spp 4 --crop 0,64,0,64", vitrail("render"), scene,
+                                       (directory / "a.film").string());
   const CommandResult quiet = run(line + " --quiet");
   EXPECT_EQ(quiet.status, 0);
   EXPECT_EQ(quiet.output, "");
   const CommandResult lines = run(line + " --force");
   EXPECT_EQ(lines.status, 0);
-  EXPECT_THAT(lines.output, HasSubstr("rendering 128 × 128 pixels, 16 samples each"));
-  EXPECT_THAT(lines.output, HasSubstr("a.film: 16 of 16 samples a pixel after"));
+  EXPECT_THAT(lines.output, HasSubstr("rendering 64 × 64 pixels, 4 samples each"));
+  EXPECT_THAT(lines.output, HasSubstr("a.film: 4 of 4 samples a pixel after"));
   // One more where this machine's memory is not all for this job.
   EXPECT_EQ(std::ranges::count(lines.output, '\n'), memory_limit().is_machine ? 2 : 3) << lines.output;
 }
