@@ -11,6 +11,7 @@ namespace vitrail {
 void add_rows(FilmSurvey& survey, const Film& rows) {
   for (std::uint32_t p = 0; p < rows.pixels(); ++p) {
     const std::uint64_t samples = rows.samples(p);
+    survey.samples += samples;
     survey.most_samples = std::max(survey.most_samples, samples);
     survey.least_samples = std::min(survey.least_samples, samples);
   }

@@ -15,6 +15,7 @@ struct FilmSurvey {
     std::size_t most = 1;          // things of one pixel, as matte_channels counts them
     double covered = 0, kept = 0;  // by all things, and by those that have a place
   };
+  std::uint64_t samples = 0;                                          // of all pixels
   std::uint64_t most_samples = 0, least_samples = ~std::uint64_t{0};  // of a pixel
   std::array<Mattes, layer_count> mattes;                             // by layer
   WideSum light;           // of a film with a clamp, the Y that is left
