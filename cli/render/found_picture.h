@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// What lies under the name of a frame's picture.
+// Says what lies under the name of a frame's picture.
 enum class Found {
   missing,  // nothing, or what a render has not finished
   whole,    // the picture that is asked for

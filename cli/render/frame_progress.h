@@ -9,7 +9,7 @@
 
 namespace vitrail {
 
-// What a user sees of a list: a line before each frame, or an event of JSON. On rank 0.
+// Tells the user of rank 0 how far a list is: by a line before each frame, or by an event of JSON.
 class FrameProgress {
  public:
   FrameProgress(const FrameList& list, const RenderArguments& command);
@@ -20,7 +20,7 @@ class FrameProgress {
 
   // Before the frame is rendered.
   void begins(std::size_t i);
-  // In place of rendering it: "is there and stays".
+  // Says what becomes of a frame that is not rendered: "is there and stays".
   void says(std::size_t i, const std::string& what) const;
 
  private:

@@ -28,7 +28,7 @@ class FrameRecord {
   // Reads the file, if it is there. Throws Error where it is no such file.
   explicit FrameRecord(std::filesystem::path file);
 
-  // As others have written it meanwhile.
+  // Takes what others have written meanwhile.
   void read_again();
 
   // In what the picture is other work than what is asked for; "" where it is the same.

@@ -24,7 +24,7 @@ struct Frame {
 // Throws Error where there is no frame.
 std::vector<Frame> read_frames(const std::filesystem::path& file);
 
-// Whether a word begins an option: "--seed" and "-o", but not "-1".
+// Returns whether a word begins an option: "--seed" and "-o", but not "-1".
 bool is_option(const std::string& word);
 
 // Throws Error with the line and column where an option is not one that a frame may have.

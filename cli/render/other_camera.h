@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of another scene than the bundle's, the camera alone.
+// Reads the camera alone of another scene than the bundle's.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@ namespace vitrail {
 // The views of scenes as text, by their files: read once for all frames.
 using KnownViews = std::map<std::filesystem::path, std::string>;
 
-// What view_from_text takes. vitrail-partition reads the scene; what it writes lies beside `output` for a
-// moment. Throws what run_program does.
+// Returns what view_from_text takes. vitrail-partition reads the scene; what it writes lies beside `output`
+// for a moment. Throws what run_program does.
 std::string text_of_view(const std::filesystem::path& scene, const std::filesystem::path& output,
                          KnownViews& known);
 

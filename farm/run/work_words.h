@@ -21,8 +21,8 @@ struct WorkWords {
 // Of a film with this key and these settings: picture_fields, and the seed.
 WorkWords words_of_work(const FilmKey& key, const FilmSettings& film, std::string about);
 
-// Of the film that the options ask for, and how many samples that is to have. `bundle`: its manifest. Throws
-// as read_job_manifest does.
+// Describes the film that the options ask for, and says how many samples that is to have. `bundle`: its
+// manifest. Throws as read_job_manifest does.
 WorkWords words_of_work(const RenderOptions& options, const Manifest& bundle);
 
 // In what other work this is: "depth: 3, this command has 4; …"; "" where it is the same.

@@ -30,8 +30,8 @@ void agree(Transport& transport, const std::function<void()>& step);
 // The same of a step of rank 0 alone, which may take as long as it likes, as other programs do.
 void agree_on_root(Transport& transport, const std::function<void()>& step);
 
-// How many times all ranks have failed together, by what one of them threw. Whoever catches that can go on
-// with another step where the number has grown: the ranks are in step.
+// Returns how many times all ranks have failed together, by what one of them threw. Whoever catches that can
+// go on with another step where the number has grown: the ranks are in step.
 std::uint64_t agreed_failures();
 
 // Throws `own` where it is set, OtherRankFailed elsewhere.

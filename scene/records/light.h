@@ -114,9 +114,9 @@ struct EnvironmentLight {
   bool operator==(const EnvironmentLight&) const = default;
 };
 
-// How bright a sky is in one direction beside another, by the angles θ from the zenith and γ from the sun:
-// (1 + a·e^(b/cos θ)) · (base + c·e^(d·γ) + e·cos²γ). In ISO 15469 base is 1 − c·e^(d·π/2), for Perez 1. Its
-// spectrum is D65.
+// Tells how bright a sky is in one direction beside another, by the angles θ from the zenith and γ from the
+// sun: (1 + a·e^(b/cos θ)) · (base + c·e^(d·γ) + e·cos²γ). In ISO 15469 base is 1 − c·e^(d·π/2), for Perez 1.
+// Its spectrum is D65.
 struct SkyDistribution {
   double a = 0, b = -1, base = 1, c = 0, d = -1, e = 0;
   double diffuse_lx = 0;  // on a horizontal plane, where the light's sky_scale is 1
