@@ -2,7 +2,6 @@
 #include "cli/render/found_picture.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -12,6 +11,7 @@
 #include "cli/common/run_program.h"
 #include "farm/run/checkpoint.h"
 #include "film/own_picture.h"
+#include "scene/system/temporary_folder.h"
 
 namespace vitrail {
 
@@ -48,14 +48,13 @@ std::optional<Layout> layout_of_table(const fs::path& table) {
 
 // Decodes all of it. Nothing where that fails, and why.
 std::optional<Layout> layout_of_picture(const fs::path& picture, std::string& why) {
-  const fs::path answer = fs::temp_directory_path() / fmt::format("vitrail-layout-{}", ::getpid());
+  const TemporaryFolder folder;
+  const fs::path answer = folder.file("layout");
   run_program("vitrail-develop", {"--layout-of", picture.string()}, nullptr, answer);
   Layout layout;
   std::ifstream in(answer);
   const bool is_one = static_cast<bool>(in >> layout.width >> layout.height >> layout.channels);
   if (!is_one) std::getline(std::ifstream(answer), why);
-  std::error_code ignored;
-  fs::remove(answer, ignored);
   return is_one ? std::optional(layout) : std::nullopt;
 }
 

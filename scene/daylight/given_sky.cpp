@@ -185,10 +185,7 @@ GivenSky parse_sky(const std::string& words) {
     if (!keys.insert(key).second) throw UsageError(fmt::format("--sky: {} is given twice", key));
     set(sky, given, key, at == std::string::npos ? parts[i] : parts[i].substr(at + 1));
   }
-  if (const auto of = measured_sky(sky, given)) {
-    take(sky.light, *of);
-    sky.is_clear = false;
-  }
+  if (const auto of = measured_sky(sky, given)) take(sky.light, *of);
   return sky;
 }
 

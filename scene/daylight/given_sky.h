@@ -25,7 +25,6 @@ struct GivenSky {
   LocalTime time;
   SunPosition sun;
   std::string up, north;  // axes of the world; up "": the camera's, north "": −z where y is up, else +y
-  bool is_clear = true;   // by its turbidity, not by a distribution
   SkyLight light;         // but for light_to_world
 };
 // Throws UsageError.

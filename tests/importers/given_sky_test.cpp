@@ -64,14 +64,14 @@ TEST(GivenSky, IsAsBrightAsItWasMeasured) {
     const SkyModel model(sky.light);
     EXPECT_NEAR(lux(model.sun_irradiance(model.to_sun())), 41200, 5) << type;
     EXPECT_NEAR(lux(model.sky_irradiance()), 24300, 5) << type;
-    EXPECT_FALSE(sky.is_clear);
+    EXPECT_TRUE(sky.light.distribution->has_value());
   }
   const SkyModel half(parse_sky(place + "direct=41200lx,diffuse=24300lx,sun=0.5,sky=2").light);
   EXPECT_NEAR(lux(half.sun_irradiance(half.to_sun())), 20600, 5);
   EXPECT_NEAR(lux(half.sky_irradiance()), 48600, 10);
   const SkyModel overcast(parse_sky(place + "cie=overcast").light);
   EXPECT_FALSE(overcast.has_sun());
-  EXPECT_TRUE(parse_sky(place + "turbidity=4").is_clear);
+  EXPECT_FALSE(parse_sky(place + "turbidity=4").light.distribution->has_value());
 }
 
 TEST(GivenSky, TakesAnHourOfAWeatherFile) {
