@@ -16,11 +16,10 @@ class DrainTime {
   }
   bool known() const { return known_; }
 
-  // A quarter more, and in proportion where more rays are alive: each may want a domain of its own. 0 where
-  // nothing was measured.
+  // In proportion where more rays are alive: each may want a domain of its own. 0 where nothing was measured.
   double expected_s(std::int64_t rays_alive) const {
     const double share = static_cast<double>(rays_alive) / static_cast<double>(rays_);
-    return 1.25 * seconds_ * std::max(1.0, share);
+    return seconds_ * std::max(1.0, share);
   }
 
  private:

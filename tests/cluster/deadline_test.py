@@ -37,7 +37,7 @@ def main():
 
         kept = jobs = 0
         for delay_s in (0, .005, .02) if LONG else (0, .005):
-            for limit_s in (10, 40) if LONG else (16,):
+            for limit_s in (10, 40) if LONG else (24,):
                 time_s = limit_s if LONG else limit_s / 2
                 status, took_s = render("time.film", delay_s, "--force", "--time", time_s)
                 right = status == 0 and took_s <= LATE * time_s
