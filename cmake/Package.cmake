@@ -39,6 +39,6 @@ set(CPACK_DEBIAN_IMAGES_PACKAGE_NAME vitrail-images)
 set(CPACK_DEBIAN_IMAGES_PACKAGE_DEPENDS "vitrail (= ${PROJECT_VERSION})")
 set(CPACK_COMPONENT_IMAGES_DESCRIPTION
 "What Vitrail needs where scenes have images or are FBX, COLLADA or 3DS, and
-where pictures are compared or written as JPEG or TIFF: OpenImageIO, OpenColorIO
+where pictures are not OpenEXR or PNG, or PNG is compared: OpenImageIO, OpenColorIO
 and assimp.")
 include(CPack)

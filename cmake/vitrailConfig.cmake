@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # find_package(vitrail): the libraries vitrail::scene, vitrail::importers, vitrail::partitioner, vitrail::tracer …
 include(CMakeFindDependencyMacro)
-foreach(package Threads TBB fmt nlohmann_json FastFloat pugixml ZLIB PNG JPEG OpenMesh)
+foreach(package Threads TBB fmt nlohmann_json FastFloat pugixml ZLIB PNG JPEG OpenEXR OpenMesh)
   find_dependency(${package})
 endforeach()
 # Of single libraries: vitrail::tracer needs Embree, vitrail::farm MPI (and the language C), vitrail::meshes and vitrail::solids CGAL.

@@ -11,6 +11,7 @@
 
 #include "film/image_io.h"
 #include "film/picture_attributes.h"
+#include "film/plain_exr.h"
 #include "images/image_codec.h"
 #include "scene/records/film_layers.h"
 #include "scene/system/diagnostics.h"
@@ -94,8 +95,10 @@ Picture read_picture(const std::filesystem::path& path) {
   const std::size_t matrices = file.attributes.size();
   for (const OriginMatrix& m : origin_matrices) file.attributes.emplace_back(m.name, std::array<float, 16>{});
   std::vector<float> values;
-  if (const std::string problem = image_codec().decode_picture(path.string(), file, values); !problem.empty())
-    throw Error(fmt::format("cannot read the image: {}", problem), {path.string()});
+  if (!read_plain_exr(path, file, values))
+    if (const std::string problem = image_codec().decode_picture(path.string(), file, values);
+        !problem.empty())
+      throw Error(fmt::format("cannot read the image: {}", problem), {path.string()});
   const auto number = [&](std::size_t at) {
     return static_cast<double>(std::get<float>(file.attributes[at].second));
   };

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <random>
 
+#include "images/image_files.h"
 #include "scene/spectra/color.h"
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
@@ -220,6 +221,32 @@ TEST(ImageIo, PngOnAFullDisk) {
                 ::testing::AllOf(::testing::HasSubstr("a.png"), ::testing::HasSubstr("No space left")));
   }
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+}
+
+TEST(ImageIo, PlainExrNeedsNoImageLibrary) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // a process that has loaded nothing yet
+  const test::TemporaryDirectory directory;
+  const auto read = [&] {
+    write_picture(directory / "a.exr", picture());
+    const bool is_right = read_picture(directory / "a.exr").rgb == picture().rgb;
+    std::_Exit(is_right && !image_library_is_loaded() ? 0 : 1);
+  };
+  EXPECT_EXIT(read(), ::testing::ExitedWithCode(0), "");
+}
+
+TEST(ImageIo, ExrThatIsCutIsNamed) {
+  const test::TemporaryDirectory directory;
+  write_picture(directory / "a.exr", picture());
+  const std::string whole = bytes(directory / "a.exr");
+  for (std::size_t size = 0; size < whole.size(); size += 7) {
+    std::ofstream(directory / "b.exr", std::ios::binary) << whole.substr(0, size);
+    try {
+      read_picture(directory / "b.exr");
+      ADD_FAILURE() << size;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.location.file, (directory / "b.exr").string());
+    }
+  }
 }
 
 TEST(ImageIo, WhatCannotBeReadIsNamed) {

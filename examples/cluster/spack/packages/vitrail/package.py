@@ -27,6 +27,7 @@ class Vitrail(CMakePackage):
     depends_on("zlib-api")
     depends_on("libpng")
     depends_on("libjpeg-turbo")
+    depends_on("openexr@3:")
     depends_on("freetype")
     depends_on("pugixml")
     depends_on("openmesh")
