@@ -63,14 +63,10 @@ class Launchers : public PartitionedBox {
     std::istringstream pids(run("pgrep -f '[v]itrail-render .*" + path(film) + "'").output);
     std::vector<pid_t> ranks;
     for (pid_t pid; pids >> pid;)
-      if (const std::string line = text_of_command(pid);
+      if (const std::string line = test::process_text(pid, "cmdline");
           line.starts_with(bin_dir()) && line.find("--restarts") == std::string::npos)
         ranks.push_back(pid);
     return ranks;
-  }
-  static std::string text_of_command(pid_t pid) {
-    std::ifstream in(fmt::format("/proc/{}/cmdline", pid));
-    return {std::istreambuf_iterator<char>(in), {}};
   }
 };
 

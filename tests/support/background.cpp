@@ -22,12 +22,13 @@ bool is_mpirun(pid_t process) {
   return std::ifstream(fmt::format("/proc/{}/comm", process)) >> name && name == "mpirun";
 }
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 }  // namespace
+
+std::string process_text(pid_t process, const char* name) {
+  std::ostringstream text;
+  text << std::ifstream(fmt::format("/proc/{}/{}", process, name)).rdbuf();  // iterators would throw
+  return text.str();
+}
 
 Background::Background(const std::string& command) : pid_(::fork()) {
   if (pid_ != 0) return;
@@ -68,16 +69,15 @@ std::vector<pid_t> Background::ranks() const {
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     const auto pid = static_cast<pid_t>(std::atol(entry.path().filename().c_str()));
     if (pid <= 0 || pid == pid_) continue;
-    const std::string stat = text_of(entry.path() / "stat");  // pid (name) state parent group …
+    const std::string stat = process_text(pid, "stat");  // pid (name) state parent group …
     const auto name_end = stat.rfind(')');
     if (name_end == std::string::npos) continue;
     char state = 0;
     pid_t parent = 0, group = 0;
     std::istringstream(stat.substr(name_end + 1)) >> state >> parent >> group;
     const bool lives = std::string_view("DRST").find(state) != std::string_view::npos;
-    if (lives &&
-        (parent == pid_ ||
-         (group == pid_ && text_of(entry.path() / "cmdline").find("vitrail-render") != std::string::npos)))
+    if (lives && (parent == pid_ || (group == pid_ && process_text(pid, "cmdline").find("vitrail-render") !=
+                                                          std::string::npos)))
       found.push_back(pid);
   }
   return found;

@@ -11,6 +11,9 @@
 
 namespace vitrail::test {
 
+// The file /proc/PROCESS/NAME. Empty where the process has ended, also between the opening and the reading.
+std::string process_text(pid_t process, const char* name);
+
 // A command started in the background, in a process group of its own; nothing of its output is kept.
 class Background {
  public:
