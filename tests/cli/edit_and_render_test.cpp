@@ -228,7 +228,7 @@ TEST_F(EditAndRender, SeveralRanksDoTheSame) {
 
 // The supervisor watches the same lock, and a rank's death loses nothing.
 TEST_F(EditAndRender, ARestartGoesOn) {
-  Background job(in_background("-o x.png --spp 20000 --restarts 2"));
+  Background job(in_background("-o x.png --spp 6000 --restarts 2"));
   while (job.running() && !exists("x.png.partial")) std::this_thread::sleep_for(5ms);
   for (const pid_t rank : job.ranks())
     if (rank != job.pid()) ::kill(rank, SIGKILL);
