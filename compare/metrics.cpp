@@ -38,8 +38,9 @@ double symmetric_relative_error(double a, double b) {
 
 void require_same_size(const Image& image, const Image& reference) {
   if (image.width != reference.width || image.height != reference.height)
-    throw Error(fmt::format("the images differ in size: {}×{} and {}×{} pixels", image.width, image.height,
-                            reference.width, reference.height));
+    throw Error(fmt::format(
+        "the images differ in size: {}×{} and {}×{} pixels; vitrail compare --resize compares them even so",
+        image.width, image.height, reference.width, reference.height));
 }
 
 std::vector<double> error_map(const Image& image, const Image& reference,

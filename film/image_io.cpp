@@ -127,6 +127,7 @@ void write_hdr(const std::filesystem::path& path, const Picture& picture) {
   std::ranges::transform(picture.rgb.values, pixels.begin(), [](float v) { return std::max(v, 0.0f); });
   PictureFile file = file_of(picture);
   file.channels = {{"R"}, {"G"}, {"B"}};
+  if (!picture.origin.software.empty()) file.attributes.emplace_back("Software", picture.origin.software);
   write_file(path, file, pixels.data());
 }
 

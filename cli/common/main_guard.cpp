@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "cli/common/unknown_options.h"
+#include "cli/common/command_line.h"
 #include "cli/help/completion.h"
 #include "cli/help/describe.h"
 #include "cli/help/help_text.h"
@@ -137,23 +137,26 @@ int run_guarded(CLI::App& app, int argc, char** argv, const std::function<int()>
   std::string input;
   app.set_version_flag("-V,--version", "vitrail " VITRAIL_VERSION, "print the version");
   app.set_help_flag("-h,--help", "print this help");
+  app.set_help_all_flag("--help-all", "print all options");
   let_the_last_count(app);
   return run(input, [&] {
     try {
       if (argc == 3 && std::string(argv[1]) == "--describe")
         if (const std::string text = description(app, argv[2]); !text.empty()) return answer(text);
-      app.parse(argc, argv);
+      std::vector<std::string> words = as_parsed(app, {argv + 1, argv + argc});
+      std::ranges::reverse(words);  // as CLI11 takes them
+      app.parse(std::move(words));
       input = first_input(app);
     } catch (const CLI::CallForHelp&) {
+      return answer(short_help_text(describe(app), help_width()));
+    } catch (const CLI::CallForAllHelp&) {
       return answer(help_text(describe(app), help_width()));
     } catch (const CLI::CallForVersion& e) {
       return answer(std::string(e.what()) + '\n');
     } catch (const CLI::Success&) {  // an option that answers by itself, as develop --find-denoiser
       return answer({});
-    } catch (const CLI::ExtrasError&) {
-      throw UsageError(fmt::format("{} (see {} --help)", about_unexpected(app), app.get_name()));
     } catch (const CLI::ParseError& e) {
-      throw UsageError(fmt::format("{} (see {} --help)", e.what(), app.get_name()));
+      throw UsageError(fmt::format("{} (see {} --help)", about(app, e), app.get_name()));
     }
     return body();
   });

@@ -72,10 +72,13 @@ std::vector<std::string> names_of(const CLI::App& app) {
 
 std::string about_unexpected(const CLI::App& app) {
   const std::vector<std::string> extras = app.remaining();
-  const auto option = std::find_if(extras.begin(), extras.end(),
-                                   [](const std::string& word) { return word.starts_with('-'); });
-  if (option == extras.end())
-    return fmt::format("'{}' is one argument too many", extras.empty() ? "" : extras.front());
+  const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& word) {
+    return word.starts_with('-') && word != "--";
+  });
+  if (option == extras.end()) {
+    const auto word = std::find_if(extras.begin(), extras.end(), [](const auto& w) { return w != "--"; });
+    return fmt::format("'{}' is one argument too many", word == extras.end() ? "" : *word);
+  }
   const std::string name = option->substr(0, option->find('='));
   for (const ForeignOption& foreign : foreign_options)
     if (name == foreign.name) return fmt::format("there is no option {}: {}", name, foreign.here);

@@ -33,6 +33,8 @@ struct Command {
   std::string summary;
   std::vector<CommandGroup> groups;  // none is empty
   std::vector<Example> examples;
+  // Again the options that nearly everyone needs. Empty where all are few.
+  std::vector<CommandOption> everyday{};
 
   std::string usage() const;    // "vitrail render [OPTION]... INPUT"
   std::string program() const;  // "vitrail-render"

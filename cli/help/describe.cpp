@@ -2,6 +2,7 @@
 #include "cli/help/describe.h"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 
 #include "cli/help/headings.h"
@@ -77,6 +78,10 @@ const CLI::Option* find(const CLI::App& app, const std::string& name) {
 
 bool is_hidden(const CLI::Option& option) { return option.get_group().empty(); }
 
+bool is_general(const CLI::App& app, const CLI::Option* option) {
+  return option == app.get_help_ptr() || option == app.get_help_all_ptr() || option == app.get_version_ptr();
+}
+
 }  // namespace
 
 Command describe(const CLI::App& app) {
@@ -100,9 +105,15 @@ Command describe(const CLI::App& app) {
   }
   CommandGroup others{other_heading, {}}, general{general_heading, {}};
   for (const CLI::Option* option : app.get_options())
-    add(option == app.get_help_ptr() || option == app.get_version_ptr() ? general : others, option, "");
+    add(is_general(app, option) ? general : others, option, "");
   for (const CommandGroup& group : {others, general})
     if (!group.options.empty()) command.groups.push_back(group);
+  const std::vector<CommandOption> all = command.all();
+  std::istringstream everyday{std::string(everyday_options(command.verb()))};
+  for (std::string word; everyday >> word;)
+    std::ranges::copy_if(all, std::back_inserter(command.everyday), [&](const CommandOption& o) {
+      return std::ranges::find(o.names, o.is_argument ? word : "--" + word) != o.names.end();
+    });
   if (const Verb* verb = find_verb(command.verb()))
     command.summary = verb->summary, command.examples = verb->examples;
   return command;

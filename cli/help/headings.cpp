@@ -18,7 +18,8 @@ constexpr Heading meshes{"Changes to its meshes",
 
 const std::vector<Heading> of_render{
     {"What to render",
-     "input=SCENE|BUNDLE width=PIXELS height=PIXELS scale=FACTOR crop=X0,X1,Y0,Y1 max-depth integrator "
+     "input=SCENE|BUNDLE output=FILE width=PIXELS height=PIXELS scale=FACTOR crop=X0,X1,Y0,Y1 max-depth "
+     "integrator "
      "hide-emitters "
      "camera=FILE look-at=X,Y,Z,X,Y,Z fov=DEGREES frames=FILE range=NUMBERS sensors=FILE "
      "set=NAME.PROPERTY=VALUE"},
@@ -29,7 +30,7 @@ const std::vector<Heading> of_render{
     {"On how many", "threads distribution homes=FILE patience=SECONDS"},
     {"In how much memory", "memory=SIZE"},
     {"What to write",
-     "output=FILE film=FILE preview=FILE display-server=HOST:PORT aov=LAYERS aov-space alpha light-groups "
+     "film=FILE preview=FILE display-server=HOST:PORT aov=LAYERS aov-space alpha light-groups "
      "light-group=NAME=LIGHTS spectral=BINS stats=FILE profile=FILE trace=FILE "
      "progress quiet"},
     {"How to sample",
@@ -41,17 +42,18 @@ const std::vector<Heading> of_render{
 };
 
 const std::vector<Heading> of_partition{
-    {"What to cut, and into how many", "input=SCENE domains domain-bytes=SIZE profile=FILE flatten"},
+    {"What to cut, and into how many",
+     "input=SCENE output=BUNDLE domains domain-bytes=SIZE profile=FILE flatten"},
     {"With what", "memory=SIZE threads"},
-    {"What to write", "output=BUNDLE aov=LAYERS pack=SIZE stats=FILE no-sync force progress quiet"},
+    {"What to write", "aov=LAYERS pack=SIZE stats=FILE no-sync force progress quiet"},
     scene,
     meshes,
     {"To measure what partitioning saves", "require-everything median-cuts"},
 };
 
 const std::vector<Heading> of_convert{
-    {"What to convert", "files=FILE to jobs again"},
-    {"What to write", "output=FILE pack report=FILE check peer=PROGRAM peer-of-input=PROGRAM quiet"},
+    {"What to convert", "files=FILE output=FILE to jobs again"},
+    {"What to write", "pack report=FILE check peer=PROGRAM peer-of-input=PROGRAM quiet"},
     scene,
     meshes,
 };
@@ -126,6 +128,16 @@ std::span<const Heading> headings(std::string_view verb) {
   if (verb == "sky") return of_sky;
   if (verb == "spectrum") return of_spectrum;
   if (verb == "verify") return of_verify;
+  return {};
+}
+
+std::string_view everyday_options(std::string_view verb) {
+  if (verb == "render")
+    return "input output quality spp denoise width height camera look-at sky set time memory threads resume "
+           "force "
+           "dry-run quiet";
+  if (verb == "partition") return "input output domains memory threads sky force quiet";
+  if (verb == "convert") return "files output to check report sky camera quiet";
   return {};
 }
 

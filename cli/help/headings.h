@@ -19,4 +19,8 @@ struct Heading {
 // Empty of verbs with few options. What no heading names stands under "Other options".
 std::span<const Heading> headings(std::string_view verb);
 
+// The options that nearly everyone needs, as longest names with spaces between, in the order of the help.
+// Empty of verbs whose whole help is short.
+std::string_view everyday_options(std::string_view verb);
+
 }  // namespace vitrail

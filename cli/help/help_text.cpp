@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/help/help_text.h"
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -56,7 +57,17 @@ std::string example_text(std::span<const Example> examples, std::size_t width) {
   return text;
 }
 
-std::string help_text(const Command& command, std::size_t width) {
+namespace {
+
+std::string group_text(const std::string& heading, std::span<const CommandOption> options,
+                       std::size_t width) {
+  std::string text = '\n' + heading + ":\n";
+  for (const CommandOption& option : options)
+    text += entry_text(option.joined_names(), option.full_text(), text_column, width);
+  return text;
+}
+
+std::string head_text(const Command& command, std::size_t width) {
   std::string text;
   for (const std::string& line : wrapped(command.name + ": " + command.summary, width)) text += line + '\n';
   text += '\n';
@@ -66,12 +77,21 @@ std::string help_text(const Command& command, std::size_t width) {
     indent = "  ";
   }
   if (!command.examples.empty()) text += "\nExamples:\n" + example_text(command.examples, width);
-  for (const CommandGroup& group : command.groups) {
-    text += '\n' + group.heading + ":\n";
-    for (const CommandOption& option : group.options)
-      text += entry_text(option.joined_names(), option.full_text(), text_column, width);
-  }
   return text;
+}
+
+}  // namespace
+
+std::string help_text(const Command& command, std::size_t width) {
+  std::string text = head_text(command, width);
+  for (const CommandGroup& group : command.groups) text += group_text(group.heading, group.options, width);
+  return text;
+}
+
+std::string short_help_text(const Command& command, std::size_t width) {
+  if (command.everyday.empty()) return help_text(command, width);
+  return head_text(command, width) + group_text("What nearly everyone needs", command.everyday, width) +
+         fmt::format("\nAll {} options: {} --help-all\n", command.all().size(), command.name);
 }
 
 std::size_t help_width() {

@@ -86,6 +86,7 @@ int main(int argc, char** argv) {
       ->check(more_than_0);
   app.add_option("--seconds", options.seconds,
                  "recommend the most accurate setting that renders the whole picture within this time here")
+      ->transform(plain_seconds)
       ->check(more_than_0);
   app.add_option("--bias", options.most_bias,
                  "recommend nothing that may change the picture's mean light by more than this share, "
@@ -95,6 +96,7 @@ int main(int argc, char** argv) {
   app.add_option("--budget", options.budget_s,
                  "seconds for all renders, roughly; too small a budget is exceeded. Rendering the "
                  "recommendation with its own samples may take as long again")
+      ->transform(plain_seconds)
       ->check(more_than_0)
       ->capture_default_str();
   app.add_option(

@@ -11,9 +11,10 @@ namespace {
 
 void declare_files(CLI::App& app, RenderArguments& a) {
   app.add_option("input", a.input, "a bundle (NAME.vit) or a scene, which is partitioned first")->required();
-  app.add_option("-o,--output,--outfile", a.output,
-                 "picture (.exr, .png, .jpg, .tif) or film (.film) to write; default: the scene's name for "
-                 "it, else the input's name with .exr, in this folder");
+  app.add_option(
+      "-o,--output,--outfile", a.output,
+      "picture (.exr, .hdr, .png, .jpg, .tif, .webp) or film (.film) to write; default: the scene's name for "
+      "it, else the input's name with .exr, in this folder");
   app.add_option("--film", a.film, "keep the film under this name (.film), to add samples later");
 }
 
@@ -110,7 +111,7 @@ void declare_resources(CLI::App& app, RenderArguments& a) {
                  "most memory a rank may use, e.g. 512M or 2G; default: what Slurm or a control group gives, "
                  "else no limit");
   app.add_option("-t,--threads,--nthreads", o.resources.threads,
-                 "threads a rank; default: one a processor allowed")
+                 "threads a rank, at most 64 or four a processor; default: one a processor allowed")
       ->check(CLI::Range(1, 4096));
   declare_distribution(app, o.resources.distribution, o.resources.homes);
 }
@@ -155,9 +156,11 @@ void declare_job(CLI::App& app, RenderArguments& a) {
   app.add_option("--patience", o.resources.patience_s,
                  "seconds after which a rank or a file without an answer ends the job, with its name; "
                  "default: 600, 0: never")
+      ->transform(plain_seconds)
       ->check(not_below_0);
   app.add_option("--checkpoint-every", o.resources.checkpoint_every_s,
                  "seconds between checkpoints; 0: only on signals")
+      ->transform(plain_seconds)
       ->check(not_below_0)
       ->capture_default_str();
   app.add_flag("--resume", o.outputs.resume,
@@ -167,8 +170,11 @@ void declare_job(CLI::App& app, RenderArguments& a) {
                "begin anew, and replace any film, checkpoint or picture that has the output's name");
   app.add_option(
          "--time", o.resources.time_limit_s,
-         "end after this many seconds, with partitioning and writing the picture. Without --spp it uses all "
-         "of them. Tracing gets at least half, and finishes some samples. The same command then continues")
+         "end after this many seconds, or a time such as 15m or 1h30m, with partitioning and writing the "
+         "picture. Without --spp it uses all of it. Tracing gets at least half, and finishes some samples. "
+         "The "
+         "same command then continues")
+      ->transform(plain_seconds)
       ->check(more_than_0);
   app.add_flag("--dry-run", o.outputs.dry_run,
                "render for a few seconds, write nothing, and print the memory and time of the whole render");

