@@ -41,11 +41,16 @@ PictureFile file_of(const Picture& picture) {
           .attributes = {{"DateTime", date_as_text()}}};
 }
 
-void write_file(const std::filesystem::path& file, const PictureFile& picture, const void* pixels) {
+std::vector<std::byte> encoded(const std::filesystem::path& file, const PictureFile& picture,
+                               const void* pixels) {
   std::vector<std::byte> bytes;
   if (const std::string problem = image_codec().encode_picture(file.string(), picture, pixels, bytes);
       !problem.empty())
     throw MachineError(fmt::format("cannot write {}: {}", file.string(), problem));
+  return bytes;
+}
+
+void write_bytes(const std::filesystem::path& file, std::span<const std::byte> bytes) {
   AtomicFile target(file);
   target.write(bytes);
   target.commit();
@@ -121,14 +126,21 @@ bool is_tiff(const std::filesystem::path& file) {
   return file.extension() == ".tif" || file.extension() == ".tiff";
 }
 
-// Radiance's RGBE: 8 bits a component and 8 of their common exponent; what is below 0 is 0.
+// Radiance's RGBE: 8 bits a component and 8 of their common exponent; what is below 0 is 0. OpenImageIO
+// leaves out who made it: a line of the header, after its first.
 void write_hdr(const std::filesystem::path& path, const Picture& picture) {
   std::vector<float> pixels(picture.rgb.values.size());
   std::ranges::transform(picture.rgb.values, pixels.begin(), [](float v) { return std::max(v, 0.0f); });
   PictureFile file = file_of(picture);
   file.channels = {{"R"}, {"G"}, {"B"}};
-  if (!picture.origin.software.empty()) file.attributes.emplace_back("Software", picture.origin.software);
-  write_file(path, file, pixels.data());
+  std::vector<std::byte> bytes = encoded(path, file, pixels.data());
+  if (!picture.origin.software.empty()) {
+    const std::string line = "SOFTWARE=" + picture.origin.software + "\n";
+    const auto first_end = std::ranges::find(bytes, std::byte{'\n'});
+    const auto text = std::as_bytes(std::span(line));
+    if (first_end != bytes.end()) bytes.insert(first_end + 1, text.begin(), text.end());
+  }
+  write_bytes(path, bytes);
 }
 
 template <class Integer>
@@ -145,7 +157,7 @@ void write_integers(const std::filesystem::path& path, const Picture& picture) {
   if (const std::string comment = comment_on(picture.origin); !comment.empty())
     file.attributes.emplace_back("ImageDescription", comment);
   if (!picture.origin.software.empty()) file.attributes.emplace_back("Software", picture.origin.software);
-  write_file(path, file, pixels.data());
+  write_bytes(path, encoded(path, file, pixels.data()));
 }
 
 // With what it says of itself; `top`: its first rows.

@@ -9,6 +9,7 @@
 #include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/mesh_options.h"
+#include "cli/common/own_output.h"
 #include "cli/common/quadric_counts.h"
 #include "cli/convert/check_conversion.h"
 #include "cli/convert/conversion_report.h"
@@ -18,6 +19,7 @@
 #include "importers/export.h"
 #include "importers/import.h"
 #include "importers/reading/back_to_back_faces.h"
+#include "importers/writing/own_scene.h"
 #include "importers/writing/packed_files.h"
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/system/input_files.h"
@@ -33,7 +35,7 @@ struct Arguments {
   std::filesystem::path input, output, report;
   std::string format, check, peer, input_peer;
   int at_once = 0;
-  bool strict = false, quiet = false, again = false, pack = false;
+  bool strict = false, quiet = false, again = false, pack = false, force = false;
   ImportArguments imports;
   MeshOptions meshes;
 };
@@ -70,6 +72,7 @@ void declare(CLI::App& app, Arguments& a) {
       "copy the images, tables and volumes that the scene refers to beside the output, into OUT-files/");
   declare_import_options(app, a.imports);
   declare_mesh_options(app, a.meshes);
+  app.add_flag("--force", a.force, "replace a file that does not say that vitrail made it");
   app.add_flag("--strict", a.strict, "exit with status 3 if anything is not exact");
   app.add_flag("--quiet", a.quiet, "print problems only");
 }
@@ -114,6 +117,7 @@ int run(const Arguments& a) {
   if (has_materials_by_side(a.output)) join_faces_back_to_back(imported);
   note_referenced_files(imported.scene);
   require_outputs(a);  // other than all that was read
+  require_own(a.output, is_own_scene, a.force);
   Diagnostics& diagnostics = imported.diagnostics;
   const bool refused = a.strict && !diagnostics.empty();
   const std::string quadrics = quadric_counts(imported.scene);

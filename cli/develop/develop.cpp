@@ -10,6 +10,7 @@
 
 #include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
+#include "cli/common/own_output.h"
 #include "cli/common/rectangle.h"
 #include "cli/develop/chosen_layers.h"
 #include "cli/develop/develop_arguments.h"
@@ -21,6 +22,7 @@
 #include "film/group_mix.h"
 #include "film/image_io.h"
 #include "film/layer_picture.h"
+#include "film/own_picture.h"
 #include "film/picture_extent.h"
 #include "film/sensor_readings.h"
 #include "film/tone_curves.h"
@@ -253,6 +255,7 @@ int main(int argc, char** argv) {
   return run_guarded(app, argc, argv, [&] {
     require_agreement(a);
     require_place(a.output);
+    if (!a.writes(".film")) require_own(a.output, is_own_picture, a.force);
     return develop_all(a);
   });
 }

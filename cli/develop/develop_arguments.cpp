@@ -88,6 +88,8 @@ void declare(CLI::App& app, DevelopArguments& a) {
                                          throw CLI::Success();
                                        })
       ->group("");
+  app.add_flag("--force", a.force,
+               "replace a file that does not say that vitrail made it, as a .webp never does");
   app.add_flag("--strict", a.strict, "refuse films that are not finished");
   app.add_flag("--quiet", a.quiet, "print problems only");
 }

@@ -18,7 +18,7 @@ struct DevelopArguments {
   double white_balance_K = 0;
   int bits = 0;
   bool with_variance = false, spectral = false, logarithmic = false, denoised = false;
-  bool quiet = false, strict = false;
+  bool quiet = false, strict = false, force = false;
 
   bool writes(const char* extension) const { return std::filesystem::path(output).extension() == extension; }
   // Formats that hold the light of the scene, not that of a screen.

@@ -53,7 +53,7 @@ const std::vector<Heading> of_partition{
 
 const std::vector<Heading> of_convert{
     {"What to convert", "files=FILE output=FILE to jobs again"},
-    {"What to write", "pack report=FILE check peer=PROGRAM peer-of-input=PROGRAM quiet"},
+    {"What to write", "pack report=FILE check peer=PROGRAM peer-of-input=PROGRAM force quiet"},
     scene,
     meshes,
 };
@@ -70,7 +70,7 @@ const std::vector<Heading> of_develop{
     {"How it looks",
      "groups=NAME=WEIGHT,… exposure=STOPS white-balance=KELVIN tone false-color=MAXIMUM log denoise "
      "find-denoiser"},
-    {"What to write", "output=FILE bits variance spectral quiet"},
+    {"What to write", "output=FILE bits variance spectral force quiet"},
 };
 
 const std::vector<Heading> of_inspect{

@@ -13,7 +13,7 @@ void declare_files(CLI::App& app, RenderArguments& a) {
   app.add_option("input", a.input, "a bundle (NAME.vit) or a scene, which is partitioned first")->required();
   app.add_option(
       "-o,--output,--outfile", a.output,
-      "picture (.exr, .hdr, .png, .jpg, .tif, .webp) or film (.film) to write; default: the scene's name for "
+      "picture (.exr, .hdr, .png, .jpg, .tif) or film (.film) to write; default: the scene's name for "
       "it, else the input's name with .exr, in this folder");
   app.add_option("--film", a.film, "keep the film under this name (.film), to add samples later");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render/picture_output.h"
 
+#include "cli/common/own_output.h"
 #include "cli/common/run_program.h"
 #include "farm/run/checkpoint.h"
 #include "film/alpha.h"
@@ -20,14 +21,6 @@ namespace fs = std::filesystem;
 namespace {
 
 bool is_png(const fs::path& picture) { return picture.extension() == ".png"; }
-
-void require_own_picture(const fs::path& picture, bool force) {
-  if (force || picture.empty() || !fs::exists(picture) || is_own_picture(picture)) return;
-  throw Error(
-      "this file exists, and does not say that vitrail made it; --force replaces it, and another name keeps "
-      "it",
-      {picture.string()});
-}
 
 // Other formats than PNG, and denoising, need libraries that take time and memory to load: another program
 // writes them.
@@ -72,8 +65,8 @@ void check_outputs(const RenderArguments& a) {
        {o.picture, o.film, checkpoint_path(o.film), o.stats, o.profile, o.trace, a.preview})
     if (!file.empty()) require_place(file);
   // A film that is kept speaks for the picture beside it.
-  if (!o.keeps_film || !fs::exists(o.film)) require_own_picture(o.picture, o.force);
-  require_own_picture(a.preview, o.force);
+  if (!o.keeps_film || !fs::exists(o.film)) require_own(o.picture, is_own_picture, o.force);
+  require_own(a.preview, is_own_picture, o.force);
   require_denoiser(a);
 }
 

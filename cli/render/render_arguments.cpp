@@ -121,14 +121,12 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   require_renderable(a);
   a.name_outputs();
   const std::string extension = a.output.extension().string();
-  constexpr const char* known[] = {".exr", ".hdr",  ".png",  ".jpg", ".jpeg",
-                                   ".tif", ".tiff", ".webp", ".film"};
+  constexpr const char* known[] = {".exr", ".hdr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".film"};
   const bool is_table = extension == ".csv" && !a.options.picture.sensors.empty();
   if (!a.options.picture.sensors.empty() && !is_table && extension != ".film")
     throw UsageError("the output of --sensors must end in .csv or .film: " + a.output.string());
   if (!is_table && std::ranges::find(known, extension) == std::end(known))
-    throw UsageError("the output must end in .exr, .hdr, .png, .jpg, .tif, .webp or .film: " +
-                     a.output.string());
+    throw UsageError("the output must end in .exr, .hdr, .png, .jpg, .tif or .film: " + a.output.string());
   if (a.denoised && (is_table || extension == ".film"))
     throw UsageError("--denoise is for pictures, not for .csv and .film: " + a.output.string());
   if (!a.film.empty() && (extension == ".film" || a.film.extension() != ".film"))

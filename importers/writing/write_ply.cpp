@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "importers/writing/own_scene.h"
 #include "scene/system/atomic_file.h"
 
 namespace vitrail {
@@ -29,10 +30,11 @@ void declare(std::string& header, const MeshAttribute& attribute) {
 
 std::string header_of(const TriangleMesh& mesh) {
   std::string header = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty "
+      "ply\nformat binary_little_endian 1.0\ncomment {}\nelement vertex {}\nproperty float x\nproperty float "
+      "y\nproperty "
       "float "
       "z\n",
-      mesh.positions.size());
+      scene_signature, mesh.positions.size());
   if (!mesh.normals.empty()) header += "property float nx\nproperty float ny\nproperty float nz\n";
   if (!mesh.uvs.empty()) header += "property float u\nproperty float v\n";
   for (const MeshAttribute& attribute : mesh.attributes)

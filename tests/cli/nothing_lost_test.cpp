@@ -77,6 +77,42 @@ TEST_F(NothingLost, WhatIsNoFilmIsKept) {
   EXPECT_EQ(read("a.film"), "a home video");
 }
 
+// In each format that is written: what vitrail made is replaced, what somebody made is kept.
+TEST_F(NothingLost, SomebodysSceneIsKept) {
+  write("a.pbrt", "WorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n");
+  const auto convert = [&](const std::string& out, const std::string& more) {
+    return run(fmt::format("{} '{}' '{}' --quiet {}", vitrail("convert"), path("a.pbrt"), path(out), more));
+  };
+  for (const char* out : {"b.pbrt", "b.xml", "b.obj", "b.ply", "b.gltf", "b.glb", "b.pov"}) {
+    write(out, "somebody's");
+    const CommandResult refused = convert(out, "");
+    EXPECT_EQ(refused.status, 3) << out << refused.output;
+    EXPECT_THAT(refused.output, HasSubstr("--force replaces it"));
+    EXPECT_EQ(read(out), "somebody's");
+    EXPECT_EQ(convert(out, "--force").status, 0) << out;
+    EXPECT_NE(read(out), "somebody's");
+    EXPECT_EQ(convert(out, "").status, 0) << out << ", which is vitrail's";
+    write(out, "");
+    EXPECT_EQ(convert(out, "").status, 0) << out << ", which is empty";
+  }
+}
+
+TEST_F(NothingLost, SomebodysPictureIsNotDevelopedOver) {
+  ASSERT_EQ(render("a.film", "--spp 1").status, 0);
+  const auto develop = [&](const std::string& out, const std::string& more) {
+    return run(
+        fmt::format("{} '{}' -o '{}' --quiet {}", vitrail("develop"), path("a.film"), path(out), more));
+  };
+  for (const char* out : {"a.exr", "a.hdr", "a.png", "a.jpg", "a.tif"}) {
+    write(out, "somebody's");
+    const CommandResult refused = develop(out, "");
+    EXPECT_EQ(refused.status, 3) << out << refused.output;
+    EXPECT_EQ(read(out), "somebody's");
+    EXPECT_EQ(develop(out, "--force").status, 0) << out;
+    EXPECT_EQ(develop(out, "").status, 0) << out << ", which is vitrail's";
+  }
+}
+
 TEST_F(NothingLost, SomebodysPictureIsKept) {
   write("holiday.png", "a photograph");
   const CommandResult refused = render("holiday.png", "--spp 1");

@@ -7,6 +7,7 @@
 #include "importers/gltf/write/write_meshes.h"
 #include "importers/gltf/write/write_view.h"
 #include "importers/writing/exposed_lights.h"
+#include "importers/writing/own_scene.h"
 #include "scene/system/atomic_file.h"
 
 namespace vitrail {
@@ -24,7 +25,7 @@ class Writer {
         binary_(model_),
         materials_(model_, binary_, notes_, exposed_.area_lights),
         meshes_(model_, binary_, notes_, materials_) {
-    model_.asset.version = "2.0", model_.asset.generator = "vitrail";
+    model_.asset.version = "2.0", model_.asset.generator = scene_signature;
     model_.scenes.emplace_back(), model_.defaultScene = 0;
     if (is_mirrored(scene.camera)) mirror_ = scale({-1, 1, 1});
   }

@@ -34,7 +34,7 @@ Diagnostics write_mitsuba(const Scene& given, const std::filesystem::path& out) 
   note(context, mapped);
   pugi::xml_document document;
   document.append_child(pugi::node_comment)
-      .set_value(fmt::format(" Written by Vitrail {} for Mitsuba 3 ", VITRAIL_VERSION).c_str());
+      .set_value(fmt::format(" For Mitsuba 3, written by Vitrail {} ", VITRAIL_VERSION).c_str());
   Element root = document.append_child("scene");
   root.append_attribute("version") = "3.0.0";
 

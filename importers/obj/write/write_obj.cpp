@@ -8,6 +8,7 @@
 #include "importers/obj/write/write_mtl.h"
 #include "importers/writing/flat_shapes.h"
 #include "importers/writing/mapped_uvs.h"
+#include "importers/writing/own_scene.h"
 #include "importers/writing/side_files.h"
 #include "importers/writing/text_sink.h"
 #include "scene/records/uv_uses.h"
@@ -154,7 +155,7 @@ Diagnostics write_obj(const Scene& given, const std::filesystem::path& path) {
   const MtlNames names = write_mtl(shapes, library, notes);
   AtomicFile file(path);
   TextSink out(&file);
-  out.put(FMT_COMPILE("mtllib {}\n"), library.filename().string());
+  out.put(FMT_COMPILE("# {}\nmtllib {}\n"), scene_signature, library.filename().string());
   put_geometry(scene, shapes, names, out);
   out.flush();
   file.commit();

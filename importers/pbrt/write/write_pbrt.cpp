@@ -5,6 +5,7 @@
 
 #include "importers/pbrt/write/writer.h"
 #include "importers/writing/mapped_uvs.h"
+#include "importers/writing/own_scene.h"
 #include "scene/system/atomic_file.h"
 
 namespace vitrail {
@@ -16,7 +17,7 @@ Diagnostics write_pbrt(const Scene& given, const std::filesystem::path& out) {
   const std::optional<MappedUvs> mapped = with_mapped_uvs(given, is_kept);
   pbrt::Writer writer(mapped ? mapped->scene : given, out);
   note(writer, mapped);
-  writer.line("# pbrt-v4, written by Vitrail");
+  writer.line(fmt::format("# pbrt-v4, {}", scene_signature));
   pbrt::write_tints(writer);
   pbrt::write_view(writer);
   pbrt::write_media(writer);

@@ -15,6 +15,7 @@
 #include "importers/povray/write/write_patterns.h"
 #include "importers/povray/write/write_pigments.h"
 #include "importers/writing/export_colors.h"
+#include "importers/writing/own_scene.h"
 #include "importers/writing/placed_quadric.h"
 #include "scene/records/light_traits.h"
 #include "scene/shapes/deferred_mesh.h"
@@ -91,13 +92,13 @@ class Writer {
     const FilmSettings& film = scene().film;
     const int levels = std::clamp(scene().settings.max_depth + 1, 1, 256);
     std::string text = fmt::format(
-        "// {} x {} pixels; the options are in the .ini file of the same name.\n#version "
+        "// {} x {} pixels, {}; the options are in the .ini file of the same name.\n#version "
         "3.7;\nglobal_settings "
         "{{\n  assumed_gamma 1.0\n  max_trace_level {}\n  adc_bailout 0.001\n{}{}}}\n"
         "#default {{ finish {{ ambient 0 diffuse 1 specular 0 reflection 0 }} }}\n"
         "#declare Clear = texture {{ pigment {{ rgbt 1 }} finish {{ diffuse 0 }} }}\n"
         "#declare Black = texture {{ pigment {{ rgb 0 }} finish {{ diffuse 0 }} }}\n",
-        film.width, film.height, levels,
+        film.width, film.height, scene_signature, levels,
         context_.has_caustics ? "  photons { count 400000 gather 20, 50 }\n" : "", radiosity());
     if (!context_.units.is_identity())
       text += fmt::format("// A point p of the scene is {} (p - {}) here.\n", context_.units.scale,

@@ -33,7 +33,7 @@ TEST_F(WriteMitsuba, HeaderOrderAndFiles) {
   Scene scene = square_scene({});
   scene.lights.push_back({PointLight{{1, 2, 3}, ConstantSpectrum{1}}, {}});
   const auto root = write(scene);
-  EXPECT_THAT(text_, HasSubstr("Written by Vitrail 0."));
+  EXPECT_THAT(text_, HasSubstr("written by Vitrail 0."));
   std::vector<std::string> tags;
   for (const auto child : root) tags.emplace_back(child.name());
   EXPECT_THAT(tags, ElementsAre("integrator", "sensor", "bsdf", "emitter", "shape"));
