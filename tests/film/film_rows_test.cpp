@@ -142,6 +142,20 @@ TEST_F(RowsOfAFilm, MakeThePictureOfTheFilm) {
   EXPECT_EQ(colours.layers.at(0).values, develop_colors(film).layers.at(0).values);
 }
 
+// Pixel p of the 35 has 2 + p mod 3 samples; an empty survey has none.
+TEST_F(RowsOfAFilm, AreCountedWithTheirSamples) {
+  const Film film = film_of(1);
+  const FilmRows rows = in_file(film, "a.film");
+  FilmSurvey parts;
+  for (int y = 0; y < rows.height(); y += 3) add_rows(parts, rows.rows(y, std::min(y + 3, rows.height())));
+  for (const FilmSurvey& survey : {survey_of(film), parts}) {
+    EXPECT_EQ(survey.samples, 35u * 2 + 11 * (0 + 1 + 2) + (0 + 1));
+    EXPECT_EQ(survey.least_samples, 2u);
+    EXPECT_EQ(survey.most_samples, 4u);
+  }
+  EXPECT_EQ(FilmSurvey().samples, 0u);
+}
+
 // All of it is read before anything is made of it.
 TEST_F(RowsOfAFilm, AreRefusedWhereTheFileIsDamaged) {
   write_film(directory_ / "a.film", film_of(1), {});
