@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scene/spectra/color.h"
 #include "scene/system/diagnostics.h"
 #include "tests/glazing/glazing_files.h"
@@ -55,6 +57,20 @@ TEST(Evaluation, CondensedTakesTheSpectrumOfFewWavelengths) {
   for (int i = 0; i < 10; ++i) expected.push_back(780 + 172 * i);
   expected.push_back(2500);
   EXPECT_EQ(asked, expected);
+}
+
+// The spectrum is 1 at the wavelengths of the panes, between those of the methods, and else 0.
+TEST(Evaluation, FullTakesColorsOfThePanesWavelengthsWhereTheseAreFine) {
+  for (const auto& [step_nm, light] : {std::pair{5, 100}, {10, 100}, {20, 0}}) {
+    std::vector<double> nm;
+    for (double at = 302.5; at < 2500; at += step_nm) nm.push_back(at);
+    const auto spectrum = [&](std::vector<double> at) {
+      std::vector<PaneValues> values;
+      for (const double x : at) values.push_back({x == std::floor(x) ? 0.0 : 1.0, 0, 0});
+      return SystemSpectrum{std::move(at), std::move(values)};
+    };
+    EXPECT_NEAR(evaluate(spectrum, nm, nfrc_2003(), Sampling::full).t.xyz[1], light, 1e-9) << step_nm;
+  }
 }
 
 // D65 seen by the observer of 1964: the white that CIE 15 gives.
