@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "importers/povray/read/formula_maker.h"
+#include "importers/povray/read/internal_functions.h"
 #include "importers/povray/read/pattern_kinds.h"
 #include "importers/povray/read/spline.h"
 #include "importers/povray/read/transforms.h"
@@ -66,23 +67,6 @@ constexpr NamedOp named[] = {
     {Word::sqrt_, StepOp::sqrt},    {Word::tan_, StepOp::tan},     {Word::tanh_, StepOp::tanh},
     {Word::trunc_, StepOp::trunc},  {Word::atan2_, StepOp::atan2}, {Word::mod_, StepOp::modulo},
     {Word::pow_, StepOp::power},    {Word::max_, StepOp::max},     {Word::min_, StepOp::min},
-};
-
-// The functions of functions.inc, by their numbers there.
-enum Internal {
-  f_ellipsoid = 17,
-  f_hetero_mf = 29,
-  f_paraboloid = 45,
-  f_ph = 47,
-  f_r = 57,
-  f_ridged_mf = 59,
-  f_rounded_box = 60,
-  f_sphere = 61,
-  f_superellipsoid = 68,
-  f_th = 69,
-  f_torus = 70,
-  f_noise3d = 76,
-  f_noise_generator = 78,
 };
 
 }  // namespace
@@ -196,75 +180,13 @@ void FormulaMaker::spline(const Spline& s, std::uint8_t which, Slot a) {
   keep_at(first);
 }
 
-void FormulaMaker::rounded_box(Slot a) {
-  const Slot first = top_;
-  for (Slot i = 0; i < 3; ++i) {
-    pick_and(a + i, StepOp::absolute), pick(a + 4 + i), op(StepOp::subtract), pick(a + 3), op(StepOp::add);
-    op(StepOp::max, 0);
-  }
-  lengths(std::array{first, first + 1, first + 2});
-  pick(a + 3), op(StepOp::subtract);
-  keep_at(first);
-}
-
-void FormulaMaker::superellipsoid(Slot a) {
-  const auto power = [&](Slot x) {  // |x|^(2/e), n
-    pick_and(x, StepOp::absolute), constant(2), pick(x == a + 2 ? a + 4 : a + 3), op(StepOp::divide),
-        op(StepOp::power);
-  };
-  power(a), power(a + 1), op(StepOp::add);
-  pick(a + 3), pick(a + 4), op(StepOp::divide), op(StepOp::power);
-  power(a + 2), op(StepOp::add);
-  pick(a + 4), op(StepOp::multiply, 0.5), op(StepOp::power);
-  op(StepOp::negate), op(StepOp::add, 1);
-}
-
 void FormulaMaker::internal(int number, Slot a) {
-  const Slot first = top_;
-  switch (number) {
-    case f_ellipsoid:
-      for (Slot i = 0; i < 3; ++i) pick(a + i), pick(a + 3 + i), op(StepOp::multiply);
-      lengths(std::array{first, first + 1, first + 2});
-      return keep_at(first);
-    case f_hetero_mf:
-    case f_ridged_mf:
-      for (Slot i = 0; i < 9; ++i) pick(a + i);
-      return op(number == f_ridged_mf ? StepOp::ridged_mf : StepOp::hetero_mf);
-    case f_paraboloid:
-      pick(a + 1), pick_and(a, StepOp::square), pick_and(a + 2, StepOp::square), op(StepOp::add),
-          op(StepOp::subtract);
-      pick(a + 3), op(StepOp::multiply);
-      return;
-    case f_ph:
-      lengths(std::array{a, a + 2});
-      pick(a + 1), op(StepOp::atan2);
-      return;
-    case f_r:
-      return lengths(std::array{a, a + 1, a + 2});
-    case f_rounded_box:
-      return rounded_box(a);
-    case f_sphere:
-      lengths(std::array{a, a + 1, a + 2});
-      pick(a + 3), op(StepOp::subtract);
-      return;
-    case f_superellipsoid:
-      return superellipsoid(a);
-    case f_th:
-      pick(a), pick(a + 2), op(StepOp::atan2);
-      return;
-    case f_torus:
-      lengths(std::array{a, a + 2});
-      pick(a + 3), op(StepOp::subtract);
-      lengths(std::array{first, a + 1});
-      pick(a + 4), op(StepOp::subtract);
-      return keep_at(first);
-    case f_noise3d:
-    case f_noise_generator:
-      for (Slot i = 0; i < 3; ++i) pick(a + i);
-      return op(StepOp::noise);
-    default:
-      return refuse();
-  }
+  const InternalFormula* formula = internal_formula(number);
+  if (!formula) return refuse();
+  std::vector<Steps> arguments;
+  for (Slot i = 0; i < formula->count; ++i) arguments.push_back(Steps::of_place(a + i));
+  const Steps steps = formula->steps(arguments.data());
+  for (const PatternStep& step : steps.code()) emit(step.op, step.index, step.value);
 }
 
 }  // namespace vitrail::pov

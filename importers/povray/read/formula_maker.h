@@ -45,8 +45,6 @@ class FormulaMaker {
   void code(const Function& function, Slot arguments);
   void component(const Function& function, std::uint8_t component, Slot arguments);
   void internal(int number, Slot arguments);  // formula_functions.cpp
-  void rounded_box(Slot arguments);
-  void superellipsoid(Slot arguments);
   void spline(const Spline& spline, std::uint8_t component, Slot argument);
   void lengths(std::span<const Slot> slots);
   void slope(const Pattern& pattern, Slot point);
