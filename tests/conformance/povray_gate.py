@@ -51,9 +51,13 @@ def block_means(light):
     return np.array([[block.mean(axis=(0, 1)) for block in row] for row in rows])
 
 
-def cut(light):
-    """Light as files have it, at most 1. A little above it stays: noise of white would be cut on one side alone."""
-    return np.where(light > 1.1, 1, light)
+def averaged(lights):
+    """The mean of all seeds as files have it, at most 1, and the standard error of its blocks. What is above 1 by no
+    more than noise stays: noise of white would be cut on one side alone."""
+    mean, error = np.mean(lights, axis=0), np.std(lights, axis=0, ddof=1) / np.sqrt(len(lights))
+    white = (mean > 1 + 3 * error) | (mean > 1.1)
+    blocks = [block_means(np.where(white, 1, light)) for light in lights]
+    return np.where(white, 1, mean), np.std(blocks, axis=0, ddof=1) / np.sqrt(len(lights))
 
 
 def light_by_us(scene, folder, options, extra):
@@ -69,8 +73,7 @@ def by_us(scene, folder, options):
     """The picture of all seeds, its light by block, and the standard error of that."""
     lights = [light_by_us(scene, folder, options, ["--spp", str(max(1, options.spp // SEEDS)), "--seed", str(seed)])
               for seed in range(1, SEEDS + 1)]
-    whole = cut(np.mean(lights, axis=0))
-    errors = np.std([block_means(cut(light)) for light in lights], axis=0, ddof=1) / np.sqrt(SEEDS)
+    whole, errors = averaged(lights)
     encoded = np.where(whole <= 0.0031308, 12.92 * whole, 1.055 * np.maximum(whole, 1e-9) ** (1 / 2.4) - 0.055)
     return Image.fromarray(np.uint8(np.round(255 * np.clip(encoded, 0, 1)))), block_means(whole), errors
 
