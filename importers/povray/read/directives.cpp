@@ -327,8 +327,10 @@ void Reader::invoke(const Token& name, const Shared<Macro>& macro) {
     expect('(', "behind the name of a macro");
     while (!accept(')')) {
       if (!arguments.empty()) comma();
-      if (arguments.size() >= macro->parameters.size())
+      if (arguments.size() >= macro->parameters.size()) {
+        if (!arguments.empty() && accept(')')) break;  // povray takes a comma behind the last one
         fail(fmt::format("macro {} takes {} arguments", macro->name, macro->parameters.size()), name.place);
+      }
       // A name alone is passed as what it stands for, which the macro may change.
       const Token token = next();
       if (token.kind == TokenKind::word && token.symbol->word == Word::none) {

@@ -124,6 +124,16 @@ TEST_F(ReadPovray, MacrosChangeWhatTheyAreGiven) {
   EXPECT_DOUBLE_EQ(number("A", before + "#macro L() #local A = 9; #end L()"), 3);
 }
 
+// povray takes them without commas between, or with one behind the last; no more than one.
+TEST_F(ReadPovray, CommasOfMacros) {
+  const std::string before = "#macro D(A, B) (A - B) #end #macro None() 4 #end ";
+  for (const char* call : {"D(7, 3)", "D(7, 3,)", "D(7 3)", "None()"})
+    EXPECT_DOUBLE_EQ(number(call, before), 4) << call;
+  for (const char* call :
+       {"D(7, 3,,)", "D(7,, 3)", "D(, 7, 3)", "D(7, 3, 1)", "D(7, 3 1)", "D(7)", "D(7,)", "None(,)"})
+    error(before + "#declare N = " + call + ";");
+}
+
 TEST_F(ReadPovray, ArraysAndSplines) {
   EXPECT_DOUBLE_EQ(number("A[1][0] + dimension_size(A,2)", "#declare A = array[2][3] {{1,2,3},{4,5,6}}"), 7);
   EXPECT_DOUBLE_EQ(number("B[0]", "#declare A = array[1] {1} #declare B = A; #declare A[0] = 2;"), 1);
