@@ -16,6 +16,7 @@
 #include "importers/povray/write/write_povray.h"
 #include "importers/writing/embedded_images.h"
 #include "importers/writing/scaled_normals.h"
+#include "scene/models/turned_normal_maps.h"
 #include "scene/records/nesting.h"
 
 namespace vitrail {
@@ -27,13 +28,14 @@ struct Format {
   Diagnostics (*write)(const Scene&, const std::filesystem::path&);
   bool holds_images = false;  // in the file itself
   bool has_sides = false;     // a material for each
+  bool by_image = false;      // normal maps go by the axes of their images
 };
 constexpr std::array<Format, 7> formats{{{".pbrt", write_pbrt},
                                          {".xml", write_mitsuba, false, true},
                                          {".pov", write_povray, false, true},
-                                         {".glb", write_gltf, true},
-                                         {".gltf", write_gltf, true},
-                                         {".obj", write_obj},
+                                         {".glb", write_gltf, true, false, true},
+                                         {".gltf", write_gltf, true, false, true},
+                                         {".obj", write_obj, false, false, true},
                                          {".ply", write_ply_scene}}};
 
 const Format& format_of(const std::filesystem::path& out) {
@@ -103,9 +105,16 @@ Diagnostics export_scene(const Scene& scene, const std::filesystem::path& out) {
   const Format& format = format_of(out);
   const bool nested = has_nested_instances(scene);
   const bool embedded = !format.holds_images && has_embedded_images(scene);
-  const bool scaled_maps = !format.holds_images && has_scaled_normals(scene);
+  const bool turned = format.by_image && std::ranges::any_of(scene.materials, [](const Material& m) {
+                        return m.normal_map.has_value();
+                      });
   std::optional<Scene> changed;
   if (nested) changed = without_nested_instances(scene);
+  if (turned) {
+    if (!changed) changed = scene;
+    turn_normal_maps(*changed);
+  }
+  const bool scaled_maps = !format.holds_images && has_scaled_normals(changed ? *changed : scene);
   if (embedded) {
     if (!changed) changed = scene;
     extract_images(*changed, out);

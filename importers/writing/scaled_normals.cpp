@@ -8,14 +8,29 @@
 #include "images/texture_values.h"
 #include "importers/writing/side_files.h"
 #include "scene/models/normal_map.h"
+#include "scene/records/material_traits.h"
 
 namespace vitrail {
 
 namespace {
 
+// Materials of shapes, and those that they are made of.
+std::set<std::uint32_t> shown_materials(const Scene& scene) {
+  std::set<std::uint32_t> shown;
+  const auto add = [&](Id<Material> id, const auto& add_part) -> void {
+    if (!shown.insert(id.value).second) return;
+    for (const Id<Material> part : parts_of(scene.materials[id.value].model)) add_part(part, add_part);
+  };
+  for (const Shape& shape : scene.shapes) add(shape.material, add);
+  for (const Prototype& prototype : scene.prototypes)
+    for (const Shape& shape : prototype.shapes) add(shape.material, add);
+  return shown;
+}
+
 std::set<std::uint32_t> scaled_normals(const Scene& scene) {
   std::set<std::uint32_t> maps;
-  for (const Material& material : scene.materials) {
+  for (const std::uint32_t id : shown_materials(scene)) {
+    const Material& material = scene.materials[id];
     const auto map = material.normal_map ? normal_map_of(scene.textures, *material.normal_map) : std::nullopt;
     if (map && map->image != *material.normal_map) maps.insert(material.normal_map->value);
   }

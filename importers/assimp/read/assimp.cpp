@@ -19,6 +19,8 @@
 #include "importers/bytes/input_bytes.h"
 #include "importers/reading/default_view.h"
 #include "importers/reading/named_file.h"
+#include "scene/models/turned_normal_maps.h"
+#include "scene/shapes/mesh_parts.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -45,6 +47,12 @@ TriangleMesh mesh_of(AssetMesh&& in, const std::string& file) {
   return mesh;
 }
 
+// A mesh, or what of it shows its image on one side.
+struct Part {
+  Id<TriangleMesh> mesh;
+  AgainstAxes against;
+};
+
 class SceneReader {
  public:
   SceneReader(const std::filesystem::path& file, MeshMemory& memory, const ImportOptions& options)
@@ -65,8 +73,9 @@ class SceneReader {
         if (uses[mesh] > 1)
           add_instance(mesh, node);
         else if (is_visible(node))
-          add_shape(imported_.scene.shapes, mesh, node, to_world_[node]);
+          add_shapes(imported_.scene.shapes, mesh, node, to_world_[node]);
       }
+    turn_mirrored_instances(imported_.scene, materials_);
     mend_by_file();
     for (const AssetLight& light : asset_.lights) add_light(light);
     take_camera();
@@ -125,25 +134,38 @@ class SceneReader {
     return {};
   }
 
-  Id<TriangleMesh> keep(std::size_t mesh) {
-    const auto [at, is_new] = meshes_.try_emplace(mesh);
-    if (is_new) {
+  // The meshes of a mesh: two where its (u,v) are mirrored on a part of it, and a normal map shows.
+  const std::vector<Part>& keep(std::size_t id) {
+    const auto [at, is_new] = meshes_.try_emplace(id);
+    if (!is_new) return at->second;
+    const auto layout = materials_.layout(surfaces_.at(asset_.meshes[id].material).material);
+    TriangleMesh whole = mesh_of(std::move(asset_.meshes[id]), file_);
+    const auto add = [&](TriangleMesh mesh, AgainstAxes against) {
       std::vector<TriangleMesh>& meshes = imported_.scene.meshes;
-      at->second = {static_cast<std::uint32_t>(meshes.size())};
-      meshes.push_back(memory_.keep(mesh_of(std::move(asset_.meshes[mesh]), file_), {}));
-    }
+      at->second.push_back({{static_cast<std::uint32_t>(meshes.size())}, against});
+      meshes.push_back(memory_.keep(std::move(mesh), {}));
+    };
+    const std::vector<UvPart> sides = layout ? uv_parts(whole, *layout) : std::vector<UvPart>{};
+    if (sides.size() < 2)
+      add(std::move(whole), sides.empty() ? AgainstAxes{} : sides[0].against);
+    else
+      for (const UvPart& side : sides) add(only_triangles(whole, side.triangles), side.against);
     return at->second;
   }
 
-  void add_shape(std::vector<Shape>& shapes, std::size_t mesh, std::size_t node, const Transform& to_world) {
+  void add_shapes(std::vector<Shape>& shapes, std::size_t mesh, std::size_t node, const Transform& to_world) {
     const MtlSurface& surface = surfaces_.at(asset_.meshes[mesh].material);
-    Shape shape;
-    shape.mesh = keep(mesh);
-    shape.material = surface.material, shape.area_light = surface.light;
-    shape.object_to_world = to_world;
-    shape.flip_orientation = swaps_handedness(to_world);
-    shape.name = asset_.nodes[node].name;
-    shapes.push_back(std::move(shape));
+    const bool mirrors = swaps_handedness(to_world);
+    for (const Part& part : keep(mesh)) {
+      Shape shape;
+      shape.mesh = part.mesh, shape.area_light = surface.light;
+      shape.material =
+          materials_.turned(surface.material, {part.against.first, part.against.second != mirrors});
+      shape.object_to_world = to_world;
+      shape.flip_orientation = mirrors;
+      shape.name = asset_.nodes[node].name;
+      shapes.push_back(std::move(shape));
+    }
   }
 
   void add_instance(std::size_t mesh, std::size_t node) {
@@ -152,7 +174,7 @@ class SceneReader {
     if (is_new) {
       Prototype prototype;
       prototype.name = asset_.meshes[mesh].name;
-      add_shape(prototype.shapes, mesh, node, Transform{});
+      add_shapes(prototype.shapes, mesh, node, Transform{});
       at->second = {static_cast<std::uint32_t>(scene.prototypes.size())};
       scene.prototypes.push_back(std::move(prototype));
     }
@@ -272,9 +294,10 @@ class SceneReader {
   const ImportOptions& options_;
   Asset asset_;
   ImportedScene imported_;
+  TurnedMaterials materials_{imported_.scene};
   std::vector<MtlSurface> surfaces_;  // by material
   std::vector<Transform> to_world_;   // by node
-  std::map<std::size_t, Id<TriangleMesh>> meshes_;
+  std::map<std::size_t, std::vector<Part>> meshes_;
   std::map<std::size_t, Id<Prototype>> prototypes_;
   std::map<std::string, std::string> targets_;  // of nodes, by name
   bool are_lights_noted_ = false;

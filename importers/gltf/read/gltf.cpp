@@ -34,6 +34,7 @@ class SceneReader {
   ImportedScene read() {
     count_uses();
     for (const int node : tree_.shown) add_node(node);
+    turn_mirrored_instances(imported_.scene, meshes_.turned_materials());
     camera();
     note_whole_file();
     Scene& scene = imported_.scene;
@@ -94,8 +95,8 @@ class SceneReader {
 
   // Mirroring a node mirrors its (u,v) too.
   Id<Material> material_of(const Part& part, const Transform& to_world) {
-    const bool turned = part.surface.has_normal_map && part.has_mirrored_uvs != swaps_handedness(to_world);
-    return turned ? meshes_.materials().turned_over(part.surface.material) : part.surface.material;
+    return meshes_.turned_materials().turned(
+        part.surface.material, {part.against.first, part.against.second != swaps_handedness(to_world)});
   }
 
   void add_instance(int mesh, const Transform& to_world, int index) {

@@ -52,7 +52,6 @@ Surface MaterialBuilder::build() {
     info.index = m_.normalTexture.index, info.texCoord = m_.normalTexture.texCoord;
     info.extensions = m_.normalTexture.extensions;
     material.normal_map = textures_.color(info, {Encoding::linear}, index_, uv_set_);
-    surface.has_normal_map = true;
     if (const auto steepness = static_cast<float>(m_.normalTexture.scale); steepness != 1)
       material.normal_map =
           textures_.add(scaled_normal_map({*material.normal_map, {steepness, steepness, 1}}), false, index_);

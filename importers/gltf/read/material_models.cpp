@@ -149,7 +149,9 @@ void MaterialBuilder::sheen(PrincipledMaterial& material) const {
   const double most = std::max({tint.r, tint.g, tint.b});
   if (most <= 0) return;
   material.sheen = static_cast<float>(std::min(most, 1.0));
-  approximated("sheen: Burley's, white and of one width");
+  approximated(fmt::format(
+      "sheen of material \"{}\": Burley's, of one width and white, {:g} for its colour {:g} {:g} {:g}",
+      m_.name, std::min(most, 1.0), tint.r, tint.g, tint.b));
   if (texture_info(*s, "sheenColorTexture")) note(Fidelity::dropped, "sheenColorTexture");
 }
 

@@ -24,7 +24,7 @@ struct Surface {
   FloatParameter opacity = 1.0f;
   std::optional<Id<Medium>> interior;
   int uv_set = 0;  // TEXCOORD_n, by which its meshes are laid out
-  bool has_normal_map = false, has_color_map = false;
+  bool has_color_map = false;
 };
 
 // Names of the attributes of COLOR_0.
@@ -43,9 +43,6 @@ class Materials {
   // which multiplies the base colour.
   const Surface& surface(int material, int color_channels, int mesh);
 
-  // The same material with its normal map turned over: for where (u,v) are mirrored.
-  Id<Material> turned_over(Id<Material> material);
-
   // Materials whose doubleSided is false, of those that were asked for.
   int single_sided() const { return single_sided_; }
 
@@ -55,7 +52,6 @@ class Materials {
   Diagnostics& diagnostics_;
   Textures textures_;
   std::map<std::pair<int, int>, Surface> known_;
-  std::map<std::uint32_t, Id<Material>> turned_over_;
   int single_sided_ = 0;
 };
 

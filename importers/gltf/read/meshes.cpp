@@ -116,14 +116,15 @@ void Meshes::add_colors(int index, const PrimitiveReader& reader, const Surface&
   if (channels == 4) mesh.attributes.push_back(std::move(alpha));
 }
 
-// With a normal map, apart by the sides of (u,v).
+// With a normal map, apart by the sides of (u,v) or of TANGENT.
 void Meshes::keep(int index, const PrimitiveReader& reader, const Surface& surface, TriangleMesh mesh,
                   std::vector<Part>& parts) {
-  const auto add = [&](TriangleMesh part, bool has_mirrored_uvs) {
+  const auto add = [&](TriangleMesh part, AgainstAxes against) {
     scene_.meshes.push_back(memory_.keep(std::move(part), {}));
-    parts.push_back({{static_cast<std::uint32_t>(scene_.meshes.size() - 1)}, surface, has_mirrored_uvs});
+    parts.push_back({{static_cast<std::uint32_t>(scene_.meshes.size() - 1)}, surface, against});
   };
-  if (!surface.has_normal_map || mesh.uvs.empty()) return add(std::move(mesh), false);
+  const std::optional<UvMapping> layout = turned_materials_.layout(surface.material);
+  if (!layout || mesh.uvs.empty()) return add(std::move(mesh), {});
   std::vector<float> tangents;
   if (reader.has("TANGENT")) tangents = reader.attribute("TANGENT", 4);
   if (!are_finite(tangents)) {
@@ -135,10 +136,10 @@ void Meshes::keep(int index, const PrimitiveReader& reader, const Surface& surfa
     note(Fidelity::approximated, index,
          fmt::format("its normal map goes along u: its tangents are {:.0f} degrees from there on average",
                      turn));
-  const SidesOfUv sides = sides_of_uv(mesh, tangents);
-  if (sides.mirrored.empty() || sides.straight.empty()) return add(std::move(mesh), sides.straight.empty());
-  add(only_triangles(mesh, sides.straight), false);
-  add(only_triangles(mesh, sides.mirrored), true);
+  const std::vector<UvPart> sides =
+      tangents.empty() ? uv_parts(mesh, *layout) : parts_by_tangents(mesh, tangents);
+  if (sides.size() < 2) return add(std::move(mesh), sides.empty() ? AgainstAxes{} : sides[0].against);
+  for (const UvPart& side : sides) add(only_triangles(mesh, side.triangles), side.against);
 }
 
 }  // namespace vitrail::gltf

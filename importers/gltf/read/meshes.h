@@ -9,6 +9,7 @@
 #include "importers/gltf/read/materials.h"
 #include "importers/gltf/read/primitive.h"
 #include "scene/geometry/transform.h"
+#include "scene/models/turned_normal_maps.h"
 #include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail::gltf {
@@ -17,7 +18,7 @@ namespace vitrail::gltf {
 struct Part {
   Id<TriangleMesh> mesh;
   Surface surface;
-  bool has_mirrored_uvs = false;  // its normal map is to be turned over
+  AgainstAxes against;  // where its normal map is to be turned
 };
 
 // What bends a mesh where a node uses it.
@@ -33,7 +34,8 @@ class Meshes {
         scene_(scene),
         diagnostics_(diagnostics),
         memory_(memory),
-        materials_(document, scene, diagnostics) {}
+        materials_(document, scene, diagnostics),
+        turned_materials_(scene) {}
 
   // Triangles, strips and fans of them; points and lines are reported and left out. A mesh without normals
   // has flat ones. Wrong indices, and attributes of another length than the positions, throw Error.
@@ -41,6 +43,7 @@ class Meshes {
   std::vector<Part> posed_parts(int mesh, const Pose& pose);
 
   Materials& materials() { return materials_; }
+  TurnedMaterials& turned_materials() { return turned_materials_; }
 
  private:
   void add_part(int mesh, const tinygltf::Primitive& primitive, const Pose& pose, std::vector<Part>& parts);
@@ -55,6 +58,7 @@ class Meshes {
   Diagnostics& diagnostics_;
   MeshMemory& memory_;
   Materials materials_;
+  TurnedMaterials turned_materials_;
   std::map<int, std::vector<Part>> known_;
 };
 

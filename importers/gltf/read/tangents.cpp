@@ -10,17 +10,19 @@ namespace vitrail::gltf {
 
 namespace {
 
-struct Axes {
-  Vector3d du, up;  // ∂p/∂u and −∂p/∂v, times the area of the triangle in (u,v)
-  Vector3d normal;  // of the shading, or of the face; not of unit length
-  double area = 0;
-};
+using Triangle = std::array<std::uint32_t, 3>;
 
 Vector3d vector_of(Point3f p) {
   return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
 }
 
-Axes axes_of(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+// ∂p/∂u of any length, and the area.
+struct AlongU {
+  Vector3d du;
+  double area = 0;
+};
+
+AlongU along_u(const TriangleMesh& mesh, const Triangle& t) {
   const Vector3d a = vector_of(mesh.positions[t[0]]), e1 = vector_of(mesh.positions[t[1]]) - a,
                  e2 = vector_of(mesh.positions[t[2]]) - a;
   const Point2f o = mesh.uvs[t[0]], b = mesh.uvs[t[1]], c = mesh.uvs[t[2]];
@@ -29,47 +31,45 @@ Axes axes_of(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
                u2 = static_cast<double>(c.x) - static_cast<double>(o.x),
                v2 = static_cast<double>(c.y) - static_cast<double>(o.y);
   const double sign = u1 * v2 - u2 * v1 < 0 ? -1 : 1;
-  Axes axes{(e1 * v2 - e2 * v1) * sign, (e1 * u2 - e2 * u1) * sign, cross(e1, e2), 0};
-  axes.area = length(axes.normal) / 2;
-  if (mesh.normals.empty()) return axes;
+  return {(e1 * v2 - e2 * v1) * sign, length(cross(e1, e2)) / 2};
+}
+
+Vector3d tangent_of(const Triangle& t, const std::vector<float>& tangents) {
   Vector3d sum{0, 0, 0};
-  for (const std::uint32_t corner : t) sum = sum + to_vector(cast<double>(mesh.normals[corner]));
-  if (dot(sum, sum) > 0) axes.normal = sum;
-  return axes;
+  for (const std::uint32_t corner : t) {
+    const float* v = &tangents[4 * std::size_t{corner}];
+    sum = sum + Vector3d{static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+  }
+  return sum;
 }
 
 }  // namespace
 
-SidesOfUv sides_of_uv(const TriangleMesh& mesh, const std::vector<float>& tangents) {
-  SidesOfUv sides;
+std::vector<UvPart> parts_by_tangents(const TriangleMesh& mesh, const std::vector<float>& tangents) {
+  std::array<UvPart, 4> all;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto& t = mesh.triangles[i];
-    bool is_mirrored = false;
-    if (!tangents.empty()) {
-      is_mirrored = tangents[4 * std::size_t{t[0]} + 3] < 0;
-    } else {
-      const Axes axes = axes_of(mesh, t);
-      is_mirrored = dot(cross(axes.normal, axes.du), axes.up) < 0;
-    }
-    (is_mirrored ? sides.mirrored : sides.straight).push_back(i);
+    const Triangle& t = mesh.triangles[i];
+    const bool back = dot(along_u(mesh, t).du, tangent_of(t, tangents)) < 0,
+               over = (tangents[4 * std::size_t{t[0]} + 3] < 0) != back;
+    UvPart& part = all[(back ? 1 : 0) + (over ? 2 : 0)];
+    part.against = {back, over};
+    part.triangles.push_back(i);
   }
-  return sides;
+  std::vector<UvPart> parts;
+  for (UvPart& part : all)
+    if (!part.triangles.empty()) parts.push_back(std::move(part));
+  return parts;
 }
 
 double turn_of_tangents_deg(const TriangleMesh& mesh, const std::vector<float>& tangents) {
   double sum = 0, area = 0;
-  for (const auto& t : mesh.triangles) {
-    const Axes axes = axes_of(mesh, t);
-    Vector3d tangent{0, 0, 0};
-    for (const std::uint32_t corner : t) {
-      const float* v = &tangents[4 * std::size_t{corner}];
-      tangent =
-          tangent + Vector3d{static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-    }
-    const double lengths = length(axes.du) * length(tangent);
+  for (const Triangle& t : mesh.triangles) {
+    const AlongU u = along_u(mesh, t);
+    const Vector3d tangent = tangent_of(t, tangents);
+    const double lengths = length(u.du) * length(tangent);
     if (!(lengths > 0)) continue;
-    sum += axes.area * std::acos(std::clamp(dot(axes.du, tangent) / lengths, -1.0, 1.0));
-    area += axes.area;
+    sum += u.area * std::acos(std::min(std::abs(dot(u.du, tangent)) / lengths, 1.0));
+    area += u.area;
   }
   return area > 0 ? sum / area * 180 / std::numbers::pi : 0;
 }

@@ -22,7 +22,11 @@ void MaterialWriter::put(Id<Material> id) {
     const auto& image = std::get<ImageTexture>(scene_.textures[map->image.value].model);
     const tinygltf::TextureInfo info = pictures_.colors(image, true);
     out_.normalTexture.index = info.index, out_.normalTexture.extensions = info.extensions;
-    out_.normalTexture.scale = static_cast<double>(map->factors[0]);  // that along v is turned over by (u,v)
+    out_.normalTexture.scale = static_cast<double>(map->factors[0]);
+    if (map->factors[1] != map->factors[0])
+      notes_.approximated(
+          fmt::format("normal map: its second number is as steep as its first, {:g} times for {:g}",
+                      map->factors[0], map->factors[1]));
   } else {
     notes_.dropped("normal map that is no image");
   }

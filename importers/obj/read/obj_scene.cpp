@@ -12,6 +12,7 @@
 #include "importers/obj/read/mtl_map.h"
 #include "importers/obj/read/obj_meshes.h"
 #include "importers/obj/read/open_glass.h"
+#include "scene/models/turned_normal_maps.h"
 
 namespace vitrail::obj {
 
@@ -193,6 +194,7 @@ ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesyst
       result.scene.meshes[shape.mesh.value].attributes.clear();
   for (TriangleMesh& mesh : result.scene.meshes) mesh.missing_uv = MissingUv::zero;
   make_open_glass_thin(result);
+  turn_normal_maps(result.scene);
   return result;
 }
 

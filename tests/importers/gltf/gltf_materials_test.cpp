@@ -162,6 +162,37 @@ TEST_F(GltfImages, NormalMapsHaveAScale) {
   EXPECT_EQ(map_of(imported.scene, imported.scene.shapes.at(0)).factors, (std::array<float, 3>{2, 2, 1}));
 }
 
+TEST(GltfMaterials, SheenIsToldByTheNameOfItsMaterial) {
+  const ImportedScene imported = square_of(
+      R"({"name":"velvet","extensions":{"KHR_materials_sheen":{"sheenColorFactor":[0.9,0.1,0.2]}}})",
+      R"(,"extensionsUsed":["KHR_materials_sheen"])");
+  EXPECT_TRUE(mentions(imported.diagnostics, "sheen of material \"velvet\": Burley's"));
+  EXPECT_TRUE(mentions(imported.diagnostics, "white, 0.9 for its colour 0.9 0.1 0.2"));
+}
+
+// TANGENT against u, and w of either sign.
+TEST_F(GltfImages, NormalMapsFollowTheirTangents) {
+  const auto factors = [&](float along, float w) {
+    GltfText file;
+    file.add_square();
+    file.floats({along, 0, 0, w, along, 0, 0, w, along, 0, 0, w, along, 0, 0, w}, 4);
+    const ImportedScene imported = read_gltf(folder_.write(
+        "scene.gltf",
+        file.text(
+            R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2,"TANGENT":3},"indices":1,"material":0}]}],)" +
+            one_node + R"(,"materials":[{"normalTexture":{"index":0}}],"images":[{"uri":"a%20b.png"}])" +
+            one_texture)));
+    EXPECT_FALSE(mentions(imported.diagnostics, "degrees"));
+    const auto all = map_of(imported.scene, imported.scene.shapes.at(0)).factors;
+    return std::array{all[0], all[1]};
+  };
+  // B = (N × T)·w: its second axis is N × ∂p/∂u for T along u and w of 1, and for both turned round.
+  EXPECT_EQ(factors(1, 1), (std::array{1.f, 1.f}));
+  EXPECT_EQ(factors(1, -1), (std::array{1.f, -1.f}));
+  EXPECT_EQ(factors(-1, 1), (std::array{-1.f, -1.f}));
+  EXPECT_EQ(factors(-1, -1), (std::array{-1.f, 1.f}));
+}
+
 // A square whose second half has its (u,v) mirrored: that half is a shape of its own, whose map is turned
 // over.
 TEST_F(GltfImages, NormalMapsTurnOverWhereUvAreMirrored) {
