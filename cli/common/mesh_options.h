@@ -29,6 +29,7 @@ std::vector<std::string> arguments_of(const MeshOptions& options);
 
 // Does what they ask for and says so on standard error; nothing without them. Of what it does: notes, which
 // --strict does not refuse.
-Diagnostics apply_mesh_options(const MeshOptions& options, Scene& scene, const MeshResources& resources);
+Diagnostics apply_mesh_options(const MeshOptions& options, Scene& scene, const MeshResources& resources,
+                               bool to_render);
 
 }  // namespace vitrail

@@ -123,7 +123,7 @@ int run(const Arguments& a) {
   const std::string quadrics = quadric_counts(imported.scene);
   Diagnostics edits;  // as asked for
   if (!refused) {
-    edits = apply_mesh_options(a.meshes, imported.scene, MeshResources{});
+    edits = apply_mesh_options(a.meshes, imported.scene, MeshResources{}, false);
     if (a.pack) pack_files(imported.scene, a.output);
     std::ranges::move(export_scene(imported.scene, a.output), std::back_inserter(diagnostics));
   }

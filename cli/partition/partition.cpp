@@ -241,7 +241,7 @@ int write_bundle(PartitionArguments& a, std::uint64_t kept_bytes, ImportedScene&
     say("vitrail: {} has no light: its picture is black; add a lamp, or give --sky LATITUDE,LONGITUDE,TIME\n",
         a.input.string());
   const MeshResources resources{kept_bytes, a.options.memory_bytes, a.options.threads};
-  const Diagnostics edits = apply_mesh_options(a.meshes, imported.scene, resources);
+  const Diagnostics edits = apply_mesh_options(a.meshes, imported.scene, resources, true);
   if (!a.quiet) say("{}", summarise(edits));
   a.options.glazings = switching_glazings(imported.scene);
   catch_signals();

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "bundle/instance.h"
 #include "images/texture_values.h"
 #include "partitioner/appearance/bake_materials.h"
 #include "partitioner/appearance/bake_media.h"
@@ -10,9 +11,11 @@
 #include "partitioner/appearance/requirements.h"
 #include "partitioner/placing/wedged_panes.h"
 #include "scene/daylight/sky_model.h"
+#include "scene/records/curve_uses.h"
 #include "scene/records/kinds.h"
 #include "scene/records/light_traits.h"
 #include "scene/records/material_traits.h"
+#include "scene/shapes/curve.h"
 
 namespace vitrail {
 
@@ -125,6 +128,42 @@ void bake_materials(const Scene& scene, const Used& used, TextureBaker& textures
   result.tables = tables.take();
 }
 
+// Whether curves with gaps may become tubes: where something keeps no balls.
+bool may_have_tubes(const Scene& scene, const Shape& shape) {
+  const auto keeps_balls = [](const Transform& t) { return is_affine(t) && is_similarity(t); };
+  const auto all_do = [&](const std::vector<Instance>& instances) {
+    return std::ranges::all_of(instances,
+                               [&](const Instance& i) { return keeps_balls(i.prototype_to_world); });
+  };
+  return is_of_curves(scene, shape) && !shape.area_light && shape.opacity != FloatParameter{1.0f} &&
+         !(keeps_balls(shape.object_to_world) && all_do(scene.instances) &&
+           std::ranges::all_of(scene.prototypes, all_do, &Prototype::instances));
+}
+
+void add_outer_walls(const Scene& scene, Appearance& result) {
+  result.outer_wall_ids.assign(scene.materials.size(), -1);
+  const std::vector<MaterialTraits> traits = traits_of(scene.materials);
+  const auto append = [&](Material material) {
+    result.materials.push_back(std::move(material));
+    return Id<Material>{static_cast<std::uint32_t>(result.materials.size() - 1)};
+  };
+  const auto add = [&](const Shape& shape) {
+    const std::uint32_t id = shape.material.value;
+    std::int32_t& outer = result.outer_wall_ids[id];
+    const InnerWall inner = inner_wall(traits[id]);
+    if (inner == InnerWall::as_the_outer || outer >= 0 || !may_have_tubes(scene, shape)) return;
+    outer = result.material_ids.at(id);
+    if (inner == InnerWall::nothing_by_itself || outer < 0) return;
+    const Id<Material> of_curve{static_cast<std::uint32_t>(outer)}, nothing = append({InterfaceMaterial{}});
+    Material hollow = result.materials[of_curve.value];
+    hollow.model = TwoSidedMaterial{of_curve, nothing};
+    outer = static_cast<std::int32_t>(append(std::move(hollow)).value);
+  };
+  for (const Shape& shape : scene.shapes) add(shape);
+  for (const Prototype& prototype : scene.prototypes)
+    for (const Shape& shape : prototype.shapes) add(shape);
+}
+
 // The images of lights are baked like any other.
 struct LightBaker {
   TextureBaker& textures;
@@ -227,6 +266,7 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
   const Used used = used_in(scene);
   bake_media(scene, used, result, report);
   bake_materials(scene, used, textures, result, report);
+  add_outer_walls(scene, result);
   const std::vector<std::string> names = names_of_area_lights(scene);
   result.area_light_ids = renumbered(used.area_lights, [&](std::size_t i, const auto&) {
     AreaLight light = scene.area_lights[i];

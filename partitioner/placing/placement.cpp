@@ -200,7 +200,10 @@ Surface surface_of(const Placement& p, const Appearance& appearance) {
   const auto* texture = std::get_if<Id<Texture>>(&p.shape->opacity);
   surface.opacity = texture ? appearance.opacities.at(texture->value) : p.shape->opacity;
   // What shines shows its outer wall alone, as much of it as the curve.
-  if (const auto* opacity = std::get_if<float>(&surface.opacity); opacity && p.tube && !p.shape->area_light)
+  if (!p.tube || p.shape->area_light) return surface;
+  if (const std::int32_t outer = appearance.outer_wall_ids.at(material); outer >= 0)
+    surface.material = static_cast<std::uint32_t>(outer);
+  else if (const auto* opacity = std::get_if<float>(&surface.opacity))
     surface.opacity = opacity_of_wall(*opacity);
   return surface;
 }

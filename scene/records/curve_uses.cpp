@@ -11,11 +11,16 @@ bool is_of_curves(const Scene& scene, const Shape& shape) {
   return quadric && is_curve(*quadric);
 }
 
-// Those that a prototype uses stand before it.
+InnerWall inner_wall(const MaterialTraits& material) {
+  if (material.fibre) return InnerWall::nothing_by_itself;
+  return material.transmits ? InnerWall::as_the_outer : InnerWall::nothing;
+}
+
 float opacity_of_wall(float opacity_of_curve) {
   return static_cast<float>(1 - std::sqrt(1 - std::clamp(double{opacity_of_curve}, 0.0, 1.0)));
 }
 
+// Those that a prototype uses stand before it.
 std::vector<bool> prototypes_with_curves(const Scene& scene) {
   std::vector<bool> with(scene.prototypes.size());
   for (std::size_t i = 0; i < with.size(); ++i) {

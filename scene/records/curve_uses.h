@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "scene/records/material_traits.h"
 #include "scene/records/scene.h"
 
 namespace vitrail {
 
 bool is_of_curves(const Scene& scene, const Shape& shape);
 
-// Of each wall of a tube in the place of a curve: a ray meets both, where it meets the curve once.
+// A ray meets both walls of a tube, where it meets the curve once. So the inner wall is nothing where the
+// surface can be so (TwoSidedMaterial): what is fibre is so by itself, what transmits is not.
+enum class InnerWall : std::uint8_t { as_the_outer, nothing, nothing_by_itself };
+InnerWall inner_wall(const MaterialTraits& material);
+
+// Returns the opacity of each wall where both are alike and together let through as much as the curve. They
+// scatter less than it: light that is scattered within is lost.
 float opacity_of_wall(float opacity_of_curve);
 
 // By prototype: whether it holds curves, itself or in prototypes that it uses.

@@ -2,8 +2,10 @@
 // --tessellate, --repair, --orient, --subdivide and --decimate as a user types them.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 
+#include "film/film_progress.h"
 #include "importers/export.h"
 #include "importers/import.h"
 #include "tests/support/command.h"
@@ -50,6 +52,25 @@ TEST_F(MeshOptions, ConvertWritesWhatTheyMake) {
   EXPECT_EQ(triangles("few.ply"), 800u);
   EXPECT_EQ(run("convert", path("many.ply") + " --repair --subdivide 1 --decimate 0.5").status, 0);
   EXPECT_EQ(triangles("many.ply"), 6400u);
+}
+
+// A ray meets both walls of a tube: together they let through what the curve does. Rendered, the inner one is
+// nothing; written, each lets through 1 − √(1 − α).
+TEST_F(MeshOptions, TubesOfCurvesLetThroughWhatTheCurvesDo) {
+  std::ofstream(folder_ / "in.pbrt")
+      << "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nPixelFilter \"box\"\n"
+         "LookAt 0 0 5 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 1\n"
+         "WorldBegin LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
+         "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]\n"
+         "Shape \"curve\" \"point3 P\" [-2 0 0 -.7 0 0 .7 0 0 2 0 0] \"float width\" .4 "
+         "\"string type\" \"cylinder\" \"float alpha\" .5\n";
+  const auto rendered =
+      run("render", "-o " + path("out.film") + " --spp 1024 --force --quiet --tessellate 32");
+  ASSERT_EQ(rendered.status, 0) << rendered.output;
+  EXPECT_NEAR(test::brightness(read_film(folder_ / "out.film", nullptr)).mean, 0.75, 0.004);
+  ASSERT_EQ(run("convert", path("out.pbrt") + " --tessellate 32").status, 0);
+  const Shape shape = import_scene(folder_ / "out.pbrt").scene.shapes.at(0);
+  EXPECT_NEAR(std::get<float>(shape.opacity), 1 - std::sqrt(0.5), 1e-6);
 }
 
 TEST_F(MeshOptions, StrictDoesNotRefuseWhatWasAskedFor) {
