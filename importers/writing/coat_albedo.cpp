@@ -17,17 +17,20 @@ double base_below_coat(double albedo, double eta, DiffuseAlbedo of) {
 }
 
 Spectrum base_below_coat(const Spectrum& albedo, double eta, DiffuseAlbedo of) {
-  const auto base = [&](double value) { return base_below_coat(value, eta, of); };
+  return changed_albedo(albedo, [&](double value) { return base_below_coat(value, eta, of); });
+}
+
+Spectrum changed_albedo(const Spectrum& albedo, const std::function<double(double)>& change) {
   if (const auto* constant = std::get_if<ConstantSpectrum>(&albedo))
-    return ConstantSpectrum{static_cast<float>(base(static_cast<double>(constant->value)))};
+    return ConstantSpectrum{static_cast<float>(change(static_cast<double>(constant->value)))};
   if (is_rgb(albedo)) {
     const RGB color = factor_rgb(albedo);
-    return reflectance_from_rgb({base(color.r), base(color.g), base(color.b)});
+    return reflectance_from_rgb({change(color.r), change(color.g), change(color.b)});
   }
   const Spectrum values = resolved(albedo);
   TabulatedSpectrum table;
   for (int i = 0; i < table_size; ++i)
-    table.values.push_back(static_cast<float>(base(evaluate(values, lambda_min_nm + i))));
+    table.values.push_back(static_cast<float>(change(evaluate(values, lambda_min_nm + i))));
   return table;
 }
 

@@ -2,6 +2,8 @@
 // Diffuse bases under a smooth coat, of the same albedo in another model.
 #pragma once
 
+#include <functional>
+
 #include "scene/spectra/spectrum.h"
 
 namespace vitrail {
@@ -17,5 +19,8 @@ enum class DiffuseAlbedo { of_what_gets_in, of_all };
 double base_below_coat(double albedo, double eta, DiffuseAlbedo of);
 // The same at every wavelength, or of its colour.
 Spectrum base_below_coat(const Spectrum& albedo, double eta, DiffuseAlbedo of);
+
+// Returns the albedo with each of its values changed so, at every wavelength, or of its colour.
+Spectrum changed_albedo(const Spectrum& albedo, const std::function<double(double)>& change);
 
 }  // namespace vitrail

@@ -62,7 +62,7 @@ TEST(CoatAlbedo, WhatPbrtGets) {
   EXPECT_NEAR(reflectance(plastic), base_below_coat(0.4, 1.5, DiffuseAlbedo::of_what_gets_in), 1e-5);
   plastic.nonlinear = true;
   EXPECT_NEAR(reflectance(plastic), 0.4, 1e-6) << "it goes back and forth already";
-  PrincipledMaterial principled{.base_color = ConstantSpectrum{0.4f}};
+  PrincipledMaterial principled{.base_color = ConstantSpectrum{0.4f}, .roughness = 0.1f};
   EXPECT_NEAR(reflectance(principled), base_below_coat(0.4, 1.5, DiffuseAlbedo::of_all), 1e-5);
 }
 
