@@ -20,6 +20,11 @@ double predicted_cpu_s(const Tradeoff& t, const ScalingLaw& law, double spp) {
   return law.start_s + spp * t.sample_s;
 }
 
+double sample_time_s(double tracing_s, double spp, std::size_t pixels) {
+  constexpr double fastest_s = 20e-9;
+  return std::max(tracing_s / spp, fastest_s * static_cast<double>(pixels));
+}
+
 std::optional<double> samples_for_error(const Tradeoff& t, const ScalingLaw& law, double error) {
   if (t.bias >= error) return std::nullopt;
   const double least = t.least_spp;

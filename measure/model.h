@@ -26,6 +26,10 @@ struct Tradeoff {
 
 double predicted_error(const Tradeoff& t, const ScalingLaw& law, double spp);
 double predicted_cpu_s(const Tradeoff& t, const ScalingLaw& law, double spp);
+// The processor seconds of a sample of every pixel, of a render that traced for so long. No core traces one
+// of a pixel in less than 20 ns: where the measured start is longer than a render, on a busy machine, a
+// sample would cost nothing, and any number of them would be affordable.
+double sample_time_s(double tracing_s, double spp, std::size_t pixels);
 // The least samples that reach an error; empty where the bias alone is greater.
 std::optional<double> samples_for_error(const Tradeoff& t, const ScalingLaw& law, double error);
 // The most samples that fit; empty where not even one does.

@@ -104,7 +104,7 @@ MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& se
   for (int seed = 1; seed <= seeds; ++seed) {
     std::optional<RunResult> r = try_run(m, s, seed);
     if (!r) return s;
-    sample_s.push_back(std::max(1e-9, (r->cpu_s - m.law.start_s) / s.spp));
+    sample_s.push_back(sample_time_s(r->cpu_s - m.law.start_s, s.spp, r->picture.pixels()));
     add_run(s, *r, seed);
     pictures.push_back(std::move(r->picture));
   }

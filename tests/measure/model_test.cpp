@@ -27,6 +27,11 @@ TEST(Model, NoiseFallsAndBiasStays) {
   EXPECT_DOUBLE_EQ(predicted_error(honest, {2, 0}, 8), 0.2);
 }
 
+TEST(Model, ASampleTakesTime) {
+  EXPECT_EQ(sample_time_s(3, 2, 1000), 1.5);
+  EXPECT_DOUBLE_EQ(sample_time_s(-.01, 16, 576), 576 * 20e-9);  // a start that was measured too long
+}
+
 TEST(Model, SamplesReachAnErrorUnlessTheBiasIsGreater) {
   EXPECT_NEAR(samples_for_error(biased, law, 0.03).value(), 40, 1e-9);
   EXPECT_FALSE(samples_for_error(biased, law, 0.01));
