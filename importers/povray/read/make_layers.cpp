@@ -174,7 +174,7 @@ Surfaces::Layer Surfaces::layered(const pov::Texture& texture, const Transform& 
     return texture.pattern ? blended(texture, to_world, look) : layer_of(texture, to_world, look);
   Layer result;
   std::vector<Shared<pov::Texture>> layers = without_coats(texture.layers);
-  if (reader_.version < 3.5)
+  if (reader_.version > 0 && reader_.version < 3.5)
     for (std::size_t i = 1; i < layers.size(); ++i) layers[i] = without_filter(layers[i]);
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const pov::Texture& one = *layers[i];

@@ -80,7 +80,9 @@ void SceneMaker::add_light(const Object& object, const LightShape& light, const 
         spot.beam_deg = angle(std::min(light.radius_deg, light.falloff_deg)),
         spot.cutoff_deg = angle(light.falloff_deg);
       } else {
-        spot.cutoff_deg = static_cast<float>(std::clamp(light.falloff_deg, 0.01, 90.0));
+        // A radius beyond the falloff is the edge of the light, as povray shows.
+        const double edge = std::max(light.falloff_deg, light.radius_deg);
+        spot.cutoff_deg = static_cast<float>(std::clamp(edge, 0.01, 90.0));
         spot.beam_deg =
             static_cast<float>(std::clamp(light.radius_deg, 0.0, static_cast<double>(spot.cutoff_deg)));
         spot.tightness = static_cast<float>(std::max(light.tightness, 0.0));

@@ -266,7 +266,7 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
     return add(std::move(*made), is_number(part), pigment.place);
   }
   if (!is_of_places(made->kind)) entries = without_negative(entries);
-  if (part == Part::filtered) entries = with_filters(entries);
+  if (part == Part::filtered && !is_of_places(made->kind)) entries = with_filters(entries);
   for (const BlendEntry& entry : entries) {
     PatternStop stop;
     stop.at = static_cast<float>(std::clamp(entry.at, 0.0, 1.0));

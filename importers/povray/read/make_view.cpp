@@ -85,6 +85,8 @@ WideCamera wide_camera(const CameraView& v) {
 void SceneMaker::set_view() {
   scene_.settings.direct_only = !world_.radiosity;
   scene_.settings.max_depth = world_.max_trace_level;
+  // What goes straight on stays on its level, as povray's pictures of clear planes show.
+  scene_.settings.straight_counts = reader_.for_export;
   const CameraView view = world_.camera ? *world_.camera : CameraView{};
   const SourceLocation place = reader_.location(view.place);
   if (!world_.camera) reader_.notes.approximated("there is no camera: POV-Ray's, at the origin", place);

@@ -151,6 +151,20 @@ void read_bounds(Reader& reader, Object& object) {
   }
 }
 
+// What an object or a lamp says of photons; all but which objects they are shot at is left out.
+void read_photons(Reader& reader) {
+  reader.expect('{', "behind photons");
+  for (int depth = 1; depth > 0;) {
+    const Token token = reader.next();
+    if (token.kind == TokenKind::end) reader.fail("photons has no closing brace", token.place);
+    if (token.is(Word::target_))
+      reader.has_photon_target |= reader.flag();
+    else if (token.is(Word::reflection_) || token.is(Word::refraction_))
+      reader.photons_go_on |= reader.flag();
+    depth += token.is('{') ? 1 : token.is('}') ? -1 : 0;
+  }
+}
+
 }  // namespace
 
 bool read_object_modifier(Reader& reader, Object& object, int& layers) {
@@ -244,6 +258,8 @@ bool read_object_modifier(Reader& reader, Object& object, int& layers) {
       reader.flag();
       return true;
     case Word::photons_:
+      read_photons(reader);
+      return true;
     case Word::radiosity_:
       skip_block(reader);
       return true;

@@ -39,9 +39,8 @@ void read_global_settings(Reader& reader, World& world) {
         break;
       case Word::photons_:
         world.photons = true;
+        world.photons_place = token.place;
         skip_block(reader);
-        reader.notes.approximated("photons: paths find what they light, or do not",
-                                  reader.location(token.place));
         break;
       case Word::subsurface_:
         skip_block(reader);
@@ -135,6 +134,10 @@ World read_world(Reader& reader) {
   World world;
   while (read_statement(reader, world)) {
   }
+  world.photons = world.photons && reader.has_photon_target && reader.photons_go_on;
+  if (world.photons)
+    reader.notes.approximated("photons: paths find what they light, or do not",
+                              reader.location(world.photons_place));
   return world;
 }
 

@@ -30,7 +30,7 @@ struct World {
   std::optional<Numbers> ambient_light;
   bool radiosity = false, photons = false;
   int max_trace_level = 5;
-  Place background_place;
+  Place background_place, photons_place;
 };
 
 // Reads the file to its end.
