@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -16,6 +15,7 @@
 
 #include "scene/system/diagnostics.h"
 #include "scene/system/output_place.h"
+#include "scene/system/scratch_file.h"
 #include "scene/system/underway.h"
 
 namespace vitrail {
@@ -38,10 +38,9 @@ void ReservedSpace::release() {
 bool ReservedSpace::renew() {
   const Underway underway("reserving room for", beside_);
   release();
-  std::string name = beside_.string() + ".room-XXXXXX";
-  descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
+  const std::filesystem::path folder = beside_.parent_path();
+  descriptor_ = open_nameless_file(folder.empty() ? "." : folder);
   if (descriptor_ < 0) return false;
-  ::unlink(name.c_str());
   if (::fallocate(descriptor_, 0, 0, static_cast<off_t>(bytes_)) == 0) return true;
   const int reason = errno;
   release();

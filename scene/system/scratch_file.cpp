@@ -14,11 +14,13 @@ std::filesystem::path scratch_directory() {
   return chosen && *chosen ? chosen : "/var/tmp";
 }
 
-int open_scratch_file() {
-  const int nameless = ::open(scratch_directory().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+int open_scratch_file() { return open_nameless_file(scratch_directory()); }
+
+int open_nameless_file(const std::filesystem::path& folder) {
+  const int nameless = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (nameless >= 0) return nameless;
   // Not every file system has files without names.
-  std::string name = scratch_directory() / "vitrail-scratch-XXXXXX";
+  std::string name = folder / "vitrail-scratch-XXXXXX";
   const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor >= 0) ::unlink(name.c_str());
   return descriptor;

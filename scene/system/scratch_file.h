@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files for what has no room in memory, of this process alone.
+// Files without names: for what has no room in memory, and for room on a disk. They are of this process
+// alone, and go with it however it ends.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +10,9 @@ namespace vitrail {
 // $TMPDIR, else /var/tmp, which is on a disk where /tmp may be in memory.
 std::filesystem::path scratch_directory();
 
-// The descriptor of an empty file in the scratch directory. The file has no name, so it goes with the process
-// however that ends. −1 where there can be none; errno says why.
+// Both return the descriptor of an empty file, in the scratch directory or in `folder`; −1 where there can be
+// none, and errno says why. On a file system without such files it has a name for a moment.
 int open_scratch_file();
+int open_nameless_file(const std::filesystem::path& folder);
 
 }  // namespace vitrail
