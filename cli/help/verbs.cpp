@@ -88,7 +88,7 @@ std::span<const Example> first_steps() {
       {"vitrail render scene.pbrt -o picture.png --quality draft", "a first picture"},
       {"vitrail inspect scene.pbrt", "the contents of a scene"},
       {"vitrail convert scene.pbrt scene.xml", "the scene in another format"},
-      {"vitrail help render", "all options of a verb, by purpose"},
+      {"vitrail help render", "what nearly everyone needs of a verb; render --help-all has every option"},
   };
   return steps;
 }
