@@ -9,30 +9,37 @@
 
 #include "cli/common/unknown_options.h"
 #include "cli/help/describe.h"
+#include "cli/help/headings.h"
 
 namespace vitrail {
 
 namespace {
 
-bool has_name(const CommandOption& option, std::string_view name) {
-  return std::ranges::find(option.names, name) != option.names.end();
+// What the help calls the value of an option, "" where it leaves that to the type.
+std::string_view value_name(const CLI::App& app, const CLI::Option& option) {
+  const std::string& program = app.get_name();
+  for (const Heading& heading : headings(std::string_view(program).substr(program.find(' ') + 1)))
+    for (std::string_view rest = heading.options; !rest.empty();) {
+      const std::string_view word = rest.substr(0, rest.find(' '));
+      rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+      const std::size_t equals = word.find('=');
+      const std::string name(word.substr(0, equals));
+      if (option.check_lname(name) || (option.get_positional() && option.get_name(true) == name))
+        return equals == std::string_view::npos ? std::string_view() : word.substr(equals + 1);
+    }
+  return {};
 }
 
 // "X0,X1,Y0,Y1", but not "NAME=WEIGHT,…".
-bool takes_numbers(const CommandOption& option) {
-  return option.value.find(',') != std::string::npos &&
-         std::ranges::all_of(option.value, [](unsigned char c) { return std::isalnum(c) || c == ','; });
+bool takes_numbers(std::string_view value) {
+  return value.find(',') != std::string::npos &&
+         std::ranges::all_of(value, [](unsigned char c) { return std::isalnum(c) || c == ','; });
 }
 
 // "-3", "4," or "1,2": what may be a part of such a list.
 bool is_part_of_numbers(const std::string& word) {
   return word.find_first_of("0123456789") != std::string::npos &&
          word.find_first_not_of("0123456789.,+-eE") == std::string::npos && !word.starts_with("--");
-}
-
-const CommandOption* find(const std::vector<CommandOption>& options, std::string_view name) {
-  const auto found = std::ranges::find_if(options, [&](const auto& o) { return has_name(o, name); });
-  return found == options.end() ? nullptr : &*found;
 }
 
 bool is_whole(const std::string& text) {
@@ -61,12 +68,12 @@ const CLI::Option* option_of(const CLI::App& app, const std::string& message) {
   return nullptr;
 }
 
-std::string about_value(const CLI::Option& option, const CommandOption* told) {
+std::string about_value(const CLI::Option& option, std::string_view value) {
   const std::string name = option.get_name();
   const std::string text = option.results().empty() ? "" : option.results().back();
   const std::string is_wanted = wanted(option, text);
   if (is_wanted.empty()) return {};
-  const bool is_time = told && told->value == "SECONDS";
+  const bool is_time = value == "SECONDS";
   return fmt::format("{} takes {}{}, not {}", name, is_wanted,
                      is_time ? " of seconds, or a time such as 90s, 15m, 1h30m or 2d" : "", text);
 }
@@ -74,25 +81,28 @@ std::string about_value(const CLI::Option& option, const CommandOption* told) {
 }  // namespace
 
 std::vector<std::string> as_parsed(const CLI::App& app, const std::vector<std::string>& typed) {
-  const std::vector<CommandOption> options = describe(app).all();
   std::vector<std::string> words;
   for (std::size_t i = 0; i < typed.size(); ++i) {
     const std::string& word = typed[i];
-    const bool is_short = word.size() > 3 && word[0] == '-' && word[1] != '-' && word[2] == '=';
-    if (const CommandOption* option = is_short ? find(options, word.substr(0, 2)) : nullptr;
-        option && !option->value.empty()) {
-      words.insert(words.end(), {word.substr(0, 2), word.substr(3)});
+    words.push_back(word);
+    if (!word.starts_with('-') || word == "--") continue;
+    const std::size_t equals = word.find('=');
+    const CLI::Option* option = app.get_option_no_throw(word.substr(0, equals));
+    if (!option || option->get_items_expected_max() == 0) continue;
+    if (equals == 2 && word[1] != '-') {
+      words.back() = word.substr(0, equals);
+      if (word.size() > equals + 1) words.push_back(word.substr(equals + 1));
       continue;
     }
-    words.push_back(word);
-    const std::size_t equals = word.find('=');
-    const CommandOption* option = word == "--" ? nullptr : find(options, word.substr(0, equals));
-    if (!option || option->is_argument || !takes_numbers(*option)) continue;
+    if (i + 1 == typed.size()) continue;
+    if (!is_part_of_numbers(typed[i + 1]) || !takes_numbers(value_name(app, *option))) {
+      if (equals == std::string::npos && option->get_items_expected_min() == 1) words.push_back(typed[++i]);
+      continue;
+    }
     std::string list = equals == std::string::npos ? "" : word.substr(equals + 1);
     while (i + 1 < typed.size() && is_part_of_numbers(typed[i + 1]))
       list += (list.empty() || list.ends_with(',') ? "" : ",") + typed[++i];
-    if (equals != std::string::npos) words.back() = word.substr(0, equals + 1) + list;
-    if (equals == std::string::npos && !list.empty()) words.back() += "=" + list;
+    words.back() = word.substr(0, equals) + "=" + list;
   }
   return words;
 }
@@ -100,18 +110,22 @@ std::vector<std::string> as_parsed(const CLI::App& app, const std::vector<std::s
 std::string about(const CLI::App& app, const CLI::ParseError& error) {
   const std::string message = error.what();
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) return about_unexpected(app);
-  const std::vector<CommandOption> options = describe(app).all();
   if (dynamic_cast<const CLI::RequiredError*>(&error)) {
     const std::string name = message.substr(0, message.find(' '));
-    const CommandOption* told = find(options, name);
-    return fmt::format("{} is missing", told && !told->value.empty() ? told->value : name);
+    const CLI::Option* option = app.get_option_no_throw(name);
+    const std::string_view value = option ? value_name(app, *option) : "";
+    return fmt::format("{} is missing", value.empty() || !option->get_positional() ? name : value);
   }
   const CLI::Option* option = option_of(app, message);
   if (!option) return message;
-  const CommandOption* told = find(options, option->get_name());
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
-    return fmt::format("{} needs a value{}", option->get_name(), told ? ": " + told->value : "");
-  const std::string value = about_value(*option, told);
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
+    const std::vector<CommandOption> all = describe(app).all();
+    const auto told = std::ranges::find_if(all, [&](const CommandOption& o) {
+      return std::ranges::find(o.names, option->get_name()) != o.names.end();
+    });
+    return fmt::format("{} needs a value{}", option->get_name(), told == all.end() ? "" : ": " + told->value);
+  }
+  const std::string value = about_value(*option, value_name(app, *option));
   return value.empty() ? message : value;
 }
 

@@ -18,6 +18,7 @@ namespace vitrail::test::option_forms_test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 struct TypedOption {
@@ -121,6 +122,8 @@ TEST(OptionValues, SayWhatTheyTake) {
   for (const char* time : {"m", "1x", "1h30", "-1m", "0s", "''"})
     EXPECT_THAT(said(fmt::format("render nowhere.vit --time {}", time)), HasSubstr("--time")) << time;
   EXPECT_THAT(said("render nowhere.vit --time 1x"), HasSubstr("or a time such as 90s, 15m, 1h30m or 2d"));
+  EXPECT_THAT(said("render nowhere.vit -o="), HasSubstr("--output needs a value: FILE"));
+  EXPECT_THAT(said("render nowhere.vit --launcher -o=a"), Not(HasSubstr("--output")));
   EXPECT_THAT(said("render"), HasSubstr("SCENE|BUNDLE is missing"));
   EXPECT_THAT(said("render a.pbrt -- b.pbrt"), HasSubstr("'b.pbrt' is one argument too many"));
 }
