@@ -157,8 +157,11 @@ int run_many(const Arguments& a) {
   if (!a.check.empty()) require_checkable("scene." + a.format);
   if (a.pack) throw UsageError("--pack takes one scene, not --to");
   if (!a.report.empty()) throw UsageError("--to gives every scene its report: leave --report out");
-  ManyConversions many{a.files,      a.output, a.format, threads_for(a.at_once), a.again, a.check, a.peer,
-                       a.input_peer, a.strict, a.quiet,  reading_options(a)};
+  std::vector<std::string> options = reading_options(a);
+  if (a.force) options.push_back("--force");
+  ManyConversions many{a.files,  a.output, a.format, threads_for(a.at_once),
+                       a.again,  a.check,  a.peer,   a.input_peer,
+                       a.strict, a.quiet,  options};
   return convert_many(many);
 }
 

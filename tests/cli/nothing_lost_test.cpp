@@ -97,6 +97,20 @@ TEST_F(NothingLost, SomebodysSceneIsKept) {
   }
 }
 
+TEST_F(NothingLost, SomebodysSceneIsKeptAmongMany) {
+  write("a.pbrt", "WorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n");
+  std::filesystem::create_directory(directory_ / "many");
+  write("many/a.xml", "somebody's");
+  const auto convert = [&](const std::string& more) {
+    return run(
+        fmt::format("{} '{}' --to xml -o '{}' {}", vitrail("convert"), path("a.pbrt"), path("many"), more));
+  };
+  EXPECT_NE(convert("").status, 0);
+  EXPECT_EQ(read("many/a.xml"), "somebody's");
+  EXPECT_EQ(convert("--force").status, 0);
+  EXPECT_NE(read("many/a.xml"), "somebody's");
+}
+
 TEST_F(NothingLost, SomebodysPictureIsNotDevelopedOver) {
   ASSERT_EQ(render("a.film", "--spp 1").status, 0);
   const auto develop = [&](const std::string& out, const std::string& more) {
