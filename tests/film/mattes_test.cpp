@@ -137,15 +137,15 @@ TEST(Cryptomatte, TheGreatestCoverageComesFirst) {
   Film film = film_of();
   for (std::uint32_t s = 0; s < 8; ++s) {
     film.count_sample(5, s);
-    if (s < 7) film.put_matte(5, Layer::crypto_material, s < 1 ? 300u : s < 5 ? 100u : 200u, 1);
+    if (s < 7) film.put_matte(5, Layer::crypto_material, s < 1 ? 300u : s < 5 ? 200u : 100u, 1);
   }
   EXPECT_EQ(survey_of(film).mattes[static_cast<std::size_t>(Layer::crypto_material)].most, 3u);
   const std::vector<PictureChannel> channels = matte_channels(film, Layer::crypto_material, 3);
   ASSERT_EQ(channels.size(), 8u);
   const std::vector<std::string> names{"00.R", "00.G", "00.B", "00.A", "01.R", "01.G", "01.B", "01.A"};
-  const std::vector<float> values{std::bit_cast<float>(100u),
+  const std::vector<float> values{std::bit_cast<float>(200u),
                                   0.5f,
-                                  std::bit_cast<float>(200u),
+                                  std::bit_cast<float>(100u),
                                   0.25f,
                                   std::bit_cast<float>(300u),
                                   0.125f,
