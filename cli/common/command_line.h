@@ -12,7 +12,7 @@ namespace vitrail {
 // commas may stand apart: "--crop 0 8 -3, 8" is "--crop 0,8,-3,8".
 std::vector<std::string> as_parsed(const CLI::App& app, const std::vector<std::string>& typed);
 
-// What is wrong, for people: "--spp takes a whole number, not 4.5".
+// Says for people what is wrong: "--spp takes a whole number, not 4.5".
 std::string about(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace vitrail

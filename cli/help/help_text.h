@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What --help and --help-all print.
+// Writes what --help and --help-all print.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace vitrail {
 // All options, in lines of at most `width` columns, broken between words.
 std::string help_text(const Command& command, std::size_t width);
 
-// What nearly everyone needs, and how to see the rest; the same as the above where all is short.
+// Returns what nearly everyone needs, and how to see the rest; the same as the above where all is short.
 std::string short_help_text(const Command& command, std::size_t width);
 
 // Commands with what they do, one below the other.

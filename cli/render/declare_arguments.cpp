@@ -171,9 +171,8 @@ void declare_job(CLI::App& app, RenderArguments& a) {
   app.add_option(
          "--time", o.resources.time_limit_s,
          "end after this many seconds, or a time such as 15m or 1h30m, with partitioning and writing the "
-         "picture. Without --spp it uses all of it. Tracing gets at least half, and finishes some samples. "
-         "The "
-         "same command then continues")
+         "picture. Without --spp it uses all of it. Tracing gets at least half, and finishes some "
+         "samples. The same command then continues")
       ->transform(plain_seconds)
       ->check(more_than_0);
   app.add_flag("--dry-run", o.outputs.dry_run,

@@ -16,7 +16,8 @@ class DrainTime {
   }
   bool known() const { return known_; }
 
-  // In proportion where more rays are alive: each may want a domain of its own. 0 where nothing was measured.
+  // Grows in proportion where more rays are alive: each may want a domain of its own. It is 0 where nothing
+  // was measured.
   double expected_s(std::int64_t rays_alive) const {
     const double share = static_cast<double>(rays_alive) / static_cast<double>(rays_);
     return seconds_ * std::max(1.0, share);

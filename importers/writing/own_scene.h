@@ -6,9 +6,10 @@
 
 namespace vitrail {
 
-// In the first lines; of glTF, whose order is that of names, the generator.
+// It stands in the first lines; in glTF, whose order is that of names, it is the generator.
 inline constexpr const char* scene_signature = "written by Vitrail";
 
+// Returns whether the file has it.
 bool is_own_scene(const std::filesystem::path& file);
 
 }  // namespace vitrail

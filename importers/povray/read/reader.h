@@ -137,8 +137,8 @@ class Reader {
   std::optional<double> assumed_gamma;  // srgb_gamma: sRGB's curve
   bool for_export = false;              // ImportOptions::for_export
   int image_width = 640, image_height = 480;
-  // Whether an object is a target of photons, and whether a lamp or an object lets them bend or mirror:
-  // povray shoots none without both.
+  // They say whether an object is a target of photons, and whether a lamp or an object lets them bend or
+  // mirror: povray shoots none without both.
   bool has_photon_target = false, photons_go_on = false;
   double clock = 0;  // the time of an animation
   // What stands before the scene, as POV-Ray's Declare=NAME=VALUE: a number, or text where it is none.
