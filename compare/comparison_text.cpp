@@ -92,7 +92,7 @@ std::string to_json(const Comparison& c) {
   for (const WorstPixel& w : c.worst)
     json["worst"].push_back(
         {{"x", w.x}, {"y", w.y}, {"image", w.image}, {"reference", w.reference}, {"error", w.error}});
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump() + "\n";
 }
 
 }  // namespace vitrail

@@ -284,6 +284,31 @@ TEST_F(ManifestFile, WrongContentIsFound) {
       [](Manifest& m) { m.settings.photons->photons = 0; },
       [](Manifest& m) { m.settings.photons->first_radius = -1; },
       [](Manifest& m) { m.settings.photons->alpha = 1; },
+      [](Manifest& m) { m.film.working_gamma = -1; },
+      [](Manifest& m) { m.film.working_gamma = nan; },
+      [](Manifest& m) { m.film.imaging_ratio = nan; },
+      [](Manifest& m) { m.film.spectrum.count = -1; },
+      [](Manifest& m) {
+        m.film.filter = MitchellFilter{2, 2, nan, 0.3};
+      },
+      [](Manifest& m) {
+        m.film.filter = MitchellFilter{2, 2, 0.3, nan};
+      },
+      [](Manifest& m) {
+        m.film.filter = SincFilter{4, 4, 0};
+      },
+      [](Manifest& m) {
+        m.film.filter = SincFilter{4, 4, nan};
+      },
+      [](Manifest& m) { m.materials[0].model = MeasuredMaterial{}; },
+      [](Manifest& m) {
+        m.materials[0].model =
+            MeasuredMaterial{"", MeasuredSheet{{400, 700}, {0, 1}, {0, 0, 0, 0}, {0, 0, 0}}};
+      },
+      [](Manifest& m) {
+        m.materials[0].model =
+            MeasuredMaterial{"", MeasuredSheet{{700, 400}, {0, 1}, {0, 0, 0, 0}, {0, 0, 0, 0}}};
+      },
   };
   for (std::size_t i = 0; i < harms.size(); ++i) {
     Manifest m = sample_manifest();
@@ -324,6 +349,7 @@ TEST_F(ManifestFile, WrongObjectsAreFound) {
       [](Manifest& m) { m.objects[1].triangles = 1; },      // a surface beyond its triangles
       [](Manifest& m) { m.objects[1].surface_count = 3; },  // surfaces that are not there
       [](Manifest& m) { m.objects[1].first_surface = 2; },  // one of the scene's
+      [](Manifest& m) { m.objects[0].first_surface = 7; },  // behind the last
       [](Manifest& m) { m.domains[0].objects = {1}; },      // not all that it needs
       [](Manifest& m) {
         m.domains[0].objects = {0, 1, 2};
@@ -338,6 +364,30 @@ TEST_F(ManifestFile, WrongObjectsAreFound) {
     harms[i](m);
     EXPECT_THROW(write_manifest(directory.path(), m), Error) << "harm " << i;
   }
+}
+
+TEST_F(ManifestFile, InstancesMayNotBeTooDeep) {
+  const auto chain = [](std::size_t levels) {  // each object holds the one before it
+    Manifest m = sample_manifest();
+    test::add_objects(m);
+    const ObjectInfo first = m.objects[0], holder = m.objects[1];
+    m.objects = {first};
+    m.surfaces.resize(4);
+    for (std::uint32_t i = 1; i < levels; ++i) {
+      m.objects.push_back(holder);
+      m.objects[i].first_surface = 4;
+      m.objects[i].surface_count = 0;
+      m.objects[i].triangles = first.triangles;
+      m.objects[i].objects = {i - 1};
+    }
+    for (DomainInfo& d : m.domains) {
+      d.objects.clear();
+      for (std::uint32_t i = 0; i < levels; ++i) d.objects.push_back(i);
+    }
+    return m;
+  };
+  EXPECT_NO_THROW(write_manifest(directory.path(), chain(max_instance_depth)));
+  EXPECT_THROW(write_manifest(directory.path(), chain(max_instance_depth + 1)), Error);
 }
 
 // What reading the sample says with other words in it, their checksum right.

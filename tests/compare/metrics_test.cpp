@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "compare/comparison.h"
 #include "compare/error_images.h"
@@ -15,6 +17,7 @@
 namespace vitrail::metrics_test {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -61,6 +64,17 @@ TEST(Metrics, RatiosAreOfTheMeans) {
   EXPECT_TRUE(std::isnan(mean_ratios(image, black_image(2, 1, 3)).red));
 }
 
+// Greys 1 and 3, of which the image has 0.4 more and 0.4 less: the difference scatters by 0.4 about a mean
+// of 2.
+TEST(Metrics, LuminanceRatioErrorIsThatOfTheMeanDifference) {
+  const Image greys{2, 1, 3, {1, 1, 1, 3, 3, 3}}, other{2, 1, 3, {1.4f, 1.4f, 1.4f, 2.6f, 2.6f, 2.6f}},
+      brighter{2, 1, 3, {1.4f, 1.4f, 1.4f, 3.4f, 3.4f, 3.4f}};
+  EXPECT_NEAR(luminance_ratio_error(other, greys), 0.4 / std::sqrt(2) / 2, 1e-7);
+  EXPECT_NEAR(luminance_ratio_error(other, greys, 4), 2 * 0.4 / std::sqrt(2) / 2, 1e-7);
+  EXPECT_NEAR(luminance_ratio_error(brighter, greys), 0, 1e-7);
+  EXPECT_TRUE(std::isnan(luminance_ratio_error(greys, black_image(2, 1, 3))));
+}
+
 TEST(Comparison, NonFinitePixelsAreLeftOutCountedAndFail) {
   Image bad = image;
   bad.values[1] = nan;
@@ -95,11 +109,37 @@ TEST(Comparison, JsonIsFlat) {
 
 TEST(Comparison, NamesTheWorstPixels) {
   const Image a = {2, 2, 3, {1, 1, 1, 2, 2, 2, 3, 3, 3, nan, 1, 1}};
-  const std::vector<WorstPixel> worst = worst_pixels({0, 2, 3, nan}, a, a, 10, 20, 2);
+  const Image b = {2, 2, 3, {1, 1, 1, 2, 2, 2, 5, 6, 7, 8, 1, 1}};
+  const std::vector<WorstPixel> worst = worst_pixels({0, 2, 3, nan}, a, b, 10, 20, 2);
   ASSERT_EQ(worst.size(), 2u);
   EXPECT_EQ(std::pair(worst[0].x, worst[0].y), std::pair(11, 21)) << "what is not a number";
   EXPECT_EQ(std::pair(worst[1].x, worst[1].y), std::pair(10, 21));
-  EXPECT_EQ(worst[1].image[0], 3);
+  EXPECT_THAT(worst[1].image, ElementsAre(3, 3, 3));
+  EXPECT_THAT(worst[1].reference, ElementsAre(5, 6, 7));
+  EXPECT_EQ(worst[1].error, 3);
+}
+
+TEST(Comparison, WordsSayWithinWhatTheMeansAre) {
+  Comparison c;
+  EXPECT_THAT(to_text(c), Not(HasSubstr("(X, Y, Z within")));
+  c.mean_within = 0.25;
+  EXPECT_THAT(to_text(c), HasSubstr("(X, Y, Z within 0.25)\n"));
+}
+
+// 5² = 3² + 4².
+TEST(Comparison, WordsAndJsonPartNoiseFromTheRest) {
+  Comparison c;
+  c.test = ZTest{.mean_sigmas = 1.5, .noise_rms = 3, .difference_rms = 5};
+  c.welch = WelchTest{.tested = 6, .histogram = {1, 2, 3}};
+  EXPECT_THAT(to_text(c), HasSubstr("luminance differs by 5 rms: 3 is noise, 4 is not\n"));
+  EXPECT_THAT(to_text(c), HasSubstr("the means differ by 1.5 standard errors\n"));
+  EXPECT_THAT(to_text(c), HasSubstr("p-values of 6 tiles"));
+  const auto json = nlohmann::json::parse(to_json(c));
+  EXPECT_EQ(json["mean_sigmas"], 1.5);
+  EXPECT_EQ(json["noise_rms"], 3);
+  EXPECT_EQ(json["difference_rms"], 5);
+  EXPECT_EQ(json["tiles"], 6);
+  EXPECT_EQ(json["histogram"], (std::vector{1, 2, 3, 0, 0, 0, 0, 0, 0, 0}));
 }
 
 TEST(Comparison, IsOnlyJudgedWhereThereIsAThreshold) {
@@ -125,6 +165,37 @@ TEST(ErrorImages, LegendsGoBelow) {
   EXPECT_EQ(wide.width, 100);
   EXPECT_GT(wide.height, 10);
   EXPECT_EQ(with_legend(black_image(8, 8, 3), 1, Palette::heat).height, 8);
+}
+
+TEST(ErrorImages, TheHottestIsThe99thPercentileOfNumbers) {
+  std::vector<double> errors{std::numeric_limits<double>::quiet_NaN()};
+  for (int i = 0; i <= 200; ++i) errors.push_back(200 - i);
+  EXPECT_EQ(hottest(errors), 198);
+  EXPECT_EQ(hottest({0, 0, 3, 0}), 3) << "the greatest, where the percentile is 0";
+  EXPECT_EQ(hottest({std::numeric_limits<double>::quiet_NaN()}), 0);
+}
+
+TEST(ErrorImages, LegendsKeepTheImage) {
+  Image wide = black_image(64, 2, 3);
+  for (std::size_t i = 0; i < wide.values.size(); ++i) wide.values[i] = static_cast<float>(i);
+  const Image whole = with_legend(wide, 1, Palette::heat);
+  EXPECT_TRUE(std::equal(wide.values.begin(), wide.values.end(), whole.values.begin()));
+}
+
+TEST(ErrorImages, LegendsWriteTheGreatestErrorToTheRight) {
+  const Image wide = with_legend(black_image(64, 1, 3), 0.5, Palette::heat);
+  const auto line = [&](int y, int x0, int x1) {
+    std::string text;
+    for (int x = x0; x < x1; ++x)
+      text += wide.values[static_cast<std::size_t>(3 * (64 * y + x))] > 0 ? '#' : '.';
+    return text;
+  };
+  const std::vector<std::string> zero{".###.", ".#.#.", ".#.#.", ".#.#.", ".###."},
+      half{".###.....###.", ".#.#.....#...", ".#.#.....###.", ".#.#.......#.", ".###..#..###."};
+  for (int y = 0; y < 5; ++y) {
+    EXPECT_EQ(line(10 + y, 0, 5), zero[static_cast<std::size_t>(y)]);
+    EXPECT_EQ(line(10 + y, 51, 64), half[static_cast<std::size_t>(y)]);
+  }
 }
 
 TEST(Heatmap, IsBlackWithoutErrorWhiteAtTheMostAndMagentaWithoutNumber) {

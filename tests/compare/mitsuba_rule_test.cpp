@@ -101,6 +101,11 @@ TEST(Mask, LeavesOutRectanglesAndBlackPixels) {
             (std::vector<double>{0, 0, 2, 2, 3, 3, 4, 4}));
 }
 
+TEST(Mask, RectanglesEndBeforeTheirLastRowAndColumn) {
+  const PixelRect first{0, 1, 0, 1};
+  EXPECT_EQ(make_mask(2, 2, std::span(&first, 1), {}), (Mask{true, false, false, false}));
+}
+
 TEST(Mask, RefusesWhatDoesNotFit) {
   const PixelRect outside{0, 4, 0, 1}, all{0, 3, 0, 2};
   EXPECT_THROW(make_mask(3, 2, std::span(&outside, 1), {}), Error);

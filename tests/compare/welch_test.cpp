@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "compare/comparison.h"
+
 namespace vitrail::welch_tests {
 namespace {
 
@@ -52,6 +54,16 @@ TEST(Welch, FindsABiasBelowTheNoiseOfAPixel) {
   const WelchTest test = welch_test(a.tested(), b.tested());
   EXPECT_GT(test.distance, test.allowed_distance);
   EXPECT_GT(test.histogram[0], 150u);
+}
+
+TEST(Welch, IsAMetricWhoseValueIsTheDistance) {
+  const Render a = render(1, 1, none), b = render(2, 1, [](int, int) { return 1.05; });
+  const WelchTest test = welch_test(a.tested(), b.tested());
+  const Comparison c =
+      compare({&a.image, &b.image, {}, {}}, Metric::welch, std::nullopt, std::nullopt, {}, test);
+  EXPECT_EQ(c.value, test.distance);
+  EXPECT_EQ(c.threshold, test.allowed_distance);
+  EXPECT_FALSE(c.passed);
 }
 
 TEST(Welch, ShowsWhere) {

@@ -198,5 +198,16 @@ TEST_F(TextureValues, SameValues) {
   EXPECT_FALSE(have_same_values(a, b, ImageUse::color));
 }
 
+TEST(ImageOf, ALightHasItsEncodingAndNumber) {
+  GoniometricLight light;
+  light.filename = "a.exr";
+  light.encoding = Encoding::srgb;
+  light.number = ImageNumber::luminance;
+  const ImageTexture image = image_of(light);
+  EXPECT_EQ(image.filename, "a.exr");
+  EXPECT_EQ(image.encoding, Encoding::srgb);
+  EXPECT_EQ(image.number, ImageNumber::luminance);
+}
+
 }  // namespace
 }  // namespace vitrail::texture_values_test
