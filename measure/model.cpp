@@ -73,8 +73,8 @@ double fitted_slope(std::span<const double> spp, std::span<const double> noise) 
     const double u = std::log(spp[i]), v = std::log(noise[i]);
     ++n, x += u, y += v, xx += u * u, xy += u * v;
   }
-  const double spread = n * xx - x * x;
-  return n < 2 || spread <= 0 ? 1 : std::clamp(-(n * xy - x * y) / spread, 0.7, 1.6);
+  const double spread = n * xx - x * x, rounding = 1e-9 * n * xx;
+  return n < 2 || spread <= rounding ? 1 : std::clamp(-(n * xy - x * y) / spread, 0.7, 1.6);
 }
 
 std::vector<bool> pareto_front(std::span<const double> cost, std::span<const double> error) {

@@ -52,7 +52,7 @@ std::optional<Prediction> best(std::span<const Tradeoff> tradeoffs, const Scalin
 Tradeoff combined(const Tradeoff& base, std::span<const Tradeoff> changes, const ScalingLaw& law);
 
 // The slope of log noise over log samples by least squares, within what such curves are: [0.7, 1.6]; 1 for
-// fewer than two points. Points whose noise is not positive are left out.
+// fewer than two counts. Points whose noise is not positive are left out.
 double fitted_slope(std::span<const double> spp, std::span<const double> noise);
 
 // Which of (cost, error) no other beats in both.

@@ -75,6 +75,8 @@ TEST(Model, TheSlopeIsFitted) {
   const double spp[] = {1, 4, 16}, noise[] = {1, 0.1767766953, 0.03125};
   EXPECT_NEAR(fitted_slope(spp, noise), 1.25, 1e-9);
   EXPECT_EQ(fitted_slope(std::span(spp, 1), std::span(noise, 1)), 1);
+  const double same[] = {4, 4, 4};
+  EXPECT_EQ(fitted_slope(same, noise), 1) << "counts that are all the same tell nothing";
   const double rising[] = {1, 2, 3};
   EXPECT_EQ(fitted_slope(spp, rising), 0.7);
 }
@@ -82,6 +84,14 @@ TEST(Model, TheSlopeIsFitted) {
 TEST(Model, TheFrontIsWhatNothingBeats) {
   const double cost[] = {1, 2, 3, 2}, error[] = {3, 2, 2, 4};
   EXPECT_THAT(pareto_front(cost, error), ElementsAre(true, true, false, false));
+}
+
+TEST(Words, TheTableNamesWhatCannotBeRendered) {
+  Measurement m;
+  m.settings.resize(2);
+  m.settings[1].name = "domains 8";
+  m.settings[1].failure = "too little memory";
+  EXPECT_THAT(table(m), testing::ContainsRegex("domains 8 +cannot be rendered here: too little memory\n"));
 }
 
 TEST(Axes, AreChosenByNameAndBecomeArguments) {

@@ -8,6 +8,9 @@
 #include <numbers>
 #include <random>
 
+#include "compare/flip.h"
+#include "compare/metrics.h"
+
 namespace vitrail::statistics_test {
 namespace {
 
@@ -39,6 +42,22 @@ TEST(Statistics, KeepNoiseAndBiasApart) {
   EXPECT_LT(std::abs(s.bias.value - bias * bias * weight), 2 * s.bias.half_width);
   EXPECT_TRUE(s.is_biased());
   EXPECT_NEAR(s.luminance.value, bias / truth, 0.01);
+}
+
+// FLIP of each picture is mostly noise, of their mean it is less.
+TEST(Statistics, FlipIsOfEachPictureAndOfTheirMean) {
+  const Reference reference = make_reference(noisy(1001, 0.02), noisy(1002, 0.02));
+  const std::vector<Image> all = pictures(1, 0.2, 0);
+  const ErrorStatistics s = error_statistics(all, reference);
+  double sum = 0;
+  Image mean = black_image(size, size, 3);
+  for (const Image& picture : all) {
+    sum += mean_of_valid(hdr_flip(picture, reference.mean));
+    for (std::size_t i = 0; i < mean.values.size(); ++i) mean.values[i] += picture.values[i] / 6;
+  }
+  EXPECT_NEAR(s.flip.value, sum / 6, 1e-9);
+  EXPECT_NEAR(s.flip_of_mean, mean_of_valid(hdr_flip(mean, reference.mean)), 1e-4);
+  EXPECT_LT(s.flip_of_mean, s.flip.value);
 }
 
 TEST(Statistics, SeeNoBiasWhereThereIsNone) {

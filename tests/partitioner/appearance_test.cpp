@@ -44,6 +44,26 @@ TEST(Appearance, SpectraAreResolved) {
   EXPECT_EQ(std::get<ComplexIndex>(metal).eta, SpectrumParameter{resolved(NamedSpectrum{"metal-Cu-eta"})});
 }
 
+TEST(Appearance, SpectraOfEveryPlaceAreResolved) {
+  const Spectrum named = NamedSpectrum{"metal-Cu-eta"};
+  const SpectrumParameter expected = resolved(named);
+  PrincipledMaterial principled;
+  principled.base_color = named;
+  const Appearance whole = baked(principled);
+  EXPECT_EQ(std::get<PrincipledMaterial>(whole.materials.at(0).model).base_color, expected);
+  const Appearance corners = baked({Material{DiffuseMaterial{Id<Texture>{0}}}},
+                                   {Texture{BilinearTexture{named, named, named, named}}});
+  const auto& bilinear = std::get<BilinearTexture>(corners.textures.at(0).model);
+  for (const SpectrumParameter& corner : {bilinear.v00, bilinear.v01, bilinear.v10, bilinear.v11})
+    EXPECT_EQ(corner, expected);
+  Scene sky;
+  sky.lights.resize(1);
+  sky.lights[0].model = SkyLight{};
+  std::get<SkyLight>(sky.lights[0].model).albedo = named;
+  const Appearance day = appearance_of(sky, {});
+  EXPECT_EQ(*std::get<SkyLight>(day.lights.at(0).model).albedo, resolved(named));
+}
+
 // As rough, light found behind it would be weighed against connections, which it blocks.
 TEST(Appearance, RoughGlassBetweenEqualIndicesIsSmooth) {
   const DielectricMaterial rough{grey(1.5f), grey(1.5f), Roughness{0.2f, 0.2f}};

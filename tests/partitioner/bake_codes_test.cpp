@@ -236,6 +236,22 @@ TEST(BakeCodes, NumbersAndGreysTakeAByte) {
     }
 }
 
+TEST(BakeCodes, NumbersAreOfTheirChannel) {
+  test::BakedScene s;
+  png(s, "a.png", 1, 3, {10, 100, 200});
+  const auto value = [&](ImageNumber number) {
+    ImageTexture channel = s.image("a.png");
+    channel.number = number, channel.encoding = Encoding::linear;
+    const FloatParameter baked = s.bake().bake(FloatParameter{s.add(channel, true)});
+    s.baker->files();
+    EXPECT_EQ(format_of(s, "000000.tex"), TexelFormat::number_code);
+    return s.look_up().number(baked, at_uv(0.5, 0.5));
+  };
+  EXPECT_NEAR(value(ImageNumber::red), 10 / 255.0, 1e-6);
+  EXPECT_NEAR(value(ImageNumber::green), 100 / 255.0, 1e-6);
+  EXPECT_NEAR(value(ImageNumber::blue), 200 / 255.0, 1e-6);
+}
+
 TEST(BakeCodes, WhatIsNoFunctionOfAByteIsBakedAsBefore) {
   constexpr int width = 9, height = 5;
   test::BakedScene s;

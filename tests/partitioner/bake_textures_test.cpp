@@ -54,6 +54,21 @@ TEST(BakeTextures, ReflectancesOfLinearPixels) {
       s, baked, image, [](RGB c) { return Spectrum{reflectance_from_rgb(c)}; }, 1e-3);
 }
 
+TEST(BakeTextures, ImagesKeepTheirMappingWrapAndFilter) {
+  test::BakedScene s;
+  write_exr_image(s.directory / "a.exr", colors(3, 2, 1));
+  ImageTexture image = s.image("a.exr");
+  image.mapping = UvMapping{2, 3, 0.25, 0.5};
+  image.wrap = Wrap::mirror;
+  image.filter = TextureFilter::trilinear;
+  const SpectrumParameter baked = s.bake().bake(s.add(image), TextureUse::reflectance);
+  s.look_up();
+  const auto& kept = std::get<ImageTexture>(s.baked.at(std::get<Id<Texture>>(baked).value).model);
+  EXPECT_EQ(kept.mapping, image.mapping);
+  EXPECT_EQ(kept.wrap, image.wrap);
+  EXPECT_EQ(kept.filter, image.filter);
+}
+
 // The file of rows that come one by one is that of the whole image.
 TEST(BakeTextures, RowsMakeTheSameFile) {
   test::BakedScene s;

@@ -47,6 +47,18 @@ TEST(ColoredMedia, AreWhatMitsubaEvaluates) {
   expect_at(medium, 0.75, {1.89966, 0.739597, 0.32366, 0.143982});
 }
 
+// A density has one number a cell.
+TEST(ColoredMedia, DensitiesOfColorsAreTheirMeans) {
+  Medium medium;
+  medium.density = two_cells({1, 0.2f, 0.3f}, {0.1f, 0.3f, 2});
+  std::vector<std::string> notes;
+  const Medium result = bake_medium(medium, RgbMethod::jakob_hanika, notes).value();
+  const Grid& density = std::get<Grid>(result.density);
+  EXPECT_EQ(density.channels, 1);
+  EXPECT_EQ(density.values, (std::vector{0.5f, 0.8f}));
+  EXPECT_EQ(notes.size(), 1u);
+}
+
 TEST(ColoredMedia, FadeToBlack) {
   const Medium medium = baked(two_cells({1, 0.2f, 0.1f}, {0, 0, 0}));
   expect_at(medium, 0.3, {0.0986485, 0.118754, 0.191633, 0.71793});
