@@ -264,6 +264,33 @@ TEST_F(MitsubaLoad, WhatIsNotUsedIsReportedWithASuggestion) {
   EXPECT_TRUE(mentions("\"$depth\" has no <default>"));
 }
 
+TEST_F(MitsubaLoad, WhatAnAreaLightDoesNotUseIsReported) {
+  imported_ = read(
+      "<shape type=\"sphere\"><emitter type=\"area\"><rgb name=\"radianse\" value=\"1\"/></emitter></shape>");
+  EXPECT_TRUE(mentions("did you mean \"radiance\""));
+}
+
+TEST_F(MitsubaLoad, LaterVersionsAreTold) {
+  imported_ = read_mitsuba(folder_.write("scene.xml", "<scene version=\"4.0.0\"/>"));
+  EXPECT_TRUE(mentions("version 4.0.0 is read as version 3"));
+  imported_ = read_mitsuba(folder_.write("scene.xml", "<scene version=\"3.9.1\"/>"));
+  EXPECT_FALSE(mentions("is read as version"));
+}
+
+// Names of version 0.6 are read in files without a version where the first file has that version. A file may
+// hold one element alone.
+TEST_F(MitsubaLoad, IncludedFilesAreOfTheFirstOnesVersion) {
+  const std::string included =
+      "<bsdf type=\"dielectric\" id=\"m\"><float name=\"intIOR\" value=\"2\"/></bsdf>";
+  for (const std::string& text : {included, "<scene>" + included + "</scene>"}) {
+    folder_.write("m.xml", text);
+    imported_ = read_mitsuba(folder_.write(
+        "scene.xml", "<scene version=\"0.6.0\"><include filename=\"m.xml\"/>" + floor + "</scene>"));
+    const Material& material = imported_.scene.materials.at(imported_.scene.shapes.at(0).material.value);
+    EXPECT_EQ(std::get<DielectricMaterial>(material.model).eta, Spectrum{ConstantSpectrum{2}});
+  }
+}
+
 TEST_F(MitsubaLoad, MistakesAreErrorsWithTheirPlace) {
   EXPECT_THAT(error("<scene version=\"3.0.0\"><shape></scene>"), ::testing::HasSubstr("not XML"));
   EXPECT_THAT(error("<scene/>"), ::testing::HasSubstr("no version"));

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "importers/mitsuba/read/index_of_refraction.h"
 #include "importers/mitsuba/read/mitsuba.h"
 #include "importers/mitsuba/write/write_mitsuba.h"
 #include "tests/importers/mitsuba/mitsuba_objects.h"
@@ -494,6 +495,21 @@ TEST(MitsubaFilm, UnknownFilters) {
   EXPECT_EQ(reading.scene.film.filter, (Filter{GaussianFilter{2, 2, 0.5}}));
 }
 
+TEST(MitsubaFilm, FiltersHaveTheirDefaults) {
+  const std::vector<std::pair<std::string, Filter>> filters{
+      {"box", BoxFilter{}},
+      {"tent", TriangleFilter{1, 1}},
+      {"gaussian", GaussianFilter{2, 2, 0.5}},
+      {"mitchell", MitchellFilter{2, 2, 1.0 / 3, 1.0 / 3}},
+      {"lanczos", SincFilter{3, 3, 3}}};
+  for (const auto& [type, filter] : filters)
+    EXPECT_EQ(read_text("<sensor type='perspective'><film type='hdrfilm'><rfilter type='" + type +
+                        "'/></film></sensor>")
+                  .scene.film.filter,
+              filter)
+        << type;
+}
+
 TEST(MitsubaFilm, CatmullRomIsMitchells) {
   const Scene scene =
       read_text(
@@ -509,6 +525,13 @@ TEST(SnappedTransform, TwiceIsOnce) {
     const Transform t = rotate(small(random), {1, 1, 0.3}) * translate({1 - 1e-14, small(random), 0});
     EXPECT_EQ(snapped(snapped(t)), snapped(t));
   }
+}
+
+// By Walsh's closed form of the reflectance from outside, and that both sides let through the same.
+TEST(IndexOfRefraction, WhatDiffuseLightMeetsWithin) {
+  EXPECT_NEAR(internal_reflectance(1.33), 0.471949149, 3e-6);
+  EXPECT_NEAR(internal_reflectance(1.5), 0.596345760, 3e-6);
+  EXPECT_NEAR(internal_reflectance(2), 0.790149159, 3e-6);
 }
 
 }  // namespace
