@@ -104,7 +104,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress,
   FilmHead head = read_head(in);
   const Arrays& arrays = head.arrays;
   Film film(std::move(scratch));
-  film.settings_ = std::move(head.settings), film.key_ = std::move(head.key);
+  film.settings_ = head.settings, film.key_ = std::move(head.key);
   film.exponent_ = head.exponent, film.length_exponent_ = head.length_exponent;
   film.refused_ = head.refused;
   in.read_array(film.sums_, arrays.sums, "sums", film.scratch_.get());

@@ -37,7 +37,7 @@ double Film::clamped_share() const {
   if (!(key_.clamp > 0)) return 0;
   WideSum all = reading(sums_.back());
   const double taken = static_cast<double>(value_of(all));
-  const auto y = std::span(sums_).subspan(y_planes * pixels(), sample_groups * pixels());
+  const auto y = std::span(sums_).subspan(y_planes * pixels(), std::size_t{sample_groups} * pixels());
   for (const WideSum& sum : y) all += reading(sum);
   return taken == 0 ? 0 : taken / static_cast<double>(value_of(all));
 }

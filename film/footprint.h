@@ -17,7 +17,7 @@ inline constexpr double greatest_splat_radius = 4.5;  // of a filter whose sampl
 // by row from the top left. Their weights are the filter's values there, ∫f = 1.
 struct Footprint {
   int x = 0, y = 0, wide = 0, high = 0;
-  std::array<std::int32_t, most_splat_pixels * most_splat_pixels> weights;
+  std::array<std::int32_t, std::size_t{most_splat_pixels} * most_splat_pixels> weights;
 };
 
 // Of a sample of `pixel`, in a picture of width × height: visit(pixel, weight) of those in it that get any.

@@ -32,7 +32,7 @@ std::uint64_t exr_memory(const FilmSettings& film, const FilmKey& key, int films
   const std::uint64_t a_row =
       channels * sizeof(float) * static_cast<std::uint64_t>(film.crop.x1 - film.crop.x0);
   const int rows = rows_at_once(film, key);
-  constexpr std::uint64_t block = 3 * exr_block_rows;
+  constexpr std::uint64_t block = std::uint64_t{3} * exr_block_rows;
   return bytes_of_rows(film, key, rows) * static_cast<std::uint64_t>(std::min(films, 2) + 1) +
          a_row * (2 * static_cast<std::uint64_t>(rows) + 1 + block);
 }
