@@ -23,6 +23,19 @@ double distance(Vector3d d, double metric) {
   return portable_pow(power(d.x) + power(d.y) + power(d.z), 1 / metric);
 }
 
+// With the offset as a step along a fourth axis. NaN, as POV-Ray's is: what a step back along an odd metric
+// leaves may be less than nothing, and along one that is not whole it has no length.
+double displaced(double distance, double metric, double offset) {
+  if (offset == 0) return distance;
+  if (metric == 1) return distance + offset;
+  if (metric == 2) return std::hypot(distance, offset);
+  const bool whole = metric == std::floor(metric), even = std::fmod(metric, 2) == 0;
+  if (offset < 0 && !whole) return std::numeric_limits<double>::quiet_NaN();
+  const double step = portable_pow(std::abs(offset), metric);
+  const double sum = portable_pow(distance, metric) + (offset < 0 && !even ? -step : step);
+  return sum < 0 ? std::numeric_limits<double>::quiet_NaN() : portable_pow(sum, 1 / metric);
+}
+
 struct Nearest {
   std::array<double, 3> distance{std::numeric_limits<double>::infinity(),
                                  std::numeric_limits<double>::infinity(),
@@ -46,8 +59,8 @@ double crackle(const PatternCrackle& c, Point3d p) {
   const std::int64_t x = cell(p.x), y = cell(p.y), z = cell(p.z);
   // How far the cells at that step along an axis are, at least.
   const auto gap = [](double at, std::int64_t from, int step) {
-    const double offset = at - static_cast<double>(from);
-    return step > 0 ? step - offset : step < 0 ? offset - step - 1 : 0;
+    const double within = at - static_cast<double>(from);
+    return step > 0 ? step - within : step < 0 ? within - step - 1 : 0;
   };
   Nearest nearest;
   for (int ring = 0; ring <= reach; ++ring)
@@ -62,9 +75,10 @@ double crackle(const PatternCrackle& c, Point3d p) {
           nearest.add(distance(q - p, metric), q);
         }
   if (c.solid) return narrow_noise(nearest.point);
-  const auto& d = nearest.distance;
-  const double sum = c.form.x * d[0] + c.form.y * d[1] + c.form.z * d[2] + static_cast<double>(c.offset);
-  return std::min(std::abs(sum), 1.0);
+  std::array<double, 3> d = nearest.distance;
+  for (double& distance : d) distance = displaced(distance, metric, static_cast<double>(c.offset));
+  const double sum = c.form.x * d[0] + c.form.y * d[1] + c.form.z * d[2];
+  return sum > 0 ? std::min(sum, 1.0) : 0;  // NaN is 0
 }
 
 }  // namespace vitrail

@@ -29,8 +29,9 @@ struct PatternBrick {
 };
 
 // `crackle` with `form`, `metric`, `offset`, `solid`: d1, d2, d3 are the distances (by Minkowski's metric of
-// that exponent) to the nearest points of a random set, one a unit cell; the value is
-// |form.x·d1 + form.y·d2 + form.z·d3 + offset|, or where solid a random number of the nearest point.
+// that exponent, the offset being how far they all are along a fourth axis) to the nearest points of a random
+// set, one a unit cell; the value is form.x·d1 + form.y·d2 + form.z·d3 in [0, 1], or where solid a random
+// number of the nearest point.
 struct PatternCrackle {
   Vector3d form{-1, 1, 0};
   float metric = 2;  // 1: Manhattan, 2: Euclid
