@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# slurm_test.sh PROGRAMS SOURCE: a Slurm of one node on this machine, started and stopped here; a job that is
-# preempted, requeued and goes on. Status 77 without VITRAIL_LONG_TESTS, and where there is no Slurm to try it with.
+# slurm_test.sh PROGRAMS SOURCE: a Slurm of one node on this machine, started and stopped here; jobs that are
+# preempted, requeued, killed and go on, and an array of frames. Status 77 without VITRAIL_LONG_TESTS, and where
+# there is no Slurm to try it with.
 set -u
 programs=$(realpath "$1") source=$(realpath "$2")
 [ -n "${VITRAIL_LONG_TESTS:-}" ] || { echo "skipped: takes minutes, with VITRAIL_LONG_TESTS=1"; exit 77; }
@@ -92,6 +93,25 @@ grep -q "450 MiB a rank, as Slurm gives this job" log || fail "memory: $(cat log
 grep -Eq "stops with a checkpoint after 11[0-9]{2} s" log || fail "time: $(cat log)"
 vitrail render box.vit -o whole.film $options --quiet --stats whole.json
 [ "$(grep film_hash a.json)" = "$(grep film_hash whole.json)" ] || fail "another film"
+
+echo "== a rank is killed, the job goes on"
+killed=$(sbatch --parsable -n 2 --ntasks-per-node=2 --mem=1000 --time=20 -o killed.log \
+  "$source/examples/cluster/render.sbatch" box.vit -o k.film $options --checkpoint-every 1 --stats k.json) || fail sbatch
+for _ in $(seq 600); do [ -e k.film.partial ] && break; sleep .1; done
+rank=$(pgrep -f "vitrail-render.* k.film" | while read -r p; do tr '\0' '\n' < /proc/$p/environ 2> /dev/null | grep -q '^SLURM_PROCID=1$' && echo "$p"; done | tail -n 1)
+[ -n "$rank" ] || fail "no rank 1: $(cat killed.log)"
+kill -KILL "$rank"
+for _ in $(seq 240); do [ -e k.film ] && [ -z "$(squeue -h -j "$killed" -o %T 2> /dev/null)" ] && break; sleep .5; done
+[ -e k.film ] || fail "it was not started again: $(cat killed.log; scontrol show job "$killed")"
+grep -q "going on from k.film.partial" killed.log || fail "it was not killed, or began anew: $(cat killed.log)"
+[ "$(grep film_hash k.json)" = "$(grep film_hash whole.json)" ] || fail "another film after a kill"
+
+echo "== an array renders the frames of a list"
+printf -- '--seed %d\n' 1 2 3 4 > list.txt
+array=$(sbatch --parsable --array 2-4 --mem=500 --time=20 -o array.log "$source/examples/cluster/frames/frames.sbatch" \
+  box.vit --frames list.txt -o frame%d.film --crop 0,64,0,64 --spp 16 --threads 1) || fail sbatch
+for _ in $(seq 240); do [ -z "$(squeue -h -j "$array" -o %T 2> /dev/null)" ] && break; sleep .5; done
+[ "$(echo frame?.film)" = "frame2.film frame3.film frame4.film" ] || fail "the array: $(ls frame*; cat array.log)"
 
 echo "== requeued when it is finished"
 scontrol requeue "$job" && scontrol update jobid="$job" StartTime=now
