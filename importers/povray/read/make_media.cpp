@@ -4,6 +4,8 @@
 // d, absorption a leaves e^(−a·d), emission e adds e·d. Scattering s takes s·extinction·d away, and under a
 // lamp of colour c that does not fade shows c·s·d where it is isotropic: four times what σ_s = s does here,
 // as such a lamp has the intensity π·c.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +23,8 @@ namespace {
 
 using Three = std::array<double, 3>;
 
-constexpr int cells = 48;          // of a grid of densities, along each axis
+// Of a grid of densities, along each axis: usually, and where neighbours of the first have little in common.
+constexpr int usual_cells = 48, fine_cells = 128;
 constexpr double nothing = 1e-4;   // an optical thickness that nobody sees
 constexpr double boundless = 1e6;  // the size of what has no end
 
@@ -118,22 +121,41 @@ class Densities {
   std::vector<std::vector<PatternField>> fields_;
 };
 
-Grid grid_over(const Bounds3d& box, int channels) {
+// Of `channels` values that at(point) appends for the middle of each cell.
+template <class AtPoint>
+Grid sampled(const Bounds3d& box, int channels, int cells, const AtPoint& at) {
   Grid grid;
   grid.nx = grid.ny = grid.nz = cells;
   grid.channels = channels;
   grid.bounds = box;
-  grid.values.reserve(static_cast<std::size_t>(cells) * cells * cells * static_cast<std::size_t>(channels));
-  return grid;
-}
-
-template <class AtPoint>
-void sample(Grid& grid, const AtPoint& at) {
-  const Vector3d step = (grid.bounds.upper - grid.bounds.lower) * (1.0 / cells);
+  const auto side = static_cast<std::size_t>(cells);
+  grid.values.reserve(side * side * side * static_cast<std::size_t>(channels));
+  const Vector3d step = (box.upper - box.lower) * (1.0 / cells);
   for (int k = 0; k < cells; ++k)
     for (int j = 0; j < cells; ++j)
       for (int i = 0; i < cells; ++i)
-        at(grid.bounds.lower + Vector3d{(i + 0.5) * step.x, (j + 0.5) * step.y, (k + 0.5) * step.z});
+        at(grid.values, box.lower + Vector3d{(i + 0.5) * step.x, (j + 0.5) * step.y, (k + 0.5) * step.z});
+  return grid;
+}
+
+// The mean difference of neighbours over the mean value: of a ball that fades outwards 0.1, and 2 where each
+// value stands alone, as those of shells do that are thinner than a cell.
+double roughness(const Grid& grid) {
+  double differences = 0, sum = 0;
+  const auto step = static_cast<std::size_t>(grid.channels);
+  for (std::size_t i = step; i < grid.values.size(); ++i) {
+    const auto value = static_cast<double>(grid.values[i]);
+    differences += std::abs(value - static_cast<double>(grid.values[i - step]));
+    sum += std::abs(value);
+  }
+  return sum > 0 ? differences / sum : 0;
+}
+
+template <class AtPoint>
+Grid densities_over(const Bounds3d& box, int channels, const AtPoint& at) {
+  constexpr double rough = 0.5;
+  Grid grid = sampled(box, channels, usual_cells, at);
+  return roughness(grid) > rough ? sampled(box, channels, fine_cells, at) : grid;
 }
 
 // By default media around everything weaken no lamp (3.7.0.10). A parallel light is far away here.
@@ -174,19 +196,23 @@ std::optional<Id<Medium>> SceneMaker::medium_of(const std::vector<Shared<MediaBl
   Three shown = sums.emission;
   if (has_densities && bounded) {
     const Densities densities(reader_, blocks);
+    Grid grid;
     if (shines && !scatters && !fades) {
-      Grid grid = grid_over(box, 3);
-      sample(grid, [&](Point3d p) {
-        for (const double x : densities.emission(p)) grid.values.push_back(static_cast<float>(x));
+      grid = densities_over(box, 3, [&](std::vector<float>& values, Point3d p) {
+        for (const double x : densities.emission(p)) values.push_back(static_cast<float>(x));
       });
-      medium.emission_scale = std::move(grid);
       shown = {1, 1, 1};
     } else {
-      Grid grid = grid_over(box, 1);
-      sample(grid, [&](Point3d p) { grid.values.push_back(static_cast<float>(densities.share(p))); });
-      medium.density = std::move(grid);
+      grid = densities_over(box, 1, [&](std::vector<float>& values, Point3d p) {
+        values.push_back(static_cast<float>(densities.share(p)));
+      });
     }
-    reader_.notes.approximated("densities of media: a grid of 48 cells along each axis", place);
+    reader_.notes.approximated(fmt::format("densities of media: a grid of {} cells along each axis", grid.nx),
+                               place);
+    if (grid.channels == 3)
+      medium.emission_scale = std::move(grid);
+    else
+      medium.density = std::move(grid);
   } else if (has_densities) {
     reader_.notes.dropped("densities of media that have no end", place);
   }
