@@ -13,14 +13,13 @@
 #include "cli/common/run_program.h"
 #include "cli/help/completion.h"
 #include "cli/help/help_text.h"
+#include "cli/help/licence.h"
 #include "cli/help/man_page.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/say.h"
 
 namespace vitrail {
 namespace {
-
-constexpr const char* version = "vitrail " VITRAIL_VERSION "\n";
 
 std::string usage() {
   constexpr std::size_t column = 17;
@@ -34,7 +33,7 @@ std::string usage() {
       "completion",
       "bash, zsh or fish: the completion script of that shell, as in: source <(vitrail completion bash)",
       column, width);
-  return text + entry_text("-V, --version", "which version this is", column, width);
+  return text + entry_text("-V, --version", "which version this is, and its licence", column, width);
 }
 
 // For its man page.
@@ -92,7 +91,7 @@ int run(std::vector<std::string> words) {
   if (words.size() > 1 && words[0] == "help") words = {words[1], "--help"};
   const std::string verb = words.empty() ? "" : words[0];
   if (verb == "--help" || verb == "-h" || verb == "help") return answer(usage());
-  if (verb == "--version" || verb == "-V") return answer(version);
+  if (verb == "--version" || verb == "-V") return answer(version_text(VITRAIL_VERSION, ""));
   if (verb.empty()) {
     say_text(usage());
     return exit_usage;

@@ -39,7 +39,7 @@ vitrail_completion(zsh _vitrail zsh/site-functions)
 vitrail_completion(fish vitrail.fish fish/vendor_completions.d)
 add_custom_target(manuals ALL DEPENDS ${pages} ${completions})
 
-install(FILES README.md DESTINATION ${documents} COMPONENT programs)
+install(FILES README.md CHANGELOG.md SECURITY.md THIRD_PARTY.md DESTINATION ${documents} COMPONENT programs)
 install(DIRECTORY docs DESTINATION ${documents} COMPONENT programs)
 install(DIRECTORY examples DESTINATION ${documents} COMPONENT programs PATTERN __pycache__ EXCLUDE)
 file(CREATE_LINK cornell-box/cornell-box.pbrt ${CMAKE_BINARY_DIR}/link/cornell-box.pbrt SYMBOLIC)

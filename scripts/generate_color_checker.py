@@ -10,7 +10,7 @@ import warnings
 warnings.filterwarnings("ignore")
 import colour
 
-print("""// SPDX-License-Identifier: Apache-2.0
+print("""// SPDX-" "License-Identifier: Apache-2.0
 // By scripts/generate_color_checker.py from colour-science's table of Ohta (1997).
 // clang-format off
 #include "cli/spectrum/color_checker.h"

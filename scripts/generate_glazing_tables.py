@@ -38,7 +38,7 @@ d65 = dict(spectrum("CIE Illuminant D65 1nm.ssp"))
 known = colour.SDS_ILLUMINANTS["D65"]
 assert np.allclose(known.values, [d65[nm] for nm in known.wavelengths], rtol=1e-5)
 observer = colour.MSDS_CMFS["CIE 1964 10 Degree Standard Observer"]
-print("""// SPDX-License-Identifier: Apache-2.0
+print("""// SPDX-" "License-Identifier: Apache-2.0
 // By scripts/generate_glazing_tables.py, which names the sources.
 // clang-format off
 #include "glazing/standard_tables.h"

@@ -19,7 +19,7 @@ assert sorted(values) == list(range(360, 831))
 texts = [f"{0.0 if v != v else v:.6g}" for _, v in sorted(values.items())]
 texts = [t + ("f" if "." in t or "e" in t else ".0f") for t in texts]
 
-print("// SPDX-License-Identifier: Apache-2.0")
+print("// SPDX-" "License-Identifier: Apache-2.0")
 print("// Written by scripts/generate_melanopic_table.py: change that, not this.")
 print("// Source: CIE S 026/E:2018, its toolbox's table in PyPI package luxpy 1.12.0.")
 print('// clang-format off\n#include "scene/daylight/photometry.h"\n\nnamespace vitrail {\n')

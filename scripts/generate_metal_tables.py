@@ -43,7 +43,7 @@ def literal(value):
 
 def main():
     names = sorted([p.name.removesuffix(".eta.spd") for p in FOLDER.glob("*.eta.spd")] + ["CuZn"])
-    print("// SPDX-License-Identifier: Apache-2.0")
+    print("// SPDX-" "License-Identifier: Apache-2.0")
     print("// Written by scripts/generate_metal_tables.py.")
     print('#include "scene/spectra/metal_tables.h"\n')
     print("// clang-format off")

@@ -61,7 +61,7 @@ def row(thin):
     return "{" + ", ".join([str(int(thin))] + [f"{x:.7g}" for x in numbers]) + "},"
 
 
-print("// SPDX-License-Identifier: Apache-2.0")
+print("// SPDX-" "License-Identifier: Apache-2.0")
 print("// Written by scripts/generate_principled_reference.py: change that, not this.")
 for thin in (False, True):
     for _ in range(200):

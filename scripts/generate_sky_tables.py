@@ -44,7 +44,7 @@ def braces(values):
 
 
 licence = open(os.path.join(folder, "LICENSE")).read().split("This source")[1]
-print("// SPDX-License-Identifier: Apache-2.0 AND BSD-3-Clause")
+print("// SPDX-" "License-Identifier: Apache-2.0 AND BSD-3-Clause")
 print("// Written by scripts/generate_sky_tables.py from the data of PyPI package mitsuba 3.9.1: change that, not this.")
 print("// The data are of https://cgg.mff.cuni.cz/projects/SkylightModelling/ and come under this licence:\n//")
 print("\n".join(("// " + line).rstrip() for line in ("This source" + licence).strip().splitlines()))

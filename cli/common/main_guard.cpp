@@ -16,6 +16,7 @@
 #include "cli/help/completion.h"
 #include "cli/help/describe.h"
 #include "cli/help/help_text.h"
+#include "cli/help/licence.h"
 #include "cli/help/man_page.h"
 #include "cli/help/markdown_page.h"
 #include "scene/system/diagnostics.h"
@@ -105,6 +106,12 @@ std::string first_input(const CLI::App& app) {
   return {};
 }
 
+// "render" of "vitrail render".
+std::string verb_of(const CLI::App& app) {
+  const std::string& name = app.get_name();
+  return name.substr(name.rfind(' ') + 1);
+}
+
 // Of the hidden `--describe man|markdown|bash|zsh|fish`, which the build and the documentation's test ask
 // for; empty of another word.
 std::string description(const CLI::App& app, const std::string& writer) {
@@ -135,7 +142,9 @@ int end_with(int status) {
 
 int run_guarded(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
   std::string input;
-  app.set_version_flag("-V,--version", "vitrail " VITRAIL_VERSION, "print the version");
+  app.set_version_flag(
+      "-V,--version", [&] { return version_text(VITRAIL_VERSION, verb_of(app)); },
+      "print the version and the licence");
   app.set_help_flag("-h,--help", "print this help");
   app.set_help_all_flag("--help-all", "print all options");
   let_the_last_count(app);
@@ -152,7 +161,7 @@ int run_guarded(CLI::App& app, int argc, char** argv, const std::function<int()>
     } catch (const CLI::CallForAllHelp&) {
       return answer(help_text(describe(app), help_width()));
     } catch (const CLI::CallForVersion& e) {
-      return answer(std::string(e.what()) + '\n');
+      return answer(e.what());
     } catch (const CLI::Success&) {  // an option that answers by itself, as develop --find-denoiser
       return answer({});
     } catch (const CLI::ParseError& e) {

@@ -6,6 +6,7 @@
 namespace vitrail {
 
 std::span<const Verb> verbs() {
+  constexpr bool contains_cgal = true;
   static const std::vector<Verb> all{
       {"render",
        "render a scene or a bundle, alone or under mpirun",
@@ -18,14 +19,16 @@ std::span<const Verb> verbs() {
        "print the contents and the needs of a scene, a bundle or a film",
        {{"vitrail inspect room.pbrt", "its contents, and its approximations"},
         {"vitrail inspect room.vit --json", "the same of a bundle, for programs"},
-        {"vitrail inspect room.film", "how many samples it has, and with which options it was rendered"}}},
+        {"vitrail inspect room.film", "how many samples it has, and with which options it was rendered"}},
+       contains_cgal},
       {"convert",
        "write a scene in another format",
        {{"vitrail convert room.pbrt room.xml", "from PBRT to Mitsuba 3"},
         {"vitrail convert room.pbrt room.xml --report room.json",
          "lists each item as exact, approximated or dropped"},
         {"vitrail convert scenes/ --to xml -o converted --check",
-         "a whole folder; says which scenes look different"}}},
+         "a whole folder; says which scenes look different"}},
+       contains_cgal},
       {"develop",
        "make a picture of films",
        {{"vitrail develop room.film -o room.png --exposure 1", "one stop brighter"},
@@ -42,7 +45,8 @@ std::span<const Verb> verbs() {
         {"vitrail partition city.pbrt -o city.vit --memory 4G",
          "the scene may be larger than memory, which chooses the sub-domains"},
         {"vitrail partition city.pbrt -o city.vit --profile rays.json",
-         "cut where the rays of an earlier render went"}}},
+         "cut where the rays of an earlier render went"}},
+       contains_cgal},
       {"verify",
        "read every byte of a bundle and report damage",
        {{"vitrail verify city.vit", "after a copy, for example"},

@@ -17,6 +17,8 @@ struct Verb {
   std::string_view name;
   std::string_view summary;  // a phrase without a full stop
   std::vector<Example> examples;
+  // Its program has parts of CGAL that are under GPL-3.0-or-later (tests/laws/source/licences_test.cpp).
+  bool contains_cgal = false;
 };
 
 std::span<const Verb> verbs();

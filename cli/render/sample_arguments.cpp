@@ -60,9 +60,9 @@ void declare_sample_options(CLI::App& app, SampleArguments& a) {
       ->check(CLI::IsMember({"none", "nearest"}));
   app.add_option(
          "--roulette", a.roulette,
-         "when paths may end by chance, behind the first surface: once they carry less than a camera "
-         "ray (early), less than a quarter of it (usual), or after 254 events (never). Early is quicker "
-         "and noisier, never is slower; the mean is the same")
+         "when Russian roulette may end a path, after the first surface that is no mirror or clear glass: "
+         "once it carries less than a camera ray (early), less than a quarter of that (usual), or after "
+         "254 events (never). Early is quicker and noisier, never is slower; the mean is the same")
       ->check(CLI::IsMember({"early", "usual", "never"}))
       ->capture_default_str();
   app.add_option("--wavelengths", a.wavelengths,
@@ -76,8 +76,9 @@ void declare_sample_options(CLI::App& app, SampleArguments& a) {
       ->capture_default_str();
   app.add_option(
          "--light-candidates", a.light_candidates,
-         "points on lamps to compare before a connection, where the camera sees a surface that is near "
-         "a large lamp, or glossy. One, where there is a sky, an image of surroundings or a distant light")
+         "RIS candidates: points on lamps that are compared before a shadow ray is traced, where the "
+         "camera sees a surface that is near a large lamp, or glossy. Scenes with a sky, an environment "
+         "map or a distant light always take one")
       ->check(CLI::Range(1u, most_light_candidates))
       ->capture_default_str();
 }

@@ -2,17 +2,17 @@
 """The verbs of `vitrail` as functions.
 
 Options are those of the command line with _ for -: `spp=16` is --spp 16, `adaptive=True` --adaptive, a list
-an option that repeats. The program is $VITRAIL, else `vitrail` on the PATH.
+an option that repeats. The program is $VITRAIL, else that of the wheel, else `vitrail` on the PATH.
 """
 
 import json
 import os
 import pathlib
-import shutil
 import subprocess
 import tempfile
 
 import numpy as np
+import vitrail_programs
 
 from ._vitrail import Film
 
@@ -26,7 +26,7 @@ class ProgramError(RuntimeError):
 
 
 def _program():
-    program = os.environ.get("VITRAIL") or shutil.which("vitrail")
+    program = vitrail_programs.program()
     if not program:
         raise FileNotFoundError("vitrail is not on the PATH; the environment variable VITRAIL may name it")
     return program
@@ -47,7 +47,8 @@ def _words(options):
 def _run(words, report=None):
     """Runs vitrail; each line of its standard output goes to `report`."""
     with tempfile.TemporaryFile() as said:
-        with subprocess.Popen([_program(), *words], stdout=subprocess.PIPE, stderr=said, text=True) as process:
+        with subprocess.Popen([_program(), *words], stdout=subprocess.PIPE, stderr=said, text=True,
+                              env=vitrail_programs.environment()) as process:
             try:
                 for line in process.stdout:
                     if report:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/reference/courtesies.md: each row, with each reader that has such a thing.
+// docs/reference/tolerated-deviations.md: each row, with each reader that has such a thing.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -140,7 +140,7 @@ TEST(Courtesies, EachRowWithEachReader) {
   write("smooth.obj", square + "s 1\nf 1 2 3\n");
   write("named.obj", square + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n");
   write("odd.spd", "400 1 500 2 600 3 700");
-  std::ifstream page(std::string(test::source_dir()) + "/docs/reference/courtesies.md");
+  std::ifstream page(std::string(test::source_dir()) + "/docs/reference/tolerated-deviations.md");
   const std::string rows{std::istreambuf_iterator<char>(page), {}};
   for (const Case& c : cases()) {
     EXPECT_THAT(rows, testing::HasSubstr(c.row));

@@ -72,6 +72,34 @@ TEST(Links, LeadToEveryPageFromTheIndex) {
     }
 }
 
+// The page of the architecture has each folder of sources on two levels.
+TEST(Architecture, NamesEveryFolder) {
+  std::string page;
+  for (const PageLine& line : lines_of(project_file("docs/reference/architecture.md")))
+    page += line.text + "\n";
+  int seen = 0;
+  for (const char* module : {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film",
+                             "denoise", "tracer", "farm", "compare", "measure"}) {
+    const std::size_t begin = page.find(std::string("**") + module + "/**");
+    ASSERT_NE(begin, std::string::npos) << module;
+    const std::string part = page.substr(begin, page.find("\n- **", begin) - begin);
+    for (const auto& entry : fs::directory_iterator(project_file(module))) {
+      if (!entry.is_directory()) continue;
+      ++seen;
+      const std::string name = entry.path().filename().string() + "/";
+      EXPECT_NE(part.find(name), std::string::npos) << module << "/" << name;
+    }
+    // What it names is there.
+    static const std::regex folder(R"(([a-z]+)/[ ,])");
+    for (std::sregex_iterator at(part.begin(), part.end(), folder), end; at != end; ++at) {
+      const std::string name = (*at)[1];
+      if (name == "read" || name == "write") continue;  // within a format
+      EXPECT_TRUE(fs::exists(project_file(module) + "/" + name)) << module << "/" << name;
+    }
+  }
+  EXPECT_GT(seen, 40);
+}
+
 TEST(Lines, OfPagesForUsersAreShort) {
   for (const fs::path& page : pages()) {
     const std::string name = name_of(page);

@@ -26,8 +26,8 @@ std::vector<fs::path> pages() {
   for (fs::recursive_directory_iterator it(root), end; it != end; ++it) {
     if (it->is_directory() && is_foreign(it->path())) it.disable_recursion_pending();
     const bool is_page = it->path().extension() == ".md";
-    const bool is_in_docs = name_of(it->path()).starts_with("docs/");
-    if (is_page && (is_in_docs || it->path().filename() == "README.md")) found.push_back(it->path());
+    const bool is_held = name_of(it->path()).starts_with("docs/") || it->path().parent_path() == root;
+    if (is_page && (is_held || it->path().filename() == "README.md")) found.push_back(it->path());
   }
   std::ranges::sort(found);
   return found;

@@ -15,7 +15,7 @@ struct PageLine {
   bool is_typed = false;  // between ```sh and ```
 };
 
-// All pages of docs/, and the README.md of the root and of every folder, by path.
+// All pages of docs/ and of the root, and the README.md of every folder, by path.
 std::vector<std::filesystem::path> pages();
 std::vector<PageLine> lines_of(const std::filesystem::path& page);
 // From the root of the source.

@@ -200,7 +200,7 @@ Made by `tests/conformance/formats` from what the programs say; do not edit. Eac
 and each parameter in it gets an unusual value. A row says what reading, rendering and writing report
 beyond what they report without it.
 
-✓ exact · no effect on what is kept of a scene ≈ approximated ✗ dropped (≈) exact within a plugin that is approximated.
+✓ exact · no effect on what is kept of a scene ≈ approximated ✗ dropped (≈) the parameter is exact, its plugin is approximated.
 Numbers are of the list below each table. What comes out exactly is held by pictures
 (`tests/conformance/gate`), not by this page.
 )" + summary +

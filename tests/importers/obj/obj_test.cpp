@@ -286,7 +286,7 @@ TEST_F(Obj, Deterministic) {
   EXPECT_EQ(a.scene.materials, b.scene.materials);
 }
 
-// ---- Courtesies: docs/reference/courtesies.md -------------------------------------------------------------
+// ---- Courtesies: docs/reference/tolerated-deviations.md ----
 
 TEST_F(Obj, AttributesThatAreNotFiniteAreLostAlone) {
   const ImportedScene imported =

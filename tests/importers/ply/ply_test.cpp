@@ -365,7 +365,7 @@ TEST_F(Ply, NonFiniteVertices) {
   }
 }
 
-// ---- Courtesies: docs/reference/courtesies.md ---------------------------------------------------
+// ---- Courtesies: docs/reference/tolerated-deviations.md ---------------------------------------------------
 
 TEST_F(Ply, AttributesThatAreNotFiniteAreLostAlone) {
   const std::string columns = "element vertex 3\n" + xyz +

@@ -116,6 +116,8 @@ TEST(IncludeDirection, OnlyTheFarmSpeaksMpi) {
 
 TEST(Sources, CarryTheirLicence) {
   const std::filesystem::path root = test::source_dir();
+  // In two parts: this line states nothing of this file.
+  const std::string licence = std::string("SPDX-License") + "-Identifier: Apache-2.0";
   for (const char* folder :
        {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film", "denoise", "tracer",
         "farm", "compare", "measure", "cli", "python", "tests", "scripts", "examples", "cmake"})
@@ -127,8 +129,7 @@ TEST(Sources, CarryTheirLicence) {
       std::string first, second;
       std::getline(in, first);
       std::getline(in, second);
-      EXPECT_NE((first + second).find("SPDX-License-Identifier: Apache-2.0"), std::string::npos)
-          << entry.path().string();
+      EXPECT_NE((first + second).find(licence), std::string::npos) << entry.path().string();
     }
 }
 

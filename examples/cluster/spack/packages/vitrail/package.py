@@ -7,7 +7,7 @@ from spack.package import *
 class Vitrail(CMakePackage):
     """Converts scenes and renders them spectrally, on the ranks of a cluster that share the scene."""
 
-    license("Apache-2.0")
+    license("Apache-2.0 AND GPL-3.0-or-later")  # programs that contain CGAL: THIRD_PARTY.md
 
     version("0.1.0")
 
