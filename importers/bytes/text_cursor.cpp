@@ -151,12 +151,12 @@ SourceLocation TextCursor::location(const char* position) const {
   return {std::string(file_), line_, static_cast<int>(position - line_begin_) + 1};
 }
 
-void TextCursor::fail(std::string message, const char* position) const {
+void TextCursor::fail(const std::string& message, const char* position) const {
   constexpr std::ptrdiff_t before = 60, after = 60;  // what of a long line is shown
   const char* const begin = position - line_begin_ > before ? position - before : line_begin_;
   const char* stop = position;
   while (stop != end_ && *stop != '\n' && *stop != '\r' && stop - position < after) ++stop;
-  throw Error(std::move(message), location(position), printable({begin, stop}, before + after));
+  throw Error(message, location(position), printable({begin, stop}, before + after));
 }
 
 }  // namespace vitrail

@@ -70,8 +70,8 @@ class TextCursor {
   // Of a position in the present line.
   SourceLocation location(const char* position) const;
   // Throws Error at a position in the present line, with the line as the excerpt.
-  [[noreturn]] void fail(std::string message, const char* position) const;
-  [[noreturn]] void fail(std::string message) const { fail(std::move(message), at_); }
+  [[noreturn]] void fail(const std::string& message, const char* position) const;
+  [[noreturn]] void fail(const std::string& message) const { fail(message, at_); }
 
  private:
   bool blank() const { return *at_ == ' ' || *at_ == '\t' || *at_ == '\v' || *at_ == '\f'; }
