@@ -13,13 +13,6 @@
 
 namespace vitrail {
 
-namespace {
-
-struct NamedState {
-  std::string name;
-  GlazingSystem system;
-};
-
 std::vector<NamedState> states_of(const GlazingSystem& system) {
   if (!switches(system)) return {{"", system}};
   // Glass that warmth switches alone has no state to be told.
@@ -38,6 +31,8 @@ std::vector<NamedState> states_of(const GlazingSystem& system) {
   }
   return states;
 }
+
+namespace {
 
 // The sun's and the eye's data, without thermal radiation.
 std::vector<double> wavelengths(const GlazingSystem& system) {

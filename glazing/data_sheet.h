@@ -33,6 +33,7 @@ struct HeatValues {
   HeatBalance winter, summer;
 };
 
+// All figures of one state.
 struct DataSheetState {
   std::string name;  // "state 0.5", "40 °C"; empty where nothing switches
   std::vector<StandardValues> standards;
@@ -42,12 +43,20 @@ struct DataSheetState {
   SystemSpectrum normal;  // 300 to 2500 nm
 };
 
+// A glazing in each of its states.
 struct DataSheet {
   GlazingSystem system;
   Polarisation polarisation = Polarisation::mixed_at_panes;
   std::string why_no_heat;  // empty where there is
   std::vector<DataSheetState> states;
 };
+
+// A system in one of its states; the name is as above.
+struct NamedState {
+  std::string name;
+  GlazingSystem system;
+};
+std::vector<NamedState> states_of(const GlazingSystem& system);
 
 // Of a system that switches, each measured state and the one that it is in. Throws Error.
 DataSheet data_sheet(const GlazingSystem& system, Polarisation polarisation);

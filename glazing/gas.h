@@ -8,9 +8,10 @@
 
 namespace vitrail {
 
+// The gases that both standards have numbers of.
 enum class Gas { air, argon, krypton, xenon };
 
-const char* name_of(Gas gas);
+const char* name_of(Gas gas);                           // in lower case
 std::optional<Gas> gas_named(const std::string& name);  // whatever the case
 
 // Shares of the volume, which sum to 1. Empty means air.
@@ -26,6 +27,7 @@ using GasMixture = std::vector<GasShare>;
 std::optional<GasMixture> gas_mixture(const std::string& text);
 std::string words_for(const GasMixture& mixture);  // "argon 90 %, air 10 %"
 
+// What heat in a gap depends on.
 struct GasProperties {
   double conductivity_w_mk = 0, viscosity_pa_s = 0, heat_j_kgk = 0, density_kg_m3 = 0;
 };

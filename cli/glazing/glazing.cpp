@@ -9,6 +9,7 @@
 #include "cli/glazing/glazing_report.h"
 #include "cli/glazing/sheet_report.h"
 #include "compare/web_page.h"
+#include "glazing/energyplus_text.h"
 #include "glazing/system_file.h"
 #include "glazing/text_file.h"
 #include "scene/system/atomic_file.h"
@@ -24,7 +25,7 @@ struct Arguments {
   std::vector<std::size_t> flips;
   std::vector<double> theta_deg{0};
   std::string standard, sampling = "full";
-  std::filesystem::path csv, report;
+  std::filesystem::path csv, report, energyplus;
   std::vector<std::string> gaps;
   std::optional<double> state, temperature_c;
   bool polarised = false, json = false;
@@ -52,6 +53,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_flag("--polarised", a.polarised, "keep polarisations apart between panes; WINDOW takes their mean");
   app.add_option("--csv", a.csv, "write the spectra here");
   app.add_option("--report", a.report, "write a data sheet here, a page (.html) or JSON (.json)");
+  app.add_option("--energyplus", a.energyplus,
+                 "write a construction for EnergyPlus here (.idf), of each state");
   app.add_flag("--json", a.json, "print JSON");
 }
 
@@ -151,6 +154,7 @@ int run(const Arguments& a) {
     if (!sheet.why_no_heat.empty()) say("vitrail: no figures of heat: {}\n", sheet.why_no_heat);
     write_whole(a.report, json_report ? sheet_json(sheet, input.notes) : sheet_page(sheet, input.notes));
   }
+  if (!a.energyplus.empty()) write_whole(a.energyplus, energyplus_text(system));
   if (!a.json)
     for (const std::string& note : input.notes) say("vitrail: note: {}\n", note);
   show("{}\n", a.json ? glazing_json(report) : glazing_table(report));

@@ -90,7 +90,12 @@ TEST(Glazing, WritesADataSheet) {
     EXPECT_THAT(html, HasSubstr(part));
   for (const char* outside : {"<script", "src=", "href=", "<b>Pane"})
     EXPECT_THAT(html, ::testing::Not(HasSubstr(outside)));
-  EXPECT_EQ(run(fmt::format("{} --gap 12.7 --report '{}'", line, json.string())).status, 0);
+  const fs::path idf = directory / "out.idf";
+  EXPECT_EQ(
+      run(fmt::format("{} --gap 12.7 --report '{}' --energyplus '{}'", line, json.string(), idf.string()))
+          .status,
+      0);
+  EXPECT_THAT(text_of(idf), HasSubstr("WindowMaterial:Gas,\n  Glazing gap 1, Air, 0.0127;"));
   const auto sheet = read_json(json);
   const auto& state = sheet.at("states").at(0);
   EXPECT_NEAR(state.at("u_nfrc").get<double>(), 2.69, 0.03);  // two of 6 mm and 12.7 mm of air

@@ -7,8 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <sstream>
 
 #include "glazing/color_rendering.h"
+#include "glazing/energyplus_text.h"
+#include "glazing/product.h"
 #include "glazing/system_file.h"
 #include "scene/system/diagnostics.h"
 #include "tests/glazing/glazing_files.h"
@@ -99,6 +103,63 @@ TEST(DataSheet, HasEachStateBesideTheOthers) {
     EXPECT_NEAR(*state.angles[9].shgc, 0, 1e-9);  // 90°
     EXPECT_FALSE(state.angles.back().theta_deg);
   }
+}
+
+// Its IDF, read by our own reader: the same panes, those of each state, and those turned round.
+TEST(DataSheet, EnergyPlusTextIsReadBack) {
+  const TemporaryDirectory directory;
+  write_text(directory / "pane.dat", optics_text);
+  write_text(directory / "unit.json", R"({"name": "unit, 2; !new", "layers": [
+    {"states": [{"state": 0, "pane": "pane.dat"}, {"state": 1, "tinted": {"visible_transmittance": 0.1,
+      "solar_transmittance": 0.1}}], "heat": {"emissivity_front": 0.84, "emissivity_back": 0.1}},
+    {"gap_mm": 16, "gas": {"argon": 0.9, "air": 0.1}},
+    {"pane": "pane.dat", "flipped": true, "heat": {"emissivity_front": 0.2, "emissivity_back": 0.84}}]})");
+  const GlazingSystem system = read_system({(directory / "unit.json").string()}).system;
+  const std::string text = energyplus_text(system);
+  EXPECT_THAT(text,
+              ::testing::HasSubstr("WindowMaterial:GasMixture,\n  unit  2   new gap 1, 0.016, 2, Air, 0.1, "
+                                   "Argon, 0.9;"));
+  EXPECT_THAT(
+      text, ::testing::HasSubstr("Construction,\n  unit  2   new state 1,\n  unit  2   new state 1 pane 1,\n"
+                                 "  unit  2   new gap 1,\n  unit  2   new pane 2;"));
+  const auto idf = write_text(directory / "out.idf", text);
+  const auto same_values = [&](const char* name, const OpticalRows& rows, bool flipped) {
+    const Product product = read_product(idf, name);
+    ASSERT_GE(product.rows.size(), 3u) << name;
+    for (const OpticalRow& row : product.rows) {  // those of a state have the wavelengths of all
+      const PaneValues expected = value_at(rows, row.nm);
+      EXPECT_NEAR(row.at.t, expected.t, 3e-6) << name << " at " << row.nm;
+      EXPECT_NEAR(row.at.rf, flipped ? expected.rb : expected.rf, 3e-6) << name << " at " << row.nm;
+    }
+  };
+  const auto& states = system.layers[0].states;
+  same_values("unit  2   new state 0 pane 1", states[0].rows, false);
+  same_values("unit  2   new state 1 pane 1", states[1].rows, false);
+  same_values("unit  2   new pane 2", std::get<MeasuredPane>(system.layers[1].pane).rows, true);
+  EXPECT_EQ(read_product(idf, "unit  2   new pane 2").heat, (PaneHeat{1, 0.84, 0.2, 0}));
+  EXPECT_EQ(read_product(idf, "unit  2   new pane 2").thickness_mm, 6);
+}
+
+// EnergyPlus refuses wavelengths that do not ascend as printed, more than 800, and T + R above 1.
+TEST(DataSheet, EnergyPlusTextKeepsItsLimits) {
+  OpticalRows rows;
+  for (int i = 0; i < 2000; ++i) rows.push_back({300 + 1.1 * i, {0.1234565, 0.8765435, 0.2}});
+  rows.insert(rows.begin() + 1, {300.0000001, {0.1234565, 0.8765435, 0.2}});
+  GlazingLayer layer{.name = "pane", .pane = MeasuredPane{rows, PaneKind::coated}, .thickness_mm = 6};
+  layer.heat.emissivity_front = layer.heat.emissivity_back = 0.84;
+  std::istringstream lines(energyplus_text({"", {layer}}));
+  double last_um = 0;
+  int count = 0;
+  for (std::string line; std::getline(lines, line);) {
+    double um = 0, t = 0, rf = 0, rb = 0;
+    if (std::sscanf(line.c_str(), " %lf, %lf, %lf, %lf", &um, &t, &rf, &rb) != 4) continue;
+    EXPECT_GT(um, last_um);
+    EXPECT_LE(t + rf, 1 + 1e-12);
+    last_um = um;
+    ++count;
+  }
+  EXPECT_GT(count, 400);
+  EXPECT_LE(count, 800);
 }
 
 TEST(DataSheet, SaysWhyThereIsNoHeat) {
