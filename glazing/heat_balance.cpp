@@ -15,6 +15,28 @@ namespace {
 
 double black(double kelvin) { return stefan_boltzmann * kelvin * kelvin * kelvin * kelvin; }
 
+// a x = b by elimination with the greatest pivot.
+std::vector<double> solved(std::vector<std::vector<double>> a, std::vector<double> b) {
+  const std::size_t n = b.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t row = k + 1; row < n; ++row)
+      if (std::abs(a[row][k]) > std::abs(a[pivot][k])) pivot = row;
+    std::swap(a[k], a[pivot]);
+    std::swap(b[k], b[pivot]);
+    for (std::size_t row = k + 1; row < n; ++row) {
+      const double factor = a[row][k] / a[k][k];
+      for (std::size_t column = k; column < n; ++column) a[row][column] -= factor * a[k][column];
+      b[row] -= factor * b[k];
+    }
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    for (std::size_t column = k + 1; column < n; ++column) b[k] -= a[k][column] * b[column];
+    b[k] /= a[k][k];
+  }
+  return b;
+}
+
 // Surfaces count from outside: 2·pane and 2·pane + 1.
 class Balance {
  public:
@@ -54,7 +76,9 @@ class Balance {
   double into_room(const std::vector<double>& kelvin) const {
     const PaneHeat heat = turned(system_.layers.size() - 1);
     const std::vector<double> arriving = radiation(kelvin);
-    const double leaving = leaving_inwards(heat, kelvin.back(), arriving[size() - 2], arriving.back());
+    const double leaving = *heat.emissivity_back * black(kelvin.back()) +
+                           heat.infrared_t * arriving[size() - 2] +
+                           (1 - *heat.emissivity_back - heat.infrared_t) * arriving.back();
     return convection_into_room(kelvin) + leaving - arriving.back();
   }
 
@@ -70,37 +94,27 @@ class Balance {
            (kelvin.back() - environment_.inside_k);
   }
 
-  // From a pane towards the room: its own, what it reflects, what it lets through.
-  static double leaving_inwards(const PaneHeat& heat, double kelvin_back, double on_front, double on_back) {
-    return *heat.emissivity_back * black(kelvin_back) + heat.infrared_t * on_front +
-           (1 - *heat.emissivity_back - heat.infrared_t) * on_back;
-  }
-  static double leaving_outwards(const PaneHeat& heat, double kelvin_front, double on_front, double on_back) {
-    return *heat.emissivity_front * black(kelvin_front) + heat.infrared_t * on_back +
-           (1 - *heat.emissivity_front - heat.infrared_t) * on_front;
-  }
-
-  // On each surface, W/m². Reflections to and fro are swept until they change nothing: with opaque panes each
-  // gap is on its own, and what is left shrinks by (1 − ε)² at least.
+  // On each surface, W/m²: what the pane before it, or the one behind it, emits, lets through and reflects.
+  // One linear equation a surface takes in all that goes to and fro.
   std::vector<double> radiation(const std::vector<double>& kelvin) const {
-    const std::size_t count = system_.layers.size();
-    std::vector<double> on(size(), black(environment_.outside_k));
-    on.back() = black(environment_.inside_k);
-    for (int sweep = 0; sweep < 10000; ++sweep) {
-      double change = 0;
-      for (std::size_t i = 0; i < count; ++i) {
-        const PaneHeat heat = turned(i);
-        const double front = on[2 * i], back = on[2 * i + 1];
-        const auto bring = [&](std::size_t surface, double value) {
-          change = std::max(change, std::abs(on[surface] - value));
-          on[surface] = value;
-        };
-        if (i > 0) bring(2 * i - 1, leaving_outwards(heat, kelvin[2 * i], front, back));
-        if (i + 1 < count) bring(2 * i + 2, leaving_inwards(heat, kelvin[2 * i + 1], front, back));
-      }
-      if (change < 1e-11) break;
+    std::vector<std::vector<double>> factors(size(), std::vector<double>(size()));
+    std::vector<double> emitted(size());
+    for (std::size_t i = 0; i < size(); ++i) factors[i][i] = 1;
+    emitted.front() = black(environment_.outside_k);
+    emitted.back() = black(environment_.inside_k);
+    for (std::size_t i = 0; i < system_.layers.size(); ++i) {
+      const PaneHeat heat = turned(i);
+      const std::size_t front = 2 * i, back = front + 1;
+      // Towards `target`, from the side that `near` lies on.
+      const auto leave = [&](std::size_t target, std::size_t near, std::size_t far, double emissivity) {
+        emitted[target] = emissivity * black(kelvin[near]);
+        factors[target][far] -= heat.infrared_t;
+        factors[target][near] -= 1 - emissivity - heat.infrared_t;
+      };
+      if (i > 0) leave(front - 1, front, back, *heat.emissivity_front);
+      if (back + 1 < size()) leave(back + 1, back, front, *heat.emissivity_back);
     }
-    return on;
+    return solved(std::move(factors), std::move(emitted));
   }
 
   const GlazingSystem& system_;
@@ -108,28 +122,6 @@ class Balance {
   const std::vector<double>& absorbed_;
   double height_m_;
 };
-
-// a x = b by elimination with the greatest pivot.
-std::vector<double> solved(std::vector<std::vector<double>> a, std::vector<double> b) {
-  const std::size_t n = b.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t row = k + 1; row < n; ++row)
-      if (std::abs(a[row][k]) > std::abs(a[pivot][k])) pivot = row;
-    std::swap(a[k], a[pivot]);
-    std::swap(b[k], b[pivot]);
-    for (std::size_t row = k + 1; row < n; ++row) {
-      const double factor = a[row][k] / a[k][k];
-      for (std::size_t column = k; column < n; ++column) a[row][column] -= factor * a[k][column];
-      b[row] -= factor * b[k];
-    }
-  }
-  for (std::size_t k = n; k-- > 0;) {
-    for (std::size_t column = k + 1; column < n; ++column) b[k] -= a[k][column] * b[column];
-    b[k] /= a[k][k];
-  }
-  return b;
-}
 
 double greatest(const std::vector<double>& values) {
   double most = 0;

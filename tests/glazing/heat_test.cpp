@@ -130,6 +130,44 @@ TEST(Heat, SolarFactorIsThatOfEn410) {
               0.5 + (0.3 / 23 + 0.1 / conductance) / (1 / 8.0 + 1 / 23.0 + 1 / conductance), 1e-12);
 }
 
+// Mirrors, black films that infrared passes, gaps of a hair and of a metre, metal and foam, one to twelve
+// panes, in the dark and in the sun: a balance is found, no surface is colder than both sides, nor warmer
+// than both in the dark, and what goes in comes out.
+TEST(Heat, FindsABalanceOfExtremes) {
+  int count = 0;
+  for (const double emissivity : {0.001, 0.03, 0.84, 1.0})
+    for (const double passed : {0.0, 0.6})
+      for (const double gap_mm : {0.1, 12.0, 1000.0})
+        for (const double conductivity : {0.02, 1.0, 200.0})
+          for (const std::size_t panes : {1u, 2u, 5u, 12u})
+            for (const bool sun : {false, true}) {
+              if (emissivity + passed > 1) continue;
+              GlazingLayer layer = pane(6, emissivity, 0.3, gap_mm, {{Gas::krypton, 0.5}, {Gas::argon, 0.5}});
+              layer.heat.conductivity_w_mk = conductivity;
+              layer.heat.infrared_t = passed;
+              const GlazingSystem system{"", std::vector<GlazingLayer>(panes, layer)};
+              const HeatEnvironment& environment = sun ? nfrc_summer : nfrc_winter;
+              const HeatBalance balance =
+                  heat_balance(system, environment,
+                               std::vector<double>(panes, sun ? 783.0 / static_cast<double>(panes) : 0));
+              for (const auto& surfaces : balance.kelvin)
+                for (const double kelvin : surfaces) {
+                  EXPECT_GE(kelvin, std::min(environment.outside_k, environment.inside_k) - 1e-6);
+                  EXPECT_LE(kelvin, sun ? 1e4 : environment.inside_k + 1e-6);  // foam keeps its sun
+                }
+              EXPECT_TRUE(std::isfinite(balance.into_room_w_m2));
+              if (passed == 0) {
+                const double outer = balance.kelvin[0][0];
+                const double out =
+                    environment.outside_w_m2k * (outer - environment.outside_k) +
+                    emissivity * stefan_boltzmann * (std::pow(outer, 4) - std::pow(environment.outside_k, 4));
+                EXPECT_NEAR(out + balance.into_room_w_m2, sun ? 783 : 0, 1e-4);
+              }
+              ++count;
+            }
+  EXPECT_GT(count, 300);
+}
+
 // What is missing is named, not guessed.
 TEST(Heat, SaysWhatIsMissing) {
   const auto refusal = [](const GlazingSystem& system) -> std::string {
