@@ -56,6 +56,7 @@ class SheetOfState {
     for (int theta = 0; theta <= 90; theta += 10) result.angles.push_back(at(theta));
     result.angles.push_back(at({}));
     result.color_rendering = color_rendering_index(result.normal);
+    result.color_fidelity = color_fidelity(result.normal);
     if (with_heat_) result.heat = heat(result, absorbed);
     return result;
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "glazing/color_fidelity.h"
 #include "glazing/evaluation.h"
 #include "glazing/heat_balance.h"
 
@@ -39,6 +40,7 @@ struct DataSheetState {
   std::vector<StandardValues> standards;
   std::vector<AngleValues> angles;  // each 10° from 0° to 90°, then the hemisphere
   std::optional<double> color_rendering;
+  std::optional<ColorFidelity> color_fidelity;
   std::optional<HeatValues> heat;
   SystemSpectrum normal;  // 300 to 2500 nm
 };

@@ -15,7 +15,7 @@ namespace {
 constexpr double first_nm = 5000, last_nm = 25000;
 
 // Planck's law at 300 K, in any unit.
-double planck(double nm) {
+double planck_at_300_k(double nm) {
   constexpr double second_constant_nm_k = 1.438777e7;
   return 1 / (std::pow(nm, 5) * std::expm1(second_constant_nm_k / (300 * nm)));
 }
@@ -34,7 +34,7 @@ void add_emissivities(PaneHeat& heat, const OpticalRows& rows) {
     if (rows[i - 1].nm < first_nm) continue;
     const double step = rows[i].nm - rows[i - 1].nm;
     for (const OpticalRow* row : {&rows[i - 1], &rows[i]}) {
-      const double weight = step * planck(row->nm);
+      const double weight = step * planck_at_300_k(row->nm);
       power += weight;
       front += weight * (1 - row->at.t - row->at.rf);
       back += weight * (1 - row->at.t - row->at.rb);

@@ -3,6 +3,7 @@
 
     pip install colour-science==0.4.7 pywincalc==3.3.1
     python3 scripts/generate_glazing_tables.py > glazing/standard_tables.cpp
+    python3 scripts/generate_glazing_tables.py fidelity > glazing/color_fidelity_tables.cpp  # of TM-30
 
 ASTM E891-87, Table 1, direct normal irradiance at air mass 1.5 (W/(m2 um)), is withdrawn and in no library of colour; LBNL's
 pywincalc has it with the standard that names it, and CIE D65 at 1 nm. The CIE 1964 observer is colour-science's, and so is
@@ -12,12 +13,14 @@ pywincalc also has the weights of EN 410 (prEN 410 of 1998, table 2; its table 3
 ISO 9050:1990 and of ISO 9845-1. colour-science has the reflectances of CIE 13.3's test colours.
 """
 import importlib.metadata
+import sys
 import textwrap
 import warnings
 
 warnings.filterwarnings("ignore")
 import colour
 import numpy as np
+from colour.quality.cfi2017 import load_TCS_CIE2017
 from colour.quality.datasets.tcs import SDS_TCS
 
 
@@ -37,6 +40,38 @@ def wrapped(items):
 def pair(a, b):
     return f"{{{a:g},\N{NO-BREAK SPACE}{b:g}}}"
 
+
+def write_fidelity():
+    samples = load_TCS_CIE2017(colour.SpectralShape(380, 780, 5))
+    basis = colour.colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES
+    print("""// SPDX-License-Identifier: Apache-2.0
+// By scripts/generate_glazing_tables.py, which names the sources.
+// clang-format off
+#include "glazing/color_fidelity_tables.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::array<double, 3> daylight_5nm[] = {""")
+    for nm in range(380, 781, 5):
+        print("    {" + ", ".join(f"{basis[s][float(nm)]:g}" for s in ("S0", "S1", "S2")) + "},")
+    print("};\n\nconstexpr std::array<float, 99> samples_5nm[] = {")
+    for nm in range(380, 781, 5):
+        print("    {" + wrapped([f"{value:.4g}F" if value else "0" for value in samples[float(nm)]]).strip() + "},")
+    print("""};
+
+}  // namespace
+
+std::span<const std::array<double, 3>> cie_daylight_5nm() { return daylight_5nm; }
+std::span<const std::array<float, 99>> cie_224_samples_5nm() { return samples_5nm; }
+
+}  // namespace vitrail""")
+
+
+if sys.argv[1:] == ["fidelity"]:
+    write_fidelity()
+    sys.exit()
 
 d65 = dict(spectrum("CIE Illuminant D65 1nm.ssp"))
 known = colour.SDS_ILLUMINANTS["D65"]

@@ -46,6 +46,10 @@ Json state_json(const DataSheetState& state) {
   Json json{{"state", state.name},
             {"standards", standards},
             {"color_rendering_index", or_null(state.color_rendering)}};
+  if (state.color_fidelity)
+    json["tm_30"] = {{"r_f", state.color_fidelity->fidelity},
+                     {"r_g", state.color_fidelity->gamut},
+                     {"color_temperature_k", state.color_fidelity->kelvin}};
   if (state.heat) {
     const double shgc = *state.angles.front().shgc;
     json["u_nfrc"] = state.heat->u_nfrc;

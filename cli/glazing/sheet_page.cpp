@@ -92,6 +92,10 @@ std::string figures_table(const DataSheet& sheet) {
   table.add("R<sub>vis</sub> outside", [&](const auto& s) { return number(normal(s).visible.rf, 4); });
   table.add("R<sub>vis</sub> inside", [&](const auto& s) { return number(normal(s).visible.rb, 4); });
   table.add("R<sub>a</sub>", [](const auto& s) { return number(s.color_rendering, 1); });
+  table.add("R<sub>f</sub>, TM-30",
+            [](const auto& s) { return s.color_fidelity ? number(s.color_fidelity->fidelity, 1) : "–"; });
+  table.add("R<sub>g</sub>, TM-30",
+            [](const auto& s) { return s.color_fidelity ? number(s.color_fidelity->gamut, 1) : "–"; });
   table.group("Sun");
   const auto& standards = sheet.states.front().standards;
   for (std::size_t i = 0; i < standards.size(); ++i)
@@ -209,6 +213,10 @@ constexpr const char* legend =
     "<tr><td>R<sub>a</sub><td>General colour rendering index (CIE 13.3) of daylight D65 through the glass; "
     "100 changes "
     "no colour.</tr>\n"
+    "<tr><td>R<sub>f</sub>, R<sub>g</sub><td>Fidelity and gamut of ANSI/IES TM-30-20, of that light against "
+    "daylight or a "
+    "black body of the same colour temperature; 100 changes no colour, R<sub>g</sub> above 100 is more "
+    "colourful.</tr>\n"
     "<tr><td>ε, λ<td>Hemispherical emissivity of a surface; conductivity of a pane.</tr>\n"
     "<tr><td>hemisphere<td>Light from everywhere outside alike, as under an even sky.</tr>\n"
     "<tr><td>winter, summer<td>The conditions of U (NFRC) and of SHGC at normal incidence.</tr>\n</table>\n";

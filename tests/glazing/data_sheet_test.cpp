@@ -75,6 +75,24 @@ TEST(ColorRendering, IsThatOfCie13_3) {
   EXPECT_FALSE(color_rendering_index({{380, 780}, {{}, {}}}));
 }
 
+// colour-science 0.4.7, colour_fidelity_index_ANSIIESTM3018 of D65 through the same spectra. Its colour
+// temperatures are by Ohno's method. R_f 100.0004 of nothing is its rounding and ours.
+TEST(ColorFidelity, IsThatOfTm30) {
+  const auto near = [](const SystemSpectrum& spectrum, double fidelity, double gamut, double kelvin) {
+    const auto made = color_fidelity(spectrum);
+    ASSERT_TRUE(made);
+    EXPECT_NEAR(made->fidelity, fidelity, 0.02);
+    EXPECT_NEAR(made->gamut, gamut, 0.02);
+    EXPECT_NEAR(made->kelvin, kelvin, 1e-3 * kelvin);
+  };
+  near({{380, 780}, {{0.4, 0, 0}, {0.4, 0, 0}}}, 100.0004, 100.0000, 6502.97);
+  near({{380, 780}, {{0.2, 0, 0}, {0.8, 0, 0}}}, 99.0143, 99.4725, 4508.18);
+  near({{380, 780}, {{0.8, 0, 0}, {0.1, 0, 0}}}, 95.3395, 96.2545, 10874.55);
+  near({{380, 599.9, 600, 780}, {{0.5, 0, 0}, {0.5, 0, 0}, {0.2, 0, 0}, {0.2, 0, 0}}}, 80.6261, 83.9574,
+       9138.95);
+  EXPECT_FALSE(color_fidelity({{380, 780}, {{}, {}}}));
+}
+
 TEST(DataSheet, HasEachStateBesideTheOthers) {
   const TemporaryDirectory directory;
   write_text(directory / "pane.dat", optics_text);
