@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -91,12 +92,17 @@ class SheetOfState {
   HeatValues heat(const DataSheetState& state, const std::vector<SystemSpectrum>& absorbed) const {
     std::vector<double> sun = state.angles.front().absorbed;
     for (double& share : sun) share *= nfrc_summer.irradiance_w_m2;
-    return {.u_nfrc = u_value(system_, nfrc_winter),
-            .u_en_673 = en_673_u_value(system_),
-            .g_en_410 = en_410_solar_factor(system_, by(en_410(), "SOLAR", state.normal).t,
-                                            absorbed_by(en_410(), absorbed)),
-            .winter = heat_balance(system_, nfrc_winter, std::vector<double>(system_.layers.size())),
-            .summer = heat_balance(system_, nfrc_summer, sun)};
+    const std::vector<double> dark(system_.layers.size());
+    HeatValues values{.u_nfrc = u_value(system_, nfrc_winter),
+                      .winter = heat_balance(system_, nfrc_winter, dark),
+                      .summer = heat_balance(system_, nfrc_summer, sun)};
+    const bool opaque = std::ranges::all_of(
+        system_.layers, [](const GlazingLayer& layer) { return layer.heat.infrared_t == 0; });
+    if (!opaque) return values;
+    values.u_en_673 = en_673_u_value(system_);
+    values.g_en_410 =
+        en_410_solar_factor(system_, by(en_410(), "SOLAR", state.normal).t, absorbed_by(en_410(), absorbed));
+    return values;
   }
 
   const GlazingSystem& system_;

@@ -30,7 +30,9 @@ struct AngleValues {
 // U and g in W/(m²K) and parts of 1 (glazing/heat_balance.h, glazing/en_673.h); temperatures at night in
 // winter and in the sun of summer.
 struct HeatValues {
-  double u_nfrc = 0, u_en_673 = 0, g_en_410 = 0;
+  double u_nfrc = 0;
+  std::optional<double> u_en_673,
+      g_en_410;  // where no pane lets infrared through, as these standards have it
   HeatBalance winter, summer;
 };
 

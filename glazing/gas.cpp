@@ -89,6 +89,7 @@ std::optional<GasMixture> gas_mixture(const std::string& text) {
     sum += share;
   }
   if (mixture.empty() || std::abs(sum - 1) > 1e-6) return {};
+  std::ranges::stable_sort(mixture, std::greater{}, &GasShare::share);
   return mixture;
 }
 

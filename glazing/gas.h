@@ -22,8 +22,8 @@ struct GasShare {
 };
 using GasMixture = std::vector<GasShare>;
 
-// "air", "argon", or "argon=0.9,air=0.1". Empty where a name is unknown, stands twice, or where the shares
-// are not positive and do not sum to 1.
+// "air", "argon", or "argon=0.9,air=0.1", the greatest share first. Empty where a name is unknown, stands
+// twice, or where the shares are not positive and do not sum to 1.
 std::optional<GasMixture> gas_mixture(const std::string& text);
 std::string words_for(const GasMixture& mixture);  // "argon 90 %, air 10 %"
 

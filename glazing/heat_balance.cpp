@@ -125,7 +125,10 @@ class Balance {
 
 double greatest(const std::vector<double>& values) {
   double most = 0;
-  for (const double v : values) most = std::max(most, std::abs(v));
+  for (const double v : values) {
+    if (std::isnan(v)) return v;
+    most = std::max(most, std::abs(v));
+  }
   return most;
 }
 
@@ -157,7 +160,7 @@ HeatBalance heat_balance(const GlazingSystem& system, const HeatEnvironment& env
                                             static_cast<double>(kelvin.size() + 1);
   std::vector<double> gains = balance.gains(kelvin);
   constexpr double balanced_w_m2 = 1e-6;
-  for (int round = 0; round < 100 && greatest(gains) > balanced_w_m2; ++round) {
+  for (int round = 0; round < 100 && !(greatest(gains) <= balanced_w_m2); ++round) {
     const std::vector<double> change = step(balance, kelvin, gains);
     for (double part = 1; part > 1e-4; part /= 2) {
       std::vector<double> next = kelvin;

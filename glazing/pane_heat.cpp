@@ -50,12 +50,18 @@ void check_heat(const GlazingSystem& system) {
     const auto fail = [&](const char* what) {
       throw Error(fmt::format("pane {} (\"{}\") {}", i + 1, layer.name, what));
     };
+    const auto beyond = [](double value, double least, double most) { return value < least || value > most; };
     if (!(layer.thickness_mm > 0)) fail("does not say its thickness");
+    if (beyond(layer.thickness_mm, 1e-3, 1e4)) fail("is not between 0.001 mm and 10 m thick");
+    if (beyond(layer.heat.conductivity_w_mk, 1e-4, 1e4))
+      fail("has a conductivity beyond 0.0001 to 10 000 W/(m K)");
     if (!layer.heat.emissivity_front || !layer.heat.emissivity_back) fail("does not say its emissivity");
     for (const double e : {*layer.heat.emissivity_front, *layer.heat.emissivity_back})
       if (e <= 0 || e + layer.heat.infrared_t > 1)
         fail("has an emissivity of 0, or one that exceeds 1 with its infrared transmittance");
     if (i + 1 < system.layers.size() && !(layer.gap_behind_mm > 0)) fail("has no gap behind it");
+    if (i + 1 < system.layers.size() && beyond(layer.gap_behind_mm, 1e-3, 1e4))
+      fail("has a gap behind it that is not between 0.001 mm and 10 m wide");
   }
 }
 

@@ -30,7 +30,7 @@ inline constexpr double glass_emissivity = 0.84;
 void add_emissivities(PaneHeat& heat, const OpticalRows& rows);
 
 // Throws Error where heat cannot be computed: a pane without a thickness or an emissivity, two panes without
-// a gap between them.
+// a gap between them, or values that no window has.
 void check_heat(const GlazingSystem& system);
 
 }  // namespace vitrail

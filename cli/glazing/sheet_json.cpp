@@ -53,9 +53,9 @@ Json state_json(const DataSheetState& state) {
   if (state.heat) {
     const double shgc = *state.angles.front().shgc;
     json["u_nfrc"] = state.heat->u_nfrc;
-    json["u_en_673"] = state.heat->u_en_673;
+    json["u_en_673"] = or_null(state.heat->u_en_673);
     json["shgc"] = shgc;
-    json["g_en_410"] = state.heat->g_en_410;
+    json["g_en_410"] = or_null(state.heat->g_en_410);
     json["light_to_solar_gain"] = state.angles.front().visible.t / shgc;
     json["winter_celsius"] = celsius(state.heat->winter);
     json["summer_celsius"] = celsius(state.heat->summer);

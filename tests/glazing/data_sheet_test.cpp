@@ -102,7 +102,7 @@ TEST(DataSheet, HasEachStateBesideTheOthers) {
     {"gap_mm": 16, "gas": {"argon": 0.9, "air": 0.1}},
     {"pane": "pane.dat", "heat": {"emissivity_front": 0.84, "emissivity_back": 0.84}}]})");
   GlazingSystem system = read_system({(directory / "unit.json").string()}).system;
-  EXPECT_EQ(system.layers[0].gas_behind, (GasMixture{{Gas::air, 0.1}, {Gas::argon, 0.9}}));
+  EXPECT_EQ(system.layers[0].gas_behind, (GasMixture{{Gas::argon, 0.9}, {Gas::air, 0.1}}));
   set(system, Quantity::state, 0.25);
   const DataSheet sheet = data_sheet(system, Polarisation::mixed_at_panes);
   EXPECT_EQ(sheet.why_no_heat, "");
@@ -112,10 +112,16 @@ TEST(DataSheet, HasEachStateBesideTheOthers) {
   EXPECT_EQ(sheet.states[2].name, "state 1");
   for (std::size_t i = 1; i < 3; ++i) {
     EXPECT_LT(*sheet.states[i].angles[0].shgc, *sheet.states[i - 1].angles[0].shgc);
-    EXPECT_LT(sheet.states[i].heat->g_en_410, sheet.states[i - 1].heat->g_en_410);
+    EXPECT_LT(*sheet.states[i].heat->g_en_410, *sheet.states[i - 1].heat->g_en_410);
     EXPECT_GT(sheet.states[i].heat->summer.kelvin[0][1], sheet.states[i - 1].heat->summer.kelvin[0][1]);
     EXPECT_EQ(sheet.states[i].heat->u_nfrc, sheet.states[0].heat->u_nfrc);  // the tint does not insulate
   }
+  // EN 673 and EN 410 know no pane that infrared passes.
+  system.layers[1].heat.infrared_t = 0.1;
+  const DataSheet film = data_sheet(system, Polarisation::mixed_at_panes);
+  EXPECT_TRUE(film.states[0].heat);
+  EXPECT_FALSE(film.states[0].heat->u_en_673);
+  EXPECT_FALSE(film.states[0].heat->g_en_410);
   for (const DataSheetState& state : sheet.states) {
     ASSERT_EQ(state.angles.size(), 11u);
     EXPECT_NEAR(*state.angles[9].shgc, 0, 1e-9);  // 90°
@@ -135,8 +141,8 @@ TEST(DataSheet, EnergyPlusTextIsReadBack) {
   const GlazingSystem system = read_system({(directory / "unit.json").string()}).system;
   const std::string text = energyplus_text(system);
   EXPECT_THAT(text,
-              ::testing::HasSubstr("WindowMaterial:GasMixture,\n  unit  2   new gap 1, 0.016, 2, Air, 0.1, "
-                                   "Argon, 0.9;"));
+              ::testing::HasSubstr("WindowMaterial:GasMixture,\n  unit  2   new gap 1, 0.016, 2, Argon, 0.9, "
+                                   "Air, 0.1;"));
   EXPECT_THAT(
       text, ::testing::HasSubstr("Construction,\n  unit  2   new state 1,\n  unit  2   new state 1 pane 1,\n"
                                  "  unit  2   new gap 1,\n  unit  2   new pane 2;"));

@@ -188,6 +188,23 @@ TEST(Heat, SaysWhatIsMissing) {
   EXPECT_THAT(refusal(system), ::testing::HasSubstr("does not say its thickness"));
 }
 
+// Where numbers would end in infinities; nothing is reported then.
+TEST(Heat, RefusesWhatNoWindowHas) {
+  const auto refused = [](auto change) {
+    GlazingSystem system = two_clear();
+    change(system.layers[0]);
+    EXPECT_THROW(u_value(system, nfrc_winter), Error);
+    EXPECT_THROW(en_673_u_value(system), Error);
+  };
+  for (const double value : {1e-300, 1e300}) {
+    refused([&](GlazingLayer& layer) { layer.thickness_mm = value; });
+    refused([&](GlazingLayer& layer) { layer.gap_behind_mm = value; });
+    refused([&](GlazingLayer& layer) { layer.heat.conductivity_w_mk = value; });
+  }
+  refused([](GlazingLayer& layer) { layer.heat.emissivity_front = 0; });
+  refused([](GlazingLayer& layer) { layer.heat.infrared_t = 0.2; });  // and an emissivity of 0.84
+}
+
 TEST(Heat, GasesAreReadByName) {
   EXPECT_EQ(gas_mixture("Argon"), (GasMixture{{Gas::argon, 1}}));
   EXPECT_EQ(gas_mixture("argon=0.9,air=0.1"), (GasMixture{{Gas::argon, 0.9}, {Gas::air, 0.1}}));
