@@ -87,6 +87,10 @@ TEST(Products, TakeEmissivitiesFromInfraredSpectra) {
   EXPECT_NEAR(*heat.emissivity_front, 0.06194, 1e-5);
   // 0.9·(0.1569 + 3.39021 − 4.40624 + 1.80304), of glass.
   EXPECT_NEAR(*heat.emissivity_back, 0.84952, 1e-4);
+  // 0.5·(1.3217 − 0.9383 + 1.16465 − 0.72936 + 0.17129).
+  PaneHeat half;
+  add_emissivities(half, {{5000, {0, 0.5, 0.5}}, {25000, {0, 0.5, 0.5}}});
+  EXPECT_NEAR(*half.emissivity_front, 0.49499, 1e-5);
   PaneHeat declared{1, 0.84, {}, 0};
   add_emissivities(declared, rows);
   EXPECT_EQ(declared.emissivity_front, 0.84);
