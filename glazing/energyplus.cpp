@@ -77,6 +77,7 @@ class Interpreter {
         number(object, field(object, "thickness").empty() ? "0" : field(object, "thickness"));
     if (metres < 0) fail(object, "has a negative thickness");
     product.thickness_mm = 1000 * metres;
+    product.heat = heat(object);
     const std::string type = lower(field(object, "optical_data_type"));
     if (type == "spectral")
       product.rows = spectral(object, product.notes);
@@ -96,6 +97,23 @@ class Interpreter {
         product.rows, [](const OpticalRow& row) { return std::abs(row.at.rf - row.at.rb) < 0.005; });
     product.kind = even ? PaneKind::clear : PaneKind::coated;
     return product;
+  }
+
+  // Empty fields have EnergyPlus' own defaults: opaque to infrared, 0.84 and 0.9 W/(m K).
+  PaneHeat heat(const EnergyPlusObject& object) const {
+    const auto value = [&](const char* name, double otherwise) {
+      const std::string text = field(object, name);
+      return text.empty() ? otherwise : number(object, text);
+    };
+    const PaneHeat heat{.conductivity_w_mk = value("conductivity", 0.9),
+                        .emissivity_front = value("front_side_infrared_hemispherical_emissivity", 0.84),
+                        .emissivity_back = value("back_side_infrared_hemispherical_emissivity", 0.84),
+                        .infrared_t = value("infrared_transmittance_at_normal_incidence", 0)};
+    if (!(heat.conductivity_w_mk > 0)) fail(object, "has a conductivity that is not above 0");
+    for (const double share : {*heat.emissivity_front, *heat.emissivity_back, heat.infrared_t})
+      if (!(share >= 0 && share <= 1))
+        fail(object, "has an emissivity or infrared transmittance not in [0, 1]");
+    return heat;
   }
 
   // EnergyPlus means it for the outermost pane of a window alone; a product does not know where it will
@@ -148,6 +166,7 @@ class Interpreter {
       if (of.kind == PaneKind::coated) product.kind = PaneKind::coated;  // as states of a system file
       product.states.push_back({number(object, row[0]), std::move(of.rows)});
       product.thickness_mm = of.thickness_mm;
+      product.heat = of.heat;
     }
     if (product.states.empty()) fail(object, "has no glazing");
     std::ranges::stable_sort(product.states, {}, &Product::State::temperature_c);

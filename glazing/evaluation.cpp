@@ -10,8 +10,6 @@
 
 namespace vitrail {
 
-namespace {
-
 PaneValues value_at(const SystemSpectrum& spectrum, double nm) {
   const auto above = std::upper_bound(spectrum.nm.begin(), spectrum.nm.end(), nm);
   if (above == spectrum.nm.begin()) return spectrum.values.front();
@@ -21,6 +19,8 @@ PaneValues value_at(const SystemSpectrum& spectrum, double nm) {
   const PaneValues &a = spectrum.values[i - 1], &b = spectrum.values[i];
   return {a.t + w * (b.t - a.t), a.rf + w * (b.rf - a.rf), a.rb + w * (b.rb - a.rb)};
 }
+
+namespace {
 
 double weight_at(const Method& method, double nm) {
   const double source = vitrail::weight_at(method.source, nm);

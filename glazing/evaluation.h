@@ -33,6 +33,9 @@ struct Evaluation {
 Evaluation evaluate(const SpectrumOf& spectrum, const std::vector<double>& wavelengths,
                     const Standard& standard, Sampling sampling);
 
+// Linear in the wavelength, held beyond the ends.
+PaneValues value_at(const SystemSpectrum& spectrum, double nm);
+
 // The average of one method over values linear in between; of the method's own wavelengths unless it has
 // none.
 PaneValues average(const SystemSpectrum& spectrum, const Method& method);

@@ -42,6 +42,22 @@ bool is_glazing(const JsonNode& product) {
   return true;
 }
 
+PaneHeat heat_of(const JsonNode& measured) {
+  PaneHeat heat;
+  const auto fraction = [&](const char* key) -> std::optional<double> {
+    const auto value = measured.find(key);
+    if (!value) return {};
+    if (!(value->number() >= 0 && value->number() <= 1)) value->fail("has to be in [0, 1]");
+    return value->number();
+  };
+  heat.emissivity_front = fraction("emissivity_front");
+  heat.emissivity_back = fraction("emissivity_back");
+  heat.infrared_t = fraction("tir_front").value_or(0);
+  // 0 stands where it was not measured.
+  if (const double known = measured.number_or("conductivity", 0); known > 0) heat.conductivity_w_mk = known;
+  return heat;
+}
+
 Product product_of(const JsonNode& json) {
   Product product;
   product.name = json.text_or("name", json.text_or("product_name", ""));
@@ -53,6 +69,7 @@ Product product_of(const JsonNode& json) {
   if (const auto measured = json.find("measured_data")) {
     product.thickness_mm = measured->number_or("thickness", 0);
     if (product.thickness_mm < 0) measured->fail("a thickness is negative");
+    product.heat = heat_of(*measured);
     if (const auto specular = measured->find("is_specular"); specular && !specular->boolean())
       json.fail("scatters light; only specular glazing is read");
   }
@@ -70,6 +87,7 @@ Product product_of(const JsonNode& json) {
   } catch (const Error& error) {
     list.fail(error.what());
   }
+  add_emissivities(product.heat, product.rows);
   return product;
 }
 

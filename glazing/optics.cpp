@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
 
 #include "glazing/product_formats.h"
 #include "glazing/text_file.h"
@@ -46,6 +47,7 @@ class OpticsReader {
     product_.kind = clear ? PaneKind::clear : PaneKind::coated;
     if (type_.empty()) product_.notes.emplace_back("does not say its type and counts as coated");
     product_.rows = checked_rows(std::move(rows_), product_.notes, file_, "");
+    add_emissivities(product_.heat, product_.rows);
     return std::move(product_);
   }
 
@@ -64,6 +66,16 @@ class OpticsReader {
       std::string_view rest = value;
       if (!parse_number(next_word(rest), product_.thickness_mm) || product_.thickness_mm < 0)
         fail("the thickness has to be a number of millimetres", line);
+    } else if (key == "conductivity") {
+      std::string_view rest = value;
+      if (double known = 0; parse_number(next_word(rest), known) && known > 0)
+        product_.heat.conductivity_w_mk = known;
+    } else if (key == "ir transmittance") {
+      product_.heat.infrared_t = fractions(value, line).at(0).value_or(0);
+    } else if (key == "emissivity, front back") {
+      const auto known = fractions(value, line);
+      product_.heat.emissivity_front = known[0];
+      product_.heat.emissivity_back = known[1];
     } else if (key == "product name") {
       product_.name = value;
     } else if (key == "manufacturer") {
@@ -73,6 +85,20 @@ class OpticsReader {
     } else if (key == "coated side") {
       side_ = value;
     }
+  }
+
+  // The numbers of "Emis= 0.84 0.04"; none where there is nothing.
+  std::array<std::optional<double>, 2> fractions(std::string_view text, std::string_view line) const {
+    std::array<std::optional<double>, 2> values;
+    std::string_view rest = text.substr(text.find('=') == text.npos ? 0 : text.find('=') + 1);
+    for (auto& value : values) {
+      const std::string_view word = next_word(rest);
+      if (word.empty()) break;
+      double number = 0;
+      if (!parse_number(word, number) || number < 0 || number > 1) fail("expected numbers in [0, 1]", line);
+      value = number;
+    }
+    return values;
   }
 
   void take_row(std::string_view line) {

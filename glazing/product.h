@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "glazing/optical_rows.h"
+#include "glazing/pane_heat.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {
@@ -31,6 +32,7 @@ struct Product {
     OpticalRows rows;
   };
   std::vector<State> states{};
+  PaneHeat heat{};
   std::vector<std::string> notes{};  // what was repaired or approximated, in words
   std::optional<Error> refused{};    // of one among others: why it cannot be read; it has a name alone
 };

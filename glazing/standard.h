@@ -47,6 +47,13 @@ const Method* find_method(const Standard& standard, const std::string& name);
 // (colour). Its numbers are in standard_tables.cpp with their sources.
 const Standard& nfrc_2003();
 
+// Sun (SOLAR), ultraviolet (TUV) and light (PHOTOPIC) of Europe's standards. EN 410: table 2 of 1998, air
+// mass 1. ISO 9050 of 1990: Moon's sun at air mass 2. ISO 9050 of 2003: ISO 9845-1's global sun at air
+// mass 1.5, by the trapezoidal rule at that table's own wavelengths.
+const Standard& en_410();
+const Standard& iso_9050_1990();
+const Standard& iso_9050_2003();
+
 // A WINDOW standard (.std) with the files of weights that it names, beside it. Methods of thermal radiation
 // are left out. Throws Error.
 Standard read_standard(const std::filesystem::path& file);

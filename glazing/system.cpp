@@ -23,6 +23,35 @@ PaneValues joined(const PaneValues& a, const PaneValues& b) {
 
 PaneValues turned(const PaneValues& v, bool flipped) { return flipped ? PaneValues{v.t, v.rb, v.rf} : v; }
 
+PolarisedValues oriented_values(const GlazingLayer& layer, double nm, double cosine,
+                                Polarisation polarisation) {
+  PolarisedValues v = values_at(layer.pane, nm, cosine);
+  if (polarisation == Polarisation::mixed_at_panes) v.s = v.p = mean(v);
+  return {turned(v.s, layer.flipped), turned(v.p, layer.flipped)};
+}
+
+// What arrives at each pane less what leaves it. In the gap behind pane i light runs inwards, T/(1 − Rb R),
+// and outwards, R of that, where T and Rb are those of all panes before the gap and R is that of all behind
+// it.
+std::vector<double> absorbed_of(const std::vector<PaneValues>& panes) {
+  std::vector<PaneValues> behind(panes.size(), panes.back());
+  for (std::size_t i = panes.size() - 1; i-- > 0;) behind[i] = joined(panes[i], behind[i + 1]);
+  std::vector<double> absorbed;
+  PaneValues before = panes.front();
+  double inwards = 1, outwards = behind.front().rf;
+  for (std::size_t i = 0; i < panes.size(); ++i) {
+    const bool last = i + 1 == panes.size();
+    if (i > 0) before = joined(before, panes[i]);
+    const double further =
+        last ? before.t : before.t / (1 - std::min(before.rb * behind[i + 1].rf, 1 - 1e-12));
+    const double back = last ? 0 : further * behind[i + 1].rf;
+    absorbed.push_back(std::max(0.0, inwards - outwards - further + back));
+    inwards = further;
+    outwards = back;
+  }
+  return absorbed;
+}
+
 // Positive half of the nodes of Gauss and Legendre's rule on [−1, 1], and their weights (Abramowitz & Stegun,
 // table 25.4, n = 16).
 constexpr std::array<std::array<double, 2>, 8> gauss_16{{{0.0950125098376374, 0.1894506104550685},
@@ -104,13 +133,24 @@ std::optional<double> value_of(const GlazingSystem& system, Quantity quantity) {
 PaneValues system_values(const GlazingSystem& system, double nm, double cosine, Polarisation polarisation) {
   PolarisedValues all;
   for (std::size_t i = 0; i < system.layers.size(); ++i) {
-    const GlazingLayer& layer = system.layers[i];
-    PolarisedValues v = values_at(layer.pane, nm, cosine);
-    if (polarisation == Polarisation::mixed_at_panes) v.s = v.p = mean(v);
-    v = {turned(v.s, layer.flipped), turned(v.p, layer.flipped)};
+    const PolarisedValues v = oriented_values(system.layers[i], nm, cosine, polarisation);
     all = i == 0 ? v : PolarisedValues{joined(all.s, v.s), joined(all.p, v.p)};
   }
   return mean(all);
+}
+
+std::vector<double> absorbed_shares(const GlazingSystem& system, double nm, double cosine,
+                                    Polarisation polarisation) {
+  std::vector<PaneValues> s, p;
+  for (const GlazingLayer& layer : system.layers) {
+    const PolarisedValues v = oriented_values(layer, nm, cosine, polarisation);
+    s.push_back(v.s);
+    p.push_back(v.p);
+  }
+  std::vector<double> result = absorbed_of(s);
+  const std::vector<double> other = absorbed_of(p);
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = (result[i] + other[i]) / 2;
+  return result;
 }
 
 std::vector<double> common_wavelengths(const GlazingSystem& system) {
@@ -164,6 +204,20 @@ SystemSpectrum hemispherical_spectrum(const GlazingSystem& system, std::vector<d
     spectrum.values.push_back(sum);
   }
   return spectrum;
+}
+
+std::vector<SystemSpectrum> absorbed_spectra(const GlazingSystem& system, const std::vector<double>& nm,
+                                             std::optional<double> cosine, Polarisation polarisation) {
+  const std::vector<Direction> directions =
+      cosine ? std::vector<Direction>{{*cosine, 1}} : hemisphere(HemisphereRule::gauss);
+  std::vector<SystemSpectrum> spectra(system.layers.size(), {nm, std::vector<PaneValues>(nm.size())});
+  for (std::size_t i = 0; i < nm.size(); ++i)
+    for (const auto& [direction, weight] : directions) {
+      const std::vector<double> shares = absorbed_shares(system, nm[i], direction, polarisation);
+      for (std::size_t pane = 0; pane < shares.size(); ++pane)
+        spectra[pane].values[i].t += weight * shares[pane];
+    }
+  return spectra;
 }
 
 }  // namespace vitrail

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "glazing/gas.h"
 #include "glazing/pane.h"
+#include "glazing/pane_heat.h"
 #include "glazing/states.h"
 
 namespace vitrail {
@@ -23,6 +25,9 @@ struct GlazingLayer {
   bool by_temperature = false;
   std::optional<double> at{};  // none: as the product says, which is no one of its states
   std::optional<PhotochromicLight> light{};
+  double thickness_mm = 0;  // 0 where it is unknown; light does not need it, nor the others below
+  PaneHeat heat{};
+  GasMixture gas_behind{};
 };
 
 // Panes and gaps, one behind the other.
@@ -53,6 +58,10 @@ enum class Polarisation { mixed_at_panes, apart };
 // specular, so the sum is a geometric series. T is the same from both sides.
 PaneValues system_values(const GlazingSystem& system, double nm, double cosine, Polarisation polarisation);
 
+// Of light on the outside, what each pane absorbs: with T and Rf of the whole they sum to 1.
+std::vector<double> absorbed_shares(const GlazingSystem& system, double nm, double cosine,
+                                    Polarisation polarisation);
+
 // The wavelengths of all panes together, where all of them have some; nm, ascending. Throws Error where there
 // are none.
 std::vector<double> common_wavelengths(const GlazingSystem& system);
@@ -78,5 +87,10 @@ enum class HemisphereRule {
 };
 SystemSpectrum hemispherical_spectrum(const GlazingSystem& system, std::vector<double> nm,
                                       Polarisation polarisation, HemisphereRule rule);
+
+// absorbed_shares at each of these wavelengths, in place of T: one spectrum for each pane. Of the hemisphere
+// where there is no cosine.
+std::vector<SystemSpectrum> absorbed_spectra(const GlazingSystem& system, const std::vector<double>& nm,
+                                             std::optional<double> cosine, Polarisation polarisation);
 
 }  // namespace vitrail

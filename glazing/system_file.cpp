@@ -88,6 +88,7 @@ class SystemReader {
         add_states(layer, folder);
       else
         add_pane_of(layer, folder);
+      add_heat(layer);
     }
     if (!any) layers.fail("needs a pane");
   }
@@ -98,10 +99,40 @@ class SystemReader {
     if (!(mm > 0)) layer.fail("a gap is wider than 0");
     if (!behind_pane) layer.fail("a gap lies between two panes");
     into_.system.layers.back().gap_behind_mm = mm;
+    if (const auto gas = layer.find("gas")) into_.system.layers.back().gas_behind = gas_of(*gas);
+  }
+
+  // "argon", or {"argon": 0.9, "air": 0.1}.
+  static GasMixture gas_of(const JsonNode& json) {
+    std::string text;
+    if (json.is_text()) text = json.text();
+    if (json.is_object())
+      for (const auto& [name, share] : json.members())
+        text += fmt::format("{}{}={}", text.empty() ? "" : ",", name, share.number());
+    auto mixture = gas_mixture(text);
+    if (!mixture)
+      json.fail(
+          "is no gas: \"air\", \"argon\", \"krypton\", \"xenon\", or shares of them that sum to 1, as in "
+          "{\"argon\": 0.9, \"air\": 0.1}");
+    return std::move(*mixture);
+  }
+
+  // What the file says of a pane's heat goes before what its product says.
+  void add_heat(const JsonNode& layer) {
+    const auto json = layer.find("heat");
+    if (!json) return;
+    json->only({"thickness_mm", "conductivity_w_mk", "emissivity_front", "emissivity_back", "infrared_t"});
+    GlazingLayer& pane = into_.system.layers.back();
+    if (json->find("thickness_mm")) pane.thickness_mm = positive_or_0(*json, "thickness_mm");
+    if (json->find("conductivity_w_mk"))
+      pane.heat.conductivity_w_mk = positive_or_0(*json, "conductivity_w_mk");
+    if (json->find("emissivity_front")) pane.heat.emissivity_front = unit_number(*json, "emissivity_front");
+    if (json->find("emissivity_back")) pane.heat.emissivity_back = unit_number(*json, "emissivity_back");
+    if (json->find("infrared_t")) pane.heat.infrared_t = unit_number(*json, "infrared_t");
   }
 
   void add_pane_of(const JsonNode& layer, const fs::path& folder) {
-    layer.only({"pane", "product", "flipped", "thickness_mm"});
+    layer.only({"pane", "product", "flipped", "thickness_mm", "heat"});
     std::string file = (folder / layer.at("pane").text()).string();
     if (const auto product = layer.find("product")) file = fmt::format("{}#{}", file, product->text());
     const double mm = positive_or_0(layer, "thickness_mm");
@@ -128,6 +159,8 @@ class SystemReader {
   void add_pane(const Product& found, double thickness_mm) {
     into_.system.layers.push_back({found.name, pane_of(found, thickness_mm)});
     GlazingLayer& layer = into_.system.layers.back();
+    layer.thickness_mm = thickness_mm > 0 ? thickness_mm : found.thickness_mm;
+    layer.heat = found.heat;
     layer.by_temperature = !found.states.empty();
     for (const Product::State& state : found.states)
       layer.states.push_back({state.temperature_c, state.rows});
@@ -135,7 +168,7 @@ class SystemReader {
 
   // Glass that switches: its states are panes, or one is tinted from the clear one.
   void add_states(const JsonNode& layer, const fs::path& folder) {
-    layer.only({"states", "state", "photochromic", "flipped", "name"});
+    layer.only({"states", "state", "photochromic", "flipped", "name", "heat"});
     const JsonNode list = layer.at("states");
     GlazingLayer made{.name = layer.text_or("name", "")};
     PaneKind kind = PaneKind::clear;
@@ -153,6 +186,10 @@ class SystemReader {
       Product found = product(file);
       if (found.rows.empty()) item.fail("a state needs measured T and R");
       if (made.name.empty()) made.name = found.name;
+      if (made.states.empty()) {
+        made.thickness_mm = found.thickness_mm;
+        made.heat = found.heat;
+      }
       if (found.kind == PaneKind::coated) kind = PaneKind::coated;
       made.states.push_back({at, std::move(found.rows)});
     }
@@ -220,7 +257,7 @@ class SystemReader {
   }
 
   void add_stack(const JsonNode& layer, const fs::path& folder) {
-    layer.only({"stack", "flipped", "name"});
+    layer.only({"stack", "flipped", "name", "heat"});
     const JsonNode list = layer.at("stack");
     StackPane stack;
     stack.films.emplace_back();
@@ -239,6 +276,11 @@ class SystemReader {
     }
     if (stack.slabs.empty()) list.fail("needs a sheet: something with \"thickness_mm\"");
     GlazingLayer made{layer.text_or("name", "stack"), std::move(stack)};
+    const StackPane& whole = std::get<StackPane>(made.pane);
+    for (const Slab& slab : whole.slabs) made.thickness_mm += slab.thickness_mm;
+    // A film of nanometres may be silver or silica; the file says its emissivity.
+    if (whole.films.front().empty()) made.heat.emissivity_front = glass_emissivity;
+    if (whole.films.back().empty()) made.heat.emissivity_back = glass_emissivity;
     if (const auto flipped = layer.find("flipped")) made.flipped = flipped->boolean();
     into_.system.layers.push_back(std::move(made));
   }

@@ -7,7 +7,11 @@
 
 #include "cli/common/main_guard.h"
 #include "cli/glazing/glazing_report.h"
+#include "cli/glazing/sheet_report.h"
+#include "compare/web_page.h"
+#include "glazing/energyplus_text.h"
 #include "glazing/system_file.h"
+#include "glazing/text_file.h"
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
@@ -21,7 +25,8 @@ struct Arguments {
   std::vector<std::size_t> flips;
   std::vector<double> theta_deg{0};
   std::string standard, sampling = "full";
-  std::filesystem::path csv;
+  std::filesystem::path csv, report, energyplus;
+  std::vector<std::string> gaps;
   std::optional<double> state, temperature_c;
   bool polarised = false, json = false;
 };
@@ -31,7 +36,11 @@ void add_options(CLI::App& app, Arguments& a) {
       ->required();
   app.add_option("--flip", a.flips, "turn this pane round, counted from 1 outside (may repeat)")
       ->check(CLI::Range(1, 1000))
-      ->expected(1);
+      ->allow_extra_args(false);
+  app.add_option(
+         "--gap", a.gaps,
+         "a gap, mm, and its gas: 12.7, 16:argon, 16:argon=0.9,air=0.1; once for each gap, from outside")
+      ->allow_extra_args(false);
   app.add_option("--theta", a.theta_deg, "angles of incidence, degrees from the normal; default: 0")
       ->check(CLI::Range(0.0, 90.0));
   app.add_option("--state", a.state, "state of glass that switches: 0 is clear, 1 is dark")
@@ -43,6 +52,9 @@ void add_options(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"full", "condensed", "standard"}));
   app.add_flag("--polarised", a.polarised, "keep polarisations apart between panes; WINDOW takes their mean");
   app.add_option("--csv", a.csv, "write the spectra here");
+  app.add_option("--report", a.report, "write a data sheet here, a page (.html) or JSON (.json)");
+  app.add_option("--energyplus", a.energyplus,
+                 "write a construction for EnergyPlus here (.idf), of each state");
   app.add_flag("--json", a.json, "print JSON");
 }
 
@@ -59,6 +71,35 @@ void check_finite(const char* option, double value) {
   if (!std::isfinite(value)) throw UsageError(fmt::format("{} {}: has to be a finite number", option, value));
 }
 
+// "MM" or "MM:GASES" (glazing/gas.h).
+void set_gap(GlazingLayer& layer, const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (!parse_number(text.substr(0, colon), layer.gap_behind_mm) || !(layer.gap_behind_mm > 0))
+    throw UsageError(fmt::format("--gap {}: a gap has a width in mm above 0", text));
+  layer.gas_behind.clear();
+  if (colon == text.npos) return;
+  const auto gas = gas_mixture(text.substr(colon + 1));
+  if (!gas)
+    throw UsageError(fmt::format(
+        "--gap {}: the gas is air, argon, krypton, xenon, or shares of them that sum to 1", text));
+  layer.gas_behind = *gas;
+}
+
+void set_gaps(GlazingSystem& system, const std::vector<std::string>& gaps) {
+  if (gaps.empty()) return;
+  if (gaps.size() + 1 != system.layers.size())
+    throw UsageError(fmt::format("--gap is given {} times; {} panes have {} gaps", gaps.size(),
+                                 system.layers.size(), system.layers.size() - 1));
+  for (std::size_t i = 0; i < gaps.size(); ++i) set_gap(system.layers[i], gaps[i]);
+}
+
+// Before any work: a page or JSON by its ending.
+bool is_json_report(const std::filesystem::path& file) {
+  if (file.extension() == ".json") return true;
+  if (file.extension() == ".html" || file.extension() == ".htm") return false;
+  throw UsageError(fmt::format("--report {}: ends in .html or .json", file.string()));
+}
+
 ReadSystem read(const Arguments& a) {
   for (const double theta : a.theta_deg) check_finite("--theta", theta);
   check_finite("--state", a.state.value_or(0));
@@ -69,6 +110,7 @@ ReadSystem read(const Arguments& a) {
       throw UsageError(fmt::format("--flip {}: there are {} panes", pane, read.system.layers.size()));
     read.system.layers[pane - 1].flipped = !read.system.layers[pane - 1].flipped;
   }
+  set_gaps(read.system, a.gaps);
   if (a.state && !set(read.system, Quantity::state, *a.state))
     throw UsageError("--state: no pane has states; a system file says them (docs/why/glazing.md)");
   if (a.temperature_c && !set(read.system, Quantity::temperature, *a.temperature_c))
@@ -78,6 +120,7 @@ ReadSystem read(const Arguments& a) {
 
 int run(const Arguments& a) {
   protect_inputs();
+  const bool json_report = !a.report.empty() && is_json_report(a.report);
   ReadSystem input = read(a);
   const GlazingSystem& system = input.system;
   const Standard standard = a.standard.empty() ? nfrc_2003() : read_standard(a.standard);
@@ -106,6 +149,12 @@ int run(const Arguments& a) {
     file.write(std::as_bytes(std::span(text)));
     file.commit();
   }
+  if (!a.report.empty()) {
+    const DataSheet sheet = data_sheet(system, polarisation);
+    if (!sheet.why_no_heat.empty()) say("vitrail: no figures of heat: {}\n", sheet.why_no_heat);
+    write_whole(a.report, json_report ? sheet_json(sheet, input.notes) : sheet_page(sheet, input.notes));
+  }
+  if (!a.energyplus.empty()) write_whole(a.energyplus, energyplus_text(system));
   if (!a.json)
     for (const std::string& note : input.notes) say("vitrail: note: {}\n", note);
   show("{}\n", a.json ? glazing_json(report) : glazing_table(report));

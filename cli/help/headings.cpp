@@ -97,9 +97,9 @@ const std::vector<Heading> of_plan{
 };
 
 const std::vector<Heading> of_glazing{
-    {"Which panes", "files=FILE flip=PANE state temperature=CELSIUS"},
+    {"Which panes", "files=FILE flip=PANE gap=MM[:GAS] state temperature=CELSIUS"},
     {"How to evaluate them", "theta=DEGREES standard=FILE sampling polarised"},
-    {"What to write", "csv=FILE json"},
+    {"What to write", "report=FILE energyplus=FILE csv=FILE json"},
 };
 
 const std::vector<Heading> of_sky{{"Where and when", "SKY=SKY"},

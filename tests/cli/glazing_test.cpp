@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
 #include "tests/glazing/glazing_files.h"
 #include "tests/support/command.h"
 
@@ -10,6 +14,12 @@ namespace vitrail::test::glazing_test {
 namespace {
 
 using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 TEST(Glazing, PrintsATableAndJson) {
   const TemporaryDirectory directory;
@@ -61,6 +71,59 @@ TEST(Glazing, SaysWhatIsWrong) {
   const CommandResult missing = run(fmt::format("{} '{}/none.dat'", verb, directory.path().string()));
   EXPECT_EQ(missing.status, 3);
   EXPECT_THAT(missing.output, HasSubstr("none.dat: there is no such file"));
+}
+
+TEST(Glazing, WritesADataSheet) {
+  const TemporaryDirectory directory;
+  std::string text = optics_text;
+  text.replace(text.find("{ }"), 3, "{ Emissivity, front back } Emis= 0.84 0.84");
+  text.replace(text.find("Product Name: Pane"), 18, "Product Name: <b>Pane");
+  const std::string pane = write_text(directory / "pane.dat", text).string();
+  const fs::path page = directory / "sheet.html", json = directory / "sheet.json";
+  const std::string line = fmt::format("{} '{}' '{}'", vitrail("glazing"), pane, pane);
+  const CommandResult first =
+      run(fmt::format("{} --gap 12.7:argon=0.9,air=0.1 --report '{}'", line, page.string()));
+  EXPECT_EQ(first.status, 0) << first.output;
+  const std::string html = text_of(page);
+  for (const char* part : {"<svg", "SHGC", "EN 673", "ISO 9050:2003", "12.7 mm argon 90 %, air 10 %",
+                           "&lt;b&gt;Pane", "What the abbreviations mean", "</html>"})
+    EXPECT_THAT(html, HasSubstr(part));
+  for (const char* outside : {"<script", "src=", "href=", "<b>Pane"})
+    EXPECT_THAT(html, ::testing::Not(HasSubstr(outside)));
+  const fs::path idf = directory / "out.idf";
+  EXPECT_EQ(
+      run(fmt::format("{} --gap 12.7 --report '{}' --energyplus '{}'", line, json.string(), idf.string()))
+          .status,
+      0);
+  EXPECT_THAT(text_of(idf), HasSubstr("WindowMaterial:Gas,\n  Glazing gap 1, Air, 0.0127;"));
+  const auto sheet = read_json(json);
+  const auto& state = sheet.at("states").at(0);
+  EXPECT_NEAR(state.at("u_nfrc").get<double>(), 2.69, 0.03);  // two of 6 mm and 12.7 mm of air
+  EXPECT_EQ(state.at("angles").size(), 11u);
+  EXPECT_EQ(state.at("winter_celsius").size(), 2u);
+}
+
+TEST(Glazing, ADataSheetWithoutHeatSaysWhatIsMissing) {
+  const TemporaryDirectory directory;
+  const std::string pane = write_text(directory / "pane.dat", optics_text).string();
+  const fs::path page = directory / "sheet.html";
+  const std::string verb = vitrail("glazing");
+  const CommandResult result = run(fmt::format("{} '{}' --report '{}'", verb, pane, page.string()));
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.output, HasSubstr("no figures of heat: pane 1 (\"Pane\") does not say its emissivity"));
+  EXPECT_THAT(text_of(page), HasSubstr("There are no figures of heat"));
+  EXPECT_EQ(run(fmt::format("{} '{}' --report '{}.txt'", verb, pane, page.string())).status, 2);
+  for (const char* gap : {"--gap 12.7", "--gap 0 --gap 1", "--gap 12:helium --gap 12", "--gap x --gap 2"})
+    EXPECT_EQ(run(fmt::format("{0} '{1}' '{1}' '{1}' {2}", verb, pane, gap)).status, 2) << gap;
+}
+
+TEST(Glazing, FlipsEachPaneThatIsNamed) {
+  const TemporaryDirectory directory;
+  const std::string pane = write_text(directory / "pane.dat", optics_text).string();
+  const CommandResult result =
+      run(fmt::format("{0} '{1}' '{1}' --flip 1 --flip 2", vitrail("glazing"), pane));
+  EXPECT_THAT(result.output, HasSubstr("pane 1: Pane, clear, flipped"));
+  EXPECT_THAT(result.output, HasSubstr("pane 2: Pane, clear, flipped"));
 }
 
 TEST(Glazing, ReflectsAllAtGrazingIncidence) {

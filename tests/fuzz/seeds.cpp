@@ -275,7 +275,8 @@ void add_tables(Seeds& seeds) {
   for (const std::string& text : {igsdb_text, optics_text, table_text, index_text, idf_text, epjson_text})
     seeds.add("glazing", text);
   seeds.add("glazing",
-            R"({"name": "unit", "layers": [{"pane": "glazing.json", "flipped": true}, {"gap_mm": 12.7},
+            R"({"name": "unit", "layers": [{"pane": "glazing.json", "flipped": true,
+ "heat": {"thickness_mm": 6, "emissivity_back": 0.04}}, {"gap_mm": 12.7, "gas": {"argon": 0.9, "air": 0.1}},
  {"stack": [{"index": 1.46, "thickness_nm": 90}, {"index": 1.5, "thickness_mm": 4}]}]})");
 }
 

@@ -53,6 +53,52 @@ TEST(Products, KnowThicknessAndKind) {
   EXPECT_EQ(products_of(coated).at(0).kind, PaneKind::coated);
 }
 
+TEST(Products, KnowWhatHeatNeeds) {
+  std::string igsdb = igsdb_text;
+  igsdb.replace(
+      igsdb.find("\"thickness\": 6.0"), 16,
+      "\"thickness\": 6.0, \"emissivity_front\": 0.84, \"emissivity_back\": 0.04, \"conductivity\": 0.9, "
+      "\"tir_front\": 0.01");
+  const PaneHeat expected{0.9, 0.84, 0.04, 0.01};
+  EXPECT_EQ(products_of(igsdb).at(0).heat, expected);
+  std::string optics = optics_text;
+  optics.replace(
+      optics.find("{ }"), 3,
+      "{ Conductivity } 0.9\n{ IR Transmittance } TIR=0.01\n{ Emissivity, front back } Emis= 0.84 0.04");
+  EXPECT_EQ(products_of(optics).at(0).heat, expected);
+  EXPECT_FALSE(products_of(optics_text).at(0).heat.emissivity_front);
+  EXPECT_EQ(products_of(idf_text).at(0).heat, (PaneHeat{1.0, 0.84, 0.84, 0}));
+  EXPECT_EQ(products_of(epjson_text).at(0).heat.emissivity_back, 0.84);
+  for (const char* wrong : {"Emis= 1.2 0.84", "Emis= 0.84 x"}) {
+    std::string bad = optics;
+    bad.replace(bad.find("Emis= 0.84 0.04"), 15, wrong);
+    EXPECT_THROW(products_of(bad), Error) << wrong;
+  }
+}
+
+// LBNL's IGSDB record 5051 declares 0.84 and 0.068; its spectrum gives WinCalc 0.8448 and 0.0685. A flat
+// coating of R 0.95 has a normal emissivity of 0.05: 0.05·(1.3217 − 0.09383 + 0.01165 − 0.00073 + 0.00002) =
+// 0.06194.
+TEST(Products, TakeEmissivitiesFromInfraredSpectra) {
+  const OpticalRows rows{
+      {300, {0.1, 0.1, 0.1}}, {5000, {0, 0.95, 0.1}}, {10000, {0, 0.95, 0.1}}, {25000, {0, 0.95, 0.1}}};
+  PaneHeat heat;
+  add_emissivities(heat, rows);
+  EXPECT_NEAR(*heat.emissivity_front, 0.06194, 1e-5);
+  // 0.9·(0.1569 + 3.39021 − 4.40624 + 1.80304), of glass.
+  EXPECT_NEAR(*heat.emissivity_back, 0.84952, 1e-4);
+  // 0.5·(1.3217 − 0.9383 + 1.16465 − 0.72936 + 0.17129).
+  PaneHeat half;
+  add_emissivities(half, {{5000, {0, 0.5, 0.5}}, {25000, {0, 0.5, 0.5}}});
+  EXPECT_NEAR(*half.emissivity_front, 0.49499, 1e-5);
+  PaneHeat declared{1, 0.84, {}, 0};
+  add_emissivities(declared, rows);
+  EXPECT_EQ(declared.emissivity_front, 0.84);
+  PaneHeat none;
+  add_emissivities(none, {{300, {}}, {2500, {}}});
+  EXPECT_FALSE(none.emissivity_front);
+}
+
 TEST(Products, TellMicrometresFromNanometres) {
   std::string text = optics_text;
   text.replace(text.find("Microns"), 7, "Nanometers");

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// All that a data sheet says of a glazing, of each of its states.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glazing/color_fidelity.h"
+#include "glazing/evaluation.h"
+#include "glazing/heat_balance.h"
+
+namespace vitrail {
+
+// At normal incidence by one standard's weights.
+struct StandardValues {
+  std::string standard;
+  PaneValues visible, solar;
+  double ultraviolet_t = 0;
+};
+
+// Light and sun from one direction, by NFRC 300-2003. `absorbed` is the part of the sun in each pane.
+struct AngleValues {
+  std::optional<double> theta_deg;  // none: the hemisphere
+  PaneValues visible, solar;
+  std::vector<double> absorbed;
+  std::optional<double> shgc;  // where the panes say what heat needs
+};
+
+// U and g in W/(m²K) and parts of 1 (glazing/heat_balance.h, glazing/en_673.h); temperatures at night in
+// winter and in the sun of summer.
+struct HeatValues {
+  double u_nfrc = 0;
+  std::optional<double> u_en_673,
+      g_en_410;  // where no pane lets infrared through, as these standards have it
+  HeatBalance winter, summer;
+};
+
+// All figures of one state.
+struct DataSheetState {
+  std::string name;  // "state 0.5", "40 °C"; empty where nothing switches
+  std::vector<StandardValues> standards;
+  std::vector<AngleValues> angles;  // each 10° from 0° to 90°, then the hemisphere
+  std::optional<double> color_rendering;
+  std::optional<ColorFidelity> color_fidelity;
+  std::optional<HeatValues> heat;
+  SystemSpectrum normal;  // 300 to 2500 nm
+};
+
+// A glazing in each of its states.
+struct DataSheet {
+  GlazingSystem system;
+  Polarisation polarisation = Polarisation::mixed_at_panes;
+  std::string why_no_heat;  // empty where there is
+  std::vector<DataSheetState> states;
+};
+
+// A system in one of its states; the name is as above.
+struct NamedState {
+  std::string name;
+  GlazingSystem system;
+};
+std::vector<NamedState> states_of(const GlazingSystem& system);
+
+// Of a system that switches, each measured state and the one that it is in. Throws Error.
+DataSheet data_sheet(const GlazingSystem& system, Polarisation polarisation);
+
+}  // namespace vitrail
