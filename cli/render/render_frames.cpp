@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <numeric>
 #include <thread>
 
 #include "cli/common/main_guard.h"
@@ -64,6 +65,8 @@ class FrameRun {
   void passes_by(std::size_t i, const BeingWritten& other);
   void wait();
   bool reopen_failed();
+  void leave_a_few();
+  void say_how_long() const;
   int conclude() const;
   bool is_first() const { return transport_.rank() == 0; }
   std::size_t count(State state) const {
@@ -85,6 +88,8 @@ class FrameRun {
   KnownViews views_;
   std::vector<std::pair<fs::path, std::string>> others_;  // pictures of other work, and in what they differ
   std::string holders_;                                   // who renders frames elsewhere
+  std::size_t wanted_ = 0;                                // of a dry run: the frames that are not there
+  std::vector<double> expected_s_;                        // of those that it tries
   // Of the frame under way.
   std::optional<OutputLock> lock_;
   WorkWords asked_;
@@ -179,10 +184,12 @@ bool FrameRun::take(std::size_t i, const RenderArguments& a) {
 int FrameRun::render_frame(std::size_t i) {
   std::optional<FrameJob> job;
   agree(transport_, [&] { job.emplace(typed_, list_.frames[i].words, list_.outputs[i]); });
-  const JobSteps steps{&views_, [&] {
+  const JobSteps steps{&views_,
+                       [&] {
                          if (keeps_record())
                            record_->put(list_.outputs[i], asked_, mark_of(list_.outputs[i]));
-                       }};
+                       },
+                       [&](double s) { expected_s_.push_back(s); }};
   return job
       ->render(
           transport_, [&](const RenderArguments& a) { return take(i, a); }, steps)
@@ -250,6 +257,27 @@ bool FrameRun::reopen_failed() {
   return std::erase_if(failed_, may_succeed) > 0;
 }
 
+// A dry run tries some frames, from the first to the last. What it passes by counts as done.
+void FrameRun::leave_a_few() {
+  constexpr std::size_t tried = 5;
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < states_.size(); ++i)
+    if (states_[i] == State::open) open.push_back(i);
+  wanted_ = open.size();
+  if (wanted_ <= tried) return;
+  for (const std::size_t i : open) states_[i] = State::done;
+  for (std::size_t k = 0; k < tried; ++k) states_[open[k * (wanted_ - 1) / (tried - 1)]] = State::open;
+}
+
+void FrameRun::say_how_long() const {
+  if (expected_s_.empty()) return;
+  const double mean =
+      std::accumulate(expected_s_.begin(), expected_s_.end(), 0.0) / static_cast<double>(expected_s_.size());
+  const auto [least, most] = std::ranges::minmax(expected_s_);
+  show("list: about {:.2g} machine hours for {} frames, by {} of them that take {:.2g} to {:.2g} min each\n",
+       mean * static_cast<double>(wanted_) / 3600, wanted_, expected_s_.size(), least / 60, most / 60);
+}
+
 int FrameRun::conclude() const {
   if (failed_.empty()) return exit_done;
   constexpr std::size_t most = 10;
@@ -264,6 +292,7 @@ int FrameRun::conclude() const {
 
 int FrameRun::render_all() {
   check();
+  if (command_.options.outputs.dry_run) leave_a_few();
   bool waits = false;
   for (int retries = 0;;) {
     if (const std::optional<int> end = pass()) return *end;
@@ -274,6 +303,7 @@ int FrameRun::render_all() {
     } else if (retries < command_.retries && reopen_failed()) {
       ++retries;
     } else {
+      if (is_first()) say_how_long();
       return conclude();
     }
   }

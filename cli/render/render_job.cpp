@@ -144,6 +144,7 @@ int render_locked(Transport& transport, RenderArguments& a, const JobSteps& step
     stopped = write_pictures(a, stats, signal, steps.once_written, preview, display);
     print_end(a.options, stats);
     if (!a.options.outputs.dry_run) add_peak_of_picture(a.options, stats);
+    if (steps.expected_s && stats.expected_s > 0) steps.expected_s(stats.expected_s);
     // Of a Slurm job's share nobody has promised anything.
     if (!signal && !a.memory.empty()) require_kept_memory(stats);
   });

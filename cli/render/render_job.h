@@ -22,8 +22,9 @@ void complete_picture(RenderArguments& arguments, const Manifest& manifest, Know
 void lock_film(const RenderArguments& arguments, std::optional<OutputLock>& lock);
 
 struct JobSteps {
-  KnownViews* views = nullptr;         // read before, on rank 0
-  std::function<void()> once_written;  // write_picture_of_film's
+  KnownViews* views = nullptr;               // read before, on rank 0
+  std::function<void()> once_written;        // write_picture_of_film's
+  std::function<void(double)> expected_s{};  // of a dry run, on rank 0: how long the picture takes
 };
 
 // Interprets the arguments, checks the outputs, locks the film and renders, on all ranks together. Returns

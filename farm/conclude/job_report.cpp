@@ -27,7 +27,7 @@ std::uint64_t pixels_without_samples(const Film& film) {
 double minutes(double s) { return s / 60; }
 
 // From what was done until the time limit. The first samples of a picture may be cheaper than its others.
-void print_estimate(const RenderStats& s, const Job& job, std::uint64_t samples_before) {
+void print_estimate(RenderStats& s, const Job& job, std::uint64_t samples_before) {
   const std::uint64_t in_memory = job.plan.memory.domains_bytes, all_domains = job.plan.all_domains;
   const std::uint64_t samples_in_all = std::uint64_t{job.plan.goal.samples} * job.film.pixels();
   show("memory of a rank: {:.0f} MiB of program, {}film and textures, {:.0f} MiB of domains{}{}\n",
@@ -39,11 +39,12 @@ void print_estimate(const RenderStats& s, const Job& job, std::uint64_t samples_
        s.ranks > 1 ? "" : "; under mpirun MPI takes 10 to 20 MiB more");
   const double here = static_cast<double>(s.samples - samples_before),
                left = static_cast<double>(samples_in_all - s.samples) + here;
-  if (left > 0 && here > 0)
-    show(
-        "time: about {:.1f} min on {} × {} threads for {:.3g} million samples, by {:.3g} million that took "
-        "{:.1f} s\n",
-        minutes(s.wall_s * left / here), s.ranks, s.threads, left * 1e-6, here * 1e-6, s.wall_s);
+  if (!(left > 0 && here > 0)) return;
+  s.expected_s = s.wall_s * left / here;
+  show(
+      "time: about {:.1f} min on {} × {} threads for {:.3g} million samples, by {:.3g} million that took "
+      "{:.1f} s\n",
+      minutes(s.expected_s), s.ranks, s.threads, left * 1e-6, here * 1e-6, s.wall_s);
 }
 
 // What the picture lacks, or has too little of.

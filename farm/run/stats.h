@@ -48,6 +48,7 @@ struct RenderStats {
   std::string command;                  // that was typed; empty: unknown
   std::vector<RankStats> by_rank;
   bool finished_before = false;  // nothing was left to do
+  double expected_s = 0;         // of a dry run: how long all that is left takes
 };
 
 // All ranks together; the job's on rank 0. `touched`: a bit a domain, of this rank.

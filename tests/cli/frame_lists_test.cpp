@@ -253,5 +253,18 @@ TEST_F(FrameLists, AreSupervised) {
     EXPECT_NE(entry.path().extension(), ".lock") << entry.path();
 }
 
+// Five of the frames that are not there, from the first to the last.
+TEST_F(FrameLists, ADryRunSaysHowLongTheyTake) {
+  write_seeds(9);
+  ASSERT_EQ(render_frames("--range 2").status, 0);
+  const CommandResult dry = render_frames("--dry-run");
+  EXPECT_EQ(dry.status, 0) << dry.output;
+  EXPECT_THAT(dry.output, testing::HasSubstr("frame 1 of 9"));
+  EXPECT_THAT(dry.output, testing::HasSubstr("frame 9 of 9"));
+  EXPECT_THAT(dry.output, testing::Not(testing::HasSubstr("frame 4 of 9")));
+  EXPECT_THAT(dry.output, testing::ContainsRegex("list: about .* machine hours for 8 frames, by 5 of them"));
+  EXPECT_FALSE(exists("f001.png"));
+}
+
 }  // namespace
 }  // namespace vitrail::test::frame_lists_test
