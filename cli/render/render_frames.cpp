@@ -113,6 +113,10 @@ fs::path work_of(const fs::path& picture) { return fs::path(picture) += ".work";
 void FrameRun::survey(std::size_t i, const WorkWords& asked) {
   const fs::path& picture = list_.outputs[i];
   if (of_films_ || command_.options.outputs.force) return;
+  if (command_.options.outputs.dry_run) {  // of so few seconds, it asks for no picture that there may be
+    states_[i] = fs::exists(picture) ? State::done : State::open;
+    return;
+  }
   const FoundPicture there = find_picture(picture, work_of(picture), *record_, asked);
   if (there.found == Found::another) others_.emplace_back(picture, there.words);
   if (there.found != Found::whole) return;
