@@ -194,7 +194,7 @@ void declare_outputs(CLI::App& app, RenderArguments& a) {
   app.add_option(
       "--frames", a.frames,
       "render a picture of a bundle for each line of this text: --camera, --look-at, --fov, "
-      "--set, --seed or --spp. "
+      "--sky, --set, --seed or --spp. "
       "--output has %04d for its number, from 1. A picture that is there stays; if it is not what its line "
       "asks for, the difference is named");
   app.add_option(
@@ -255,6 +255,10 @@ void declare(CLI::App& app, RenderArguments& a) {
       "--camera", a.camera,
       "N: which sensor of a Mitsuba scene, or camera of a glTF, FBX or COLLADA, from 0. FILE: the camera of "
       "another scene of any format, without partitioning again");
+  CLI::Option* const sky = app.get_option("--sky");
+  sky->description(
+      sky->get_description() +
+      ". In a bundle it replaces the one sky, without partitioning again and without up and north");
   declare_rgb_option(app, a.rgb);
   declare_mesh_options(app, a.meshes);
   app.add_flag("--no-cache{false}", a.cached,

@@ -49,7 +49,9 @@ void require_renderable(const RenderArguments& a) {
   if (a.meshes.any() && a.is_bundle())
     throw UsageError("the meshes of a bundle stay as they are: give " + arguments_of(a.meshes)[0] +
                      " to partition");
-  if (const auto words = arguments_of(a.imports); !words.empty() && a.is_bundle())
+  ImportArguments imports = a.imports;
+  imports.sky.clear();  // an edit of a bundle
+  if (const auto words = arguments_of(imports); !words.empty() && a.is_bundle())
     throw UsageError("a bundle is made already, and its scene is not read again: give " + words[0] +
                      " to partition");
   if (a.rgb != usual_rgb && a.is_bundle())
@@ -152,6 +154,11 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   o.outputs.progress = progress_mode(a);
   o.outputs.quiet = a.quiet;
   if (o.outputs.dry_run) prepare_dry_run(o);
+  std::vector<std::string> asked = a.settings;
+  if (a.is_bundle() && !a.imports.sky.empty()) {
+    o.picture.edits.push_back(parse_sky_edit(a.imports.sky));
+    asked.insert(asked.begin(), "sky=" + a.imports.sky);
+  }
   for (const std::string& text : a.settings)
     if (is_scene_edit(text))
       o.picture.edits.push_back(parse_scene_edit(text));
@@ -160,7 +167,7 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   parse_settings(a.glazing);
   if (!a.look_at.empty()) o.picture.view.look_at = parse_look_at(a.look_at);
   if (!a.display_server.empty()) parse_display_address(a.display_server);
-  o.picture.glazing = fmt::format("{}", fmt::join(a.settings, " "));
+  o.picture.glazing = fmt::format("{}", fmt::join(asked, " "));
   o.outputs.scene_name = a.input.string();
 }
 

@@ -38,6 +38,8 @@ constexpr Property properties[] = {{"scale", 1, 0, infinite, "a scale is a numbe
                                    {"roughness", 1, 0, 1, "a roughness is in [0, 1]"},
                                    {"sky", 0, 0, 0, "a sky is told as of --sky"}};
 
+constexpr const char* has_its_axes = "the bundle knows which of its axes are up and north";
+
 constexpr std::string_view sky_property = ".sky=";
 
 // "lamp.scale=2": where the dot and the equals sign are; npos: it has none. The words of a sky have such
@@ -279,6 +281,33 @@ std::string words_about_names(const Manifest& m, const SceneEdit& edit, bool of_
                                 of_lights ? "light" : "material", words_about_names(m, edit, of_lights)));
 }
 
+// Throws UsageError unless there is one. By its number: the text names it so, whatever the file calls it.
+SceneEdit change_the_sky(Manifest& m, const SceneEdit& edit) {
+  std::vector<std::size_t> skies;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < m.lights.size(); ++i) {
+    if (!std::holds_alternative<SkyLight>(m.lights[i].model)) continue;
+    skies.push_back(i);
+    names.push_back(numbered_light_names(m).lights[i]);
+  }
+  if (skies.empty())
+    throw UsageError(
+        "--sky: the bundle has no sky that another could replace: give --sky to partition, and then each "
+        "render takes its own");
+  if (skies.size() > 1)
+    throw UsageError(fmt::format("--sky: the bundle has {} skies: give --set NAME.sky= to one of {}",
+                                 skies.size(), fmt::join(names, ", ")));
+  const SceneEdit named{
+      fmt::format("{}{}{}", names[0], sky_property, edit.text), names[0], edit.property, {}, edit.sky};
+  edit_light(m.lights[skies[0]], named);
+  return named;
+}
+
+void make(Manifest& m, const SceneEdit& edit) {
+  const bool of_material = edit.property == "color" || edit.property == "roughness";
+  if (!(of_material ? edit_materials(m, edit) : edit_any_light(m, edit))) refuse_name(m, edit, !of_material);
+}
+
 }  // namespace
 
 bool is_scene_edit(const std::string& text) {
@@ -293,8 +322,7 @@ SceneEdit parse_scene_edit(const std::string& text) {
   SceneEdit edit{text, text.substr(0, at.dot), property->name, {}, {}};
   if (edit.property == "sky") {
     const GivenSky given = parse_sky(text.substr(at.equals + 1));
-    if (!given.up.empty() || !given.north.empty())
-      refuse(text, "the bundle knows which of its axes are up and north");
+    if (!given.up.empty() || !given.north.empty()) refuse(text, has_its_axes);
     edit.sky = given.light;
     return edit;
   }
@@ -313,15 +341,24 @@ SceneEdit parse_scene_edit(const std::string& text) {
   return edit;
 }
 
+SceneEdit parse_sky_edit(const std::string& words) {
+  const GivenSky given = parse_sky(words);
+  if (!given.up.empty() || !given.north.empty())
+    throw UsageError(fmt::format("--sky {}: {}", words, has_its_axes));
+  return {words, "", "sky", {}, given.light};
+}
+
 void edit_scene(std::span<const SceneEdit> edits, Manifest& m) {
   if (edits.empty()) return;
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(&m.scene_hash, 1)));
   for (const SceneEdit& edit : edits) {
-    const bool of_material = edit.property == "color" || edit.property == "roughness";
-    if (!(of_material ? edit_materials(m, edit) : edit_any_light(m, edit)))
-      refuse_name(m, edit, !of_material);
-    hasher.add(std::as_bytes(std::span(edit.text)));
+    std::string text = edit.text;
+    if (edit.name.empty())
+      text = change_the_sky(m, edit).text;
+    else
+      make(m, edit);
+    hasher.add(std::as_bytes(std::span(text)));
     hasher.add(std::as_bytes(std::span("\n", 1)));
   }
   m.scene_hash = hasher.digest();

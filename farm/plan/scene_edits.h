@@ -22,19 +22,23 @@ namespace vitrail {
 // - color=r:g:b, linear sRGB in [0, 1]: its diffuse reflectance or base colour;
 // - roughness: the α of its microfacets, or of Disney's material its roughness.
 struct SceneEdit {
-  std::string text, name, property;
-  std::vector<double> values;   // one or three
-  std::optional<SkyLight> sky;  // of the property `sky`
+  std::string text, name, property;  // name "": of --sky, the one sky that there is
+  std::vector<double> values;        // one or three
+  std::optional<SkyLight> sky;       // of the property `sky`
 };
 
 // Whether the property of a text is one of these.
 bool is_scene_edit(const std::string& text);
 // Throws UsageError.
 SceneEdit parse_scene_edit(const std::string& text);
+// Returns what the words of --sky do to a bundle: NAME.sky=WORDS of the one sky that it has. Throws
+// UsageError.
+SceneEdit parse_sky_edit(const std::string& words);
 
 // In the order in which they are given. A blank of a name may be given as "_". Throws UsageError where
 // nothing has that name or property, with the names that there are, and where the bundle would have to be
-// made anew. The manifest's scene_hash becomes another one.
+// made anew, or has no sky or several for --sky. The manifest's scene_hash becomes another one: that of
+// `--set sky-1.sky=WORDS` for --sky.
 void edit_scene(std::span<const SceneEdit> edits, Manifest& manifest);
 
 }  // namespace vitrail

@@ -75,6 +75,9 @@ class SetScene : public ::testing::Test {
     const CommandResult made =
         run(fmt::format("{} {} -o {} --force --quiet {}", vitrail("render"), bundle, film, options));
     EXPECT_EQ(made.status, 0) << made.output;
+    return hash_of(film);
+  }
+  static std::string hash_of(const std::string& film) {
     const CommandResult told = run(fmt::format("{} --json {}", vitrail("inspect"), film));
     return nlohmann::json::parse(told.output).at("film_hash").get<std::string>();
   }
@@ -162,6 +165,34 @@ TEST_F(SetScene, AnotherSkyIsThatOfABundleMadeUnderIt) {
   expect_refused(plain, "--set sky-1.sky=48.86,2.35,2026-06-21T12:00Z,up=y", "knows which of its axes");
   expect_refused(bundle("plain.pbrt", pbrt_scene({})), "--set point-2.sky=48.86,2.35,2026-06-21T12:00Z",
                  "a light has a scale");
+}
+
+// `--sky` is the edit of the one sky, in the command and in a line of frames.
+TEST_F(SetScene, SkyOfTheCommandIsThatOfSet) {
+  const std::string plain = bundle("plain.xml", mitsuba_scene({}));
+  const std::string noon = "48.86,2.35,2026-06-21T12:00+02:00,turbidity=5",
+                    dull = "48.86,2.35,2026-06-21T12:00+02:00,cie=3";
+  const std::string set = hash(plain, "--set sky-1.sky=" + noon);
+  EXPECT_NE(set, hash(plain));
+  EXPECT_EQ(hash(plain, "--sky " + noon), set);
+  EXPECT_EQ(hash(plain, "--sky " + noon + " --set sky-1.sun=.1:.2:.9"),
+            hash(plain, "--set sky-1.sky=" + noon + " --set sky-1.sun=.1:.2:.9"));
+
+  std::ofstream(directory_ / "frames.txt") << "--seed 0\n--sky " << dull << "\n";
+  const CommandResult frames = run(fmt::format("{} {} --frames {} -o {} --sky {} --quiet", vitrail("render"),
+                                               plain, path("frames.txt"), path("%04d.film"), noon));
+  ASSERT_EQ(frames.status, 0) << frames.output;
+  EXPECT_EQ(hash_of(path("0001.film")), set);
+  EXPECT_EQ(hash_of(path("0002.film")), hash(plain, "--set sky-1.sky=" + dull));
+
+  expect_refused(plain, "--sky 48.86,2.35", "--sky takes LATITUDE");
+  for (const char* axis : {"up=z", "north=y"})
+    expect_refused(plain, fmt::format("--sky {},{}", noon, axis), "knows which of its axes");
+  expect_refused(bundle("lamps.pbrt", pbrt_scene({})), "--sky " + noon, "the bundle has no sky");
+  std::string two = mitsuba_scene({});
+  two.insert(two.find("<shape"), "<emitter type=\"sunsky\"/>");
+  expect_refused(bundle("two.xml", two), "--sky " + noon,
+                 "2 skies: give --set NAME.sky= to one of sky-1, sky-2");
 }
 
 // The camera that a mesh without one gets looks down; moved, its horizon is level, as z or y is up.

@@ -67,6 +67,21 @@ TEST(SceneEdits, AnotherSkyStandsWhereTheFirstStood) {
   EXPECT_EQ(*light<SkyLight>(other, 1).light_to_world, stands);
 }
 
+TEST(SceneEdits, OfTheSkyAreThoseOfTheOneThatThereIs) {
+  const char* const words = "48.85,2.35,2026-06-21T12:00+02:00,turbidity=4";
+  const SceneEdit edit = parse_sky_edit(words);
+  Manifest m = lit();
+  edit_scene({&edit, 1}, m);
+  const Manifest set = edited(lit(), {"sky-2.sky=48.85,2.35,2026-06-21T12:00+02:00,turbidity=4"});
+  EXPECT_EQ(m.lights, set.lights);
+  EXPECT_EQ(m.scene_hash, set.scene_hash);
+  Manifest several = lit(), none = lit();
+  several.lights.push_back(named(SkyLight{}, "other"));
+  none.lights.erase(none.lights.begin() + 1);
+  EXPECT_THROW(edit_scene({&edit, 1}, several), UsageError);
+  EXPECT_THROW(edit_scene({&edit, 1}, none), UsageError);
+}
+
 TEST(SceneEdits, RefuseWhatTheyCannotBe) {
   for (const char* text : {"sky.turbidity=10.5", "sky.turbidity=x", "sky.turbidity=1:2", "sky.sun=0:0:0",
                            "sky.sky=48.85,2.35,2026-06-21T12:00+02:00,up=y",
