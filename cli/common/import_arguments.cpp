@@ -68,6 +68,15 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
                "keep fog and absorption that the scene's integrator ignores, such as pbrt's \"path\"");
 }
 
+void declare_lamps_option(CLI::App& app, ImportArguments& a) {
+  app.add_option(
+         "--lamps", a.lamps,
+         "off: daylight alone. Surfaces, lamps and media of the scene do not shine, and what is off is "
+         "reported; light from infinitely far stays")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
+}
+
 void declare_rgb_option(CLI::App& app, std::string& method) {
   app.add_option(
          "--rgb", method,
@@ -101,6 +110,7 @@ std::vector<std::string> arguments_of(const ImportArguments& a) {
   if (a.camera != 0) words.insert(words.end(), {"--camera", std::to_string(a.camera)});
   if (a.missing != "refuse") words.push_back("--missing=" + a.missing);
   if (!a.sky.empty()) words.push_back("--sky=" + a.sky);
+  if (a.lamps_are_off()) words.push_back("--lamps=off");
   if (!a.include_limit.empty()) words.push_back("--include-limit=" + a.include_limit);
   for (const std::string& folder : a.include_folders) words.push_back("--include=" + folder);
   const ProgramLimits usual;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// -D name=value, --camera N, --missing, --sky, --include, --root, --all-media and limits: what a scene is
-// loaded with.
+// -D name=value, --camera N, --missing, --sky, --lamps, --include, --root, --all-media and limits: what a
+// scene is loaded with.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,6 +20,8 @@ struct ImportArguments {
   ProgramLimits program;
   std::string write_limit;
   bool all_media = false;
+  std::string lamps = "on";  // of partition and render alone
+  bool lamps_are_off() const { return lamps == "off"; }
 };
 
 // --rgb jakob-hanika|matrix-r: how a scene's colours become spectra as it is partitioned.
@@ -33,6 +35,8 @@ inline constexpr const char* no_cache_help =
 
 // A definition that is not name=value is refused as the options are parsed.
 void declare_import_options(CLI::App& app, ImportArguments& arguments);
+
+void declare_lamps_option(CLI::App& app, ImportArguments& arguments);
 
 // What --root allows holds from then on.
 ImportOptions import_options(const ImportArguments& arguments);

@@ -7,8 +7,9 @@ namespace {
 
 constexpr Heading scene{
     "How the scene is read",
-    "define=NAME=VALUE camera sky=SKY rgb all-media missing include=FOLDER root=FOLDER include-limit=SIZE "
-    "token-limit=COUNT call-limit=COUNT nesting-limit=COUNT write-limit=SIZE no-cache strict"};
+    "define=NAME=VALUE camera sky=SKY lamps rgb all-media missing include=FOLDER root=FOLDER "
+    "include-limit=SIZE token-limit=COUNT call-limit=COUNT nesting-limit=COUNT write-limit=SIZE no-cache "
+    "strict"};
 constexpr Heading scene_of_render{"How the scene is read",
                                   "define=NAME=VALUE rgb all-media missing include=FOLDER "
                                   "root=FOLDER include-limit=SIZE token-limit=COUNT "
@@ -22,7 +23,7 @@ const std::vector<Heading> of_render{
      "integrator "
      "hide-emitters "
      "camera=FILE look-at=X,Y,Z,X,Y,Z fov=DEGREES frames=FILE range=NUMBERS sensors=FILE "
-     "sky=SKY set=NAME.PROPERTY=VALUE"},
+     "sky=SKY lamps set=NAME.PROPERTY=VALUE"},
     {"How good", "quality spp target-error=ERROR adaptive seed clamp=RADIANCE denoise find-denoiser"},
     {"How long",
      "time=SECONDS dry-run checkpoint-every=SECONDS resume force restarts=TIMES launcher=COMMAND "

@@ -27,6 +27,7 @@
 #include "importers/import.h"
 #include "importers/readers.h"
 #include "importers/reading/back_to_back_faces.h"
+#include "importers/reading/lamps_off.h"
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/caching/file_cache.h"
 #include "partitioner/least_memory.h"
@@ -231,6 +232,7 @@ void report(const PartitionArguments& a, ImportedScene& imported) {
 
 int write_bundle(PartitionArguments& a, std::uint64_t kept_bytes, ImportedScene& imported, Stage& stage) {
   stage = {.what = "preparing the scene", .held = to_string(ledger_of(imported.scene))};
+  if (a.imports.lamps_are_off()) turn_off_lamps(imported);
   complete_scene(imported, import_options(a.imports));
   join_faces_back_to_back(imported);
   imported.scene.settings.rgb = rgb_method(a.rgb);

@@ -46,6 +46,7 @@ void declare(CLI::App& app, PartitionArguments& a) {
                  "cut for the rays of an earlier render of this scene (a file of `render --profile`)");
   app.add_option("--aov", a.aov, layers_help);
   declare_import_options(app, a.imports);
+  declare_lamps_option(app, a.imports);
   declare_rgb_option(app, a.rgb);
   declare_mesh_options(app, a.meshes);
   app.add_flag("--force", a.force, "replace a bundle of another scene");

@@ -194,7 +194,7 @@ void declare_outputs(CLI::App& app, RenderArguments& a) {
   app.add_option(
       "--frames", a.frames,
       "render a picture of a bundle for each line of this text: --camera, --look-at, --fov, "
-      "--sky, --set, --seed or --spp. "
+      "--sky, --lamps, --set, --seed or --spp. "
       "--output has %04d for its number, from 1. A picture that is there stays; if it is not what its line "
       "asks for, the difference is named");
   app.add_option(
@@ -250,6 +250,7 @@ void declare(CLI::App& app, RenderArguments& a) {
   declare_job(app, a);
   declare_outputs(app, a);
   declare_import_options(app, a.imports);
+  declare_lamps_option(app, a.imports);
   app.remove_option(app.get_option("--camera"));
   app.add_option(
       "--camera", a.camera,

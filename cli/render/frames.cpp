@@ -16,7 +16,8 @@ namespace vitrail {
 namespace {
 
 // What changes the picture, and neither the film's kind nor the job.
-constexpr const char* of_frames[] = {"--camera", "--look-at", "--fov", "--sky", "--set", "--seed", "--spp"};
+constexpr const char* of_frames[] = {"--camera", "--look-at", "--fov",  "--sky",
+                                     "--lamps",  "--set",     "--seed", "--spp"};
 
 bool may_have(const std::string& word) {
   return std::ranges::find(of_frames, word.substr(0, word.find('='))) != std::end(of_frames);

@@ -50,7 +50,7 @@ void require_renderable(const RenderArguments& a) {
     throw UsageError("the meshes of a bundle stay as they are: give " + arguments_of(a.meshes)[0] +
                      " to partition");
   ImportArguments imports = a.imports;
-  imports.sky.clear();  // an edit of a bundle
+  imports.sky.clear(), imports.lamps = "on";  // edits of a bundle
   if (const auto words = arguments_of(imports); !words.empty() && a.is_bundle())
     throw UsageError("a bundle is made already, and its scene is not read again: give " + words[0] +
                      " to partition");
@@ -113,6 +113,29 @@ void interpret_camera(RenderArguments& a) {
     a.camera_file = a.camera;
 }
 
+// --sky and --lamps of a bundle, and --set.
+void interpret_edits(RenderArguments& a) {
+  PictureSettings& picture = a.options.picture;
+  std::vector<std::string> asked;
+  if (a.is_bundle() && !a.imports.sky.empty()) {
+    picture.edits.push_back(parse_sky_edit(a.imports.sky));
+    asked.push_back("sky=" + a.imports.sky);
+  }
+  for (const std::string& text : a.settings) {
+    asked.push_back(text);
+    if (is_scene_edit(text))
+      picture.edits.push_back(parse_scene_edit(text));
+    else
+      a.glazing.push_back(text);
+  }
+  parse_settings(a.glazing);
+  if (a.is_bundle() && a.imports.lamps_are_off()) {
+    picture.edits.push_back(lamps_off());
+    asked.push_back("lamps=off");
+  }
+  picture.glazing = fmt::format("{}", fmt::join(asked, " "));
+}
+
 }  // namespace
 
 void interpret(const CLI::App& app, RenderArguments& a) {
@@ -154,20 +177,9 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   o.outputs.progress = progress_mode(a);
   o.outputs.quiet = a.quiet;
   if (o.outputs.dry_run) prepare_dry_run(o);
-  std::vector<std::string> asked = a.settings;
-  if (a.is_bundle() && !a.imports.sky.empty()) {
-    o.picture.edits.push_back(parse_sky_edit(a.imports.sky));
-    asked.insert(asked.begin(), "sky=" + a.imports.sky);
-  }
-  for (const std::string& text : a.settings)
-    if (is_scene_edit(text))
-      o.picture.edits.push_back(parse_scene_edit(text));
-    else
-      a.glazing.push_back(text);
-  parse_settings(a.glazing);
+  interpret_edits(a);
   if (!a.look_at.empty()) o.picture.view.look_at = parse_look_at(a.look_at);
   if (!a.display_server.empty()) parse_display_address(a.display_server);
-  o.picture.glazing = fmt::format("{}", fmt::join(asked, " "));
   o.outputs.scene_name = a.input.string();
 }
 

@@ -52,6 +52,11 @@ void complete_picture(Transport& transport, RenderArguments& a, KnownViews* know
   a.options.picture.view.view = view_from_text(view);
 }
 
+void say_lamps(const RenderArguments& a) {
+  if (a.is_bundle() && a.imports.lamps_are_off() && !a.quiet && a.frames.empty())
+    say("vitrail: --lamps off: {}\n", words_of_lamps(read_manifest(a.options.bundle)));
+}
+
 int number_of(Ending ending) {
   return ending == Ending::terminated ? SIGTERM : ending == Ending::interrupted ? SIGINT : 0;
 }
@@ -119,6 +124,7 @@ int render_locked(Transport& transport, RenderArguments& a, const JobSteps& step
   std::optional<TemporaryBundle> temporary;
   if (!a.is_bundle()) temporary.emplace(transport, a.input, beside_the_film, partition_arguments(a));
   complete_picture(transport, a, steps.views);
+  agree_on_root(transport, [&] { say_lamps(a); });
   agree(transport, [] {
     if (stop_signal()) throw Interrupted(stop_signal(), "interrupted before rendering began");
   });

@@ -14,6 +14,7 @@
 #include "bundle/checksum.h"
 #include "bundle/light_names.h"
 #include "scene/daylight/given_sky.h"
+#include "scene/records/light_traits.h"
 #include "scene/records/material_traits.h"
 #include "scene/spectra/matrix_r.h"
 #include "scene/spectra/rgb_to_spectrum.h"
@@ -257,17 +258,22 @@ std::set<std::string> names_of(const Manifest& m, bool of_lights) {
   return names;
 }
 
-// "there is Desk, Lamp; did you mean Lamp? vitrail inspect lists all".
-std::string words_about_names(const Manifest& m, const SceneEdit& edit, bool of_lights) {
-  const std::set<std::string> names = names_of(m, of_lights);
+// "Desk, Lamp, 3 more".
+std::string list_of(const std::set<std::string>& names) {
   std::vector<std::string> shown(names.begin(), names.end());
-  const std::string meant = closest_word(edit.name, shown);
   constexpr std::size_t most = 20;
   const std::size_t more = shown.size() - std::min(shown.size(), most);
   shown.resize(shown.size() - more);
   if (more > 0) shown.push_back(fmt::format("{} more", more));
+  return fmt::format("{}", fmt::join(shown, ", "));
+}
+
+// "there is Desk, Lamp; did you mean Lamp? vitrail inspect lists all".
+std::string words_about_names(const Manifest& m, const SceneEdit& edit, bool of_lights) {
+  const std::set<std::string> names = names_of(m, of_lights);
+  const std::string meant = closest_word(edit.name, {names.begin(), names.end()});
   return fmt::format("there is {}; {}vitrail inspect lists all",
-                     shown.empty() ? "none with a name" : fmt::format("{}", fmt::join(shown, ", ")),
+                     names.empty() ? "none with a name" : list_of(names),
                      meant.empty() ? "" : fmt::format("did you mean {}? ", meant));
 }
 
@@ -301,6 +307,19 @@ SceneEdit change_the_sky(Manifest& m, const SceneEdit& edit) {
       fmt::format("{}{}{}", names[0], sky_property, edit.text), names[0], edit.property, {}, edit.sky};
   edit_light(m.lights[skies[0]], named);
   return named;
+}
+
+bool is_far(const Light& light) { return traits_of(light.model).is_far(); }
+
+void turn_off_lamps(Manifest& m) {
+  for (AreaLight& light : m.area_lights) scale_surface(light, 0);
+  for (Light& light : m.lights) {
+    if (is_far(light)) continue;
+    std::visit(LightScaler{0}, light.model);
+    scale_given(light, 0);
+  }
+  for (Medium& medium : m.media)
+    medium.emission.reset(), medium.emission_scale.reset(), medium.temperature.reset();
 }
 
 void make(Manifest& m, const SceneEdit& edit) {
@@ -348,13 +367,30 @@ SceneEdit parse_sky_edit(const std::string& words) {
   return {words, "", "sky", {}, given.light};
 }
 
+SceneEdit lamps_off() { return {"lamps=off", "", "lamps", {}, {}}; }
+
+std::string words_of_lamps(const Manifest& m) {
+  const LightNames names = light_names(m);
+  std::set<std::string> off(names.area_lights.begin(), names.area_lights.end());
+  for (std::size_t i = 0; i < m.lights.size(); ++i)
+    if (!is_far(m.lights[i])) off.insert(names.lights[i]);
+  off.insert(names.media.begin(), names.media.end());
+  off.erase("");
+  const bool is_dark = std::ranges::none_of(m.lights, is_far);
+  return fmt::format("{} off{}",
+                     off.empty() ? "no light is" : list_of(off) + (off.size() > 1 ? " are" : " is"),
+                     is_dark ? "; no other light is there, and the picture is black" : "");
+}
+
 void edit_scene(std::span<const SceneEdit> edits, Manifest& m) {
   if (edits.empty()) return;
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(&m.scene_hash, 1)));
   for (const SceneEdit& edit : edits) {
     std::string text = edit.text;
-    if (edit.name.empty())
+    if (edit.property == "lamps")
+      turn_off_lamps(m);
+    else if (edit.name.empty())
       text = change_the_sky(m, edit).text;
     else
       make(m, edit);

@@ -22,9 +22,10 @@ namespace vitrail {
 // - color=r:g:b, linear sRGB in [0, 1]: its diffuse reflectance or base colour;
 // - roughness: the α of its microfacets, or of Disney's material its roughness.
 struct SceneEdit {
-  std::string text, name, property;  // name "": of --sky, the one sky that there is
-  std::vector<double> values;        // one or three
-  std::optional<SkyLight> sky;       // of the property `sky`
+  std::string text, name,
+      property;                 // name "": of --sky, the one sky that there is; of --lamps off, all lamps
+  std::vector<double> values;   // one or three
+  std::optional<SkyLight> sky;  // of the property `sky`
 };
 
 // Whether the property of a text is one of these.
@@ -34,6 +35,11 @@ SceneEdit parse_scene_edit(const std::string& text);
 // Returns what the words of --sky do to a bundle: NAME.sky=WORDS of the one sky that it has. Throws
 // UsageError.
 SceneEdit parse_sky_edit(const std::string& words);
+// Returns what --lamps off does: all that shines in the scene has a scale of 0, and media have no light.
+// Light from infinitely far stays.
+SceneEdit lamps_off();
+// Names them, as "area-1, Desk are off".
+std::string words_of_lamps(const Manifest& manifest);
 
 // In the order in which they are given. A blank of a name may be given as "_". Throws UsageError where
 // nothing has that name or property, with the names that there are, and where the bundle would have to be

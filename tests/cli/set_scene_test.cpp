@@ -195,6 +195,73 @@ TEST_F(SetScene, SkyOfTheCommandIsThatOfSet) {
                  "2 skies: give --set NAME.sky= to one of sky-1, sky-2");
 }
 
+// A scene with a lamp of each kind, and the same without any of them.
+std::string daylit_scene(bool with_lamps) {
+  const auto lamp = [&](const char* text) { return with_lamps ? text : ""; };
+  std::string scene = R"(LookAt 0 -3 2  0 0 0  0 0 1
+Camera "perspective" "float fov" 60
+Sampler "independent" "integer pixelsamples" 16
+Film "rgb" "integer xresolution" 24 "integer yresolution" 16
+WorldBegin
+LightSource "infinite" "rgb L" [.1 .2 .3]
+LightSource "distant" "point3 from" [1 1 3] "point3 to" [0 0 0] "rgb L" [.5 .5 .4]
+)";
+  scene += lamp("LightSource \"point\" \"point3 from\" [1 0 2] \"rgb I\" [2 3 4] \"float power\" 20\n");
+  scene += lamp("LightSource \"spot\" \"point3 from\" [-1 0 2] \"point3 to\" [0 0 0] \"rgb I\" [9 3 4]\n");
+  scene += fmt::format(R"(MakeNamedMedium "fire" "string type" "homogeneous" "rgb sigma_a" [.3 .3 .3]
+  "rgb sigma_s" [.2 .2 .2] {}
+AttributeBegin
+  Material "diffuse" "rgb reflectance" [.5 .5 .5]
+  {} Translate -.8 0 .6
+  Shape "sphere" "float radius" .3
+AttributeEnd
+AttributeBegin
+  Material "interface"
+  MediumInterface "fire" ""
+  Translate .6 0 .5
+  Shape "sphere" "float radius" .4
+AttributeEnd
+Material "diffuse" "rgb reflectance" [.5 .4 .3]
+Shape "trianglemesh" "point3 P" [-3 -3 0  3 -3 0  3 3 0  -3 3 0] "integer indices" [0 1 2 0 2 3]
+)",
+                       lamp(R"("rgb Le" [2 1 .5])"), lamp(R"(AreaLightSource "diffuse" "rgb L" [4 3 2])"));
+  return scene;
+}
+
+// The same picture, whether the lamps are off in the partition, in the render of a scene, or in a bundle.
+TEST_F(SetScene, LampsOffLeaveDaylightAlone) {
+  std::ofstream(directory_ / "lit.pbrt") << daylit_scene(true);
+  const std::string dark = bundle("lit.pbrt", daylit_scene(true)),
+                    plain = bundle("day.pbrt", daylit_scene(false));
+  const CommandResult made = run(fmt::format("{} {} -o {} --force --lamps off", vitrail("partition"),
+                                             path("lit.pbrt"), path("off.vit")));
+  ASSERT_EQ(made.status, 0) << made.output;
+  for (const char* what :
+       {"a surface's light: --lamps off", "a lamp: --lamps off", "a medium's light: --lamps off"})
+    EXPECT_THAT(made.output, HasSubstr(what));
+  const std::string alone = hash(plain);
+  EXPECT_NE(hash(dark), alone);
+  EXPECT_EQ(hash(path("off.vit")), alone);
+  const auto picture = [&](const std::string& scene, const std::string& options) {
+    const CommandResult rendered = run(fmt::format("{} {} -o {} --force --spp 64 {}", vitrail("render"),
+                                                   scene, path("picture.exr"), options));
+    EXPECT_EQ(rendered.status, 0) << rendered.output;
+    std::filesystem::copy_file(path("picture.exr"), path(options.empty() ? "day.exr" : "off.exr"),
+                               std::filesystem::copy_options::overwrite_existing);
+    return rendered.output;
+  };
+  picture(plain, "");
+  const auto expect_same = [&](const std::string& scene, const char* words) {
+    EXPECT_THAT(picture(scene, "--lamps off"), HasSubstr(words));
+    const CommandResult compared =
+        run(fmt::format("{} {} {} --fail-above 1e-12", vitrail("compare"), path("off.exr"), path("day.exr")));
+    EXPECT_EQ(compared.status, 0) << scene << compared.output;
+  };
+  expect_same(path("lit.pbrt"), "a lamp: --lamps off");
+  expect_same(path("off.vit"), "--lamps off: no light is off");
+  expect_same(dark, "--lamps off: area-1, medium-1, point-");
+}
+
 // The camera that a mesh without one gets looks down; moved, its horizon is level, as z or y is up.
 TEST_F(SetScene, ALevelCameraStaysLevel) {
   const std::string mesh = bundle("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 .2\nf 1 2 3\n");
