@@ -257,9 +257,7 @@ void declare(CLI::App& app, RenderArguments& a) {
       "N: which sensor of a Mitsuba scene, or camera of a glTF, FBX or COLLADA, from 0. FILE: the camera of "
       "another scene of any format, without partitioning again");
   CLI::Option* const sky = app.get_option("--sky");
-  sky->description(
-      sky->get_description() +
-      ". In a bundle it replaces the one sky, without partitioning again and without up and north");
+  sky->description(sky->get_description() + ". It replaces the one sky of a bundle, without up and north");
   declare_rgb_option(app, a.rgb);
   declare_mesh_options(app, a.meshes);
   app.add_flag("--no-cache{false}", a.cached,
