@@ -119,6 +119,13 @@ TEST(Comparison, NamesTheWorstPixels) {
   EXPECT_EQ(worst[1].error, 3);
 }
 
+TEST(Comparison, WordsCountPixelsThatAreNotFinite) {
+  Comparison c;
+  EXPECT_THAT(to_text(c), Not(HasSubstr("not finite")));
+  c.nonfinite_reference = 2;
+  EXPECT_THAT(to_text(c), HasSubstr("pixels that are not finite: 0 of the image, 2 of the reference\n"));
+}
+
 TEST(Comparison, WordsSayWithinWhatTheMeansAre) {
   Comparison c;
   EXPECT_THAT(to_text(c), Not(HasSubstr("(X, Y, Z within")));

@@ -62,6 +62,14 @@ TEST(Page, HoldsItsDataWhateverTheNamesAre) {
     EXPECT_THAT(page, Not(HasSubstr(other))) << "a page needs nothing but itself";
 }
 
+TEST(Page, HasTheRatiosOfTheImageOverTheReference) {
+  const Image image{1, 1, 3, {0.5f, 3, 2}}, reference{1, 1, 3, {1, 1, 1}};
+  const std::string page = comparison_page({"a", "b", &image, &reference, 0, 0, 67, false});
+  EXPECT_THAT(page, HasSubstr(R"(["red",0.5,)"));
+  EXPECT_THAT(page, HasSubstr(R"(["green",3.0,)"));
+  EXPECT_THAT(page, HasSubstr(R"(["blue",2.0,)"));
+}
+
 // What stands in the page after `"name":"mse"`: the unit of that map, and its pixels.
 std::pair<double, std::string> squares_of(const std::string& page) {
   const auto after = [&](const std::string& mark, std::size_t from) {
