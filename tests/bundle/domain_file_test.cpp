@@ -109,6 +109,19 @@ TEST_F(DomainFile, WrongReferencesAreFound) {
   }
 }
 
+TEST_F(DomainFile, ItsBoundsAreThoseOfBothRoots) {
+  DomainContent content = sample_domain();
+  content.instances = {test::sample_instance(0, 11)};
+  content.instance_nodes = test::sample_object(1).instance_nodes;
+  for (int axis = 0; axis < 3; ++axis) {
+    content.nodes[0].lower[axis][0] = -20;
+    content.instance_nodes[0].upper[axis][0] = 30;
+  }
+  const Bounds3f box = content_bounds(view_of(content));
+  EXPECT_EQ(box.lower, (Point3f{-20, -20, -20}));
+  EXPECT_EQ(box.upper, (Point3f{30, 30, 30}));
+}
+
 TEST_F(DomainFile, TreeMayNotBeTooDeep) {
   const auto chain = [&](int levels) {
     DomainContent content = sample_domain();
