@@ -12,8 +12,8 @@ struct ColorFidelity {
   double kelvin = 0;               // correlated colour temperature of the light
 };
 
-// Of D65 through the glazing against Planck's light or CIE daylight of the same colour temperature, in
-// CAM02-UCS. The 10° observer, sums each 5 nm from 380 to 780 nm. Empty where no light comes through.
+// Compares D65 through the glazing with Planck's light or CIE daylight of the same colour temperature, in
+// CAM02-UCS, by the 10° observer and sums each 5 nm from 380 to 780 nm. Empty where no light comes through.
 std::optional<ColorFidelity> color_fidelity(const SystemSpectrum& spectrum);
 
 }  // namespace vitrail

@@ -62,7 +62,8 @@ struct NamedState {
 };
 std::vector<NamedState> states_of(const GlazingSystem& system);
 
-// Of a system that switches, each measured state and the one that it is in. Throws Error.
+// Evaluates the system; one that switches, in each measured state and in the one that it is in. Throws
+// Error.
 DataSheet data_sheet(const GlazingSystem& system, Polarisation polarisation);
 
 }  // namespace vitrail

@@ -27,7 +27,7 @@ using GasMixture = std::vector<GasShare>;
 std::optional<GasMixture> gas_mixture(const std::string& text);
 std::string words_for(const GasMixture& mixture);  // "argon 90 %, air 10 %"
 
-// What heat in a gap depends on.
+// These properties of a gas decide how much heat crosses a gap.
 struct GasProperties {
   double conductivity_w_mk = 0, viscosity_pa_s = 0, heat_j_kgk = 0, density_kg_m3 = 0;
 };

@@ -21,7 +21,7 @@ struct HeatEnvironment {
 inline constexpr HeatEnvironment nfrc_winter{255.15, 294.15, 26, 0};
 inline constexpr HeatEnvironment nfrc_summer{305.15, 297.15, 15, 783};
 
-// What a balance comes to.
+// These are the steady temperatures, and the heat that flows with them.
 struct HeatBalance {
   std::vector<std::array<double, 2>> kelvin;  // of each pane, outer and inner surface
   double into_room_w_m2 = 0;                  // without the sun that comes through

@@ -21,12 +21,12 @@ struct PaneHeat {
 inline constexpr double stefan_boltzmann = 5.670374419e-8;  // W/(m²K⁴)
 inline constexpr double freezing_k = 273.15;                // 0 °C
 
-// Of soda-lime glass without a coating.
+// This is that of soda-lime glass without a coating.
 inline constexpr double glass_emissivity = 0.84;
 
-// From rows of the thermal infrared, 5 to 25 µm at least: 1 − T − R, weighted by a black body of 300 K, to
-// the hemisphere by NFRC 301's polynomials, of glass where this is above 0.8 and of coatings elsewhere. What
-// is known already stays; nothing is added where rows end before.
+// Adds emissivities from rows of the thermal infrared, 5 to 25 µm at least: 1 − T − R, weighted by a black
+// body of 300 K, to the hemisphere by NFRC 301's polynomials, of glass where this is above 0.8 and of
+// coatings elsewhere. What is known already stays; nothing is added where rows end before.
 void add_emissivities(PaneHeat& heat, const OpticalRows& rows);
 
 // Throws Error where heat cannot be computed: a pane without a thickness or an emissivity, two panes without

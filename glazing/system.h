@@ -58,7 +58,7 @@ enum class Polarisation { mixed_at_panes, apart };
 // specular, so the sum is a geometric series. T is the same from both sides.
 PaneValues system_values(const GlazingSystem& system, double nm, double cosine, Polarisation polarisation);
 
-// Of light on the outside, what each pane absorbs: with T and Rf of the whole they sum to 1.
+// Returns which shares of light from outside the panes absorb: with T and Rf of the whole they sum to 1.
 std::vector<double> absorbed_shares(const GlazingSystem& system, double nm, double cosine,
                                     Polarisation polarisation);
 

@@ -22,7 +22,7 @@ struct PlotAxis {
 // The names of the curves stand below, beside a piece of their line.
 std::string curve_plot(const PlotAxis& x, const PlotAxis& y, const std::vector<Curve>& curves);
 
-// Of the nth curve: colours that are told apart also without red or green.
+// Returns the nth curve's colour. People who do not see red or green tell these colours apart, too.
 std::string curve_color(std::size_t n);
 
 }  // namespace vitrail

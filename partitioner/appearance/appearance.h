@@ -22,8 +22,9 @@ struct Appearance {
   std::vector<AreaLight> area_lights;
   std::vector<Light> lights;
   std::vector<std::int32_t> material_ids, area_light_ids, medium_ids;
-  // By material of the scene, these name one that shows it on the outer walls of tubes in the place of
-  // curves, and nothing on the inner ones. −1: it is not used so, or both walls are alike (curve_uses.h).
+  // Tubes stand in the place of some curves. For each material of the scene this names one that shows it on
+  // their outer walls, and nothing on the inner ones. −1: it is not used so, or both walls are alike
+  // (curve_uses.h).
   std::vector<std::int32_t> outer_wall_ids;
   std::vector<FloatParameter> opacities;            // by texture of the scene that is some shape's opacity
   std::vector<std::int32_t> material_interiors;     // index of the medium that a material of the scene brings

@@ -19,7 +19,7 @@ Light named(LightModel model, const char* name) {
   return light;
 }
 
-// A lamp of power 8, a sky, the sun.
+// A lamp whose spectrum has the scale 2, a sky, the sun.
 Manifest lit() {
   Manifest m;
   PointLight lamp;
