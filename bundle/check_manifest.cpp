@@ -339,7 +339,7 @@ const char* fault_of_kd_tree(std::span<const KdNode> tree, std::size_t leaves) {
   std::vector<int> depth(tree.size(), 1);
   for (std::size_t i = 0; i < tree.size(); ++i) {
     const KdNode& n = tree[i];
-    if (n.axis > 2 || !std::isfinite(n.split)) return "a node of the kd-tree has no plane";
+    if (n.axis > KdNode::no_axis || !std::isfinite(n.split)) return "a node of the kd-tree has no plane";
     if (depth[i] > max_kd_depth) return "the kd-tree is too deep";
     for (const std::uint32_t child : {n.below, n.above}) {
       const bool leaf = child & KdNode::leaf_bit;

@@ -24,8 +24,11 @@ class TextureFile;
 // Node 0 is the root. A leaf is one domain.
 struct KdNode {
   static constexpr std::uint32_t leaf_bit = 0x80000000u;
-  float split = 0;                            // coordinate of the interface on `axis`
-  std::uint32_t axis = 0;                     // 0, 1, 2
+  // In place of an axis: no plane parts the children. Each has the whole cell, with other instances in it. The
+  // scene's own triangles and the points of the cell are all of what is below.
+  static constexpr std::uint32_t no_axis = 3;
+  float split = 0;                            // coordinate of the interface on `axis`; 0 where there is none
+  std::uint32_t axis = 0;                     // 0, 1, 2, or no_axis
   std::uint32_t below = 0, above = leaf_bit;  // index of a node, or leaf_bit | domain
   bool operator==(const KdNode&) const = default;
 };

@@ -72,7 +72,10 @@ std::uint32_t RayProfile::domain_at(Point3d world) const {
   while (!(at & KdNode::leaf_bit)) {
     const KdNode& n = kd_nodes[at];
     const int axis = static_cast<int>(n.axis);
-    at = world[axis] - offset[axis] <= static_cast<double>(n.split) ? n.below : n.above;
+    if (n.axis == KdNode::no_axis)
+      at = n.below;
+    else
+      at = world[axis] - offset[axis] <= static_cast<double>(n.split) ? n.below : n.above;
   }
   return at & ~KdNode::leaf_bit;
 }

@@ -243,7 +243,7 @@ TEST_F(ManifestFile, WrongContentIsFound) {
       [](Manifest& m) { m.kd_nodes[0].below = 0; },         // a loop
       [](Manifest& m) { m.kd_nodes[0].below = leaf | 0; },  // a domain twice, a node never
       [](Manifest& m) { m.kd_nodes[1].above = leaf | 3; },
-      [](Manifest& m) { m.kd_nodes[1].axis = 3; },
+      [](Manifest& m) { m.kd_nodes[1].axis = KdNode::no_axis + 1; },
       [](Manifest& m) { m.kd_nodes[0].split = std::numeric_limits<float>::infinity(); },
       [](Manifest& m) { m.kd_nodes.pop_back(); },
       [](Manifest& m) { m.domains.clear(); },

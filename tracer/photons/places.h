@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose a point is: the cells of the kd-tree tile all of space.
+// Whose a point is: the cells of the kd-tree tile all of space, and of domains that share one the first has
+// its points.
 #pragma once
 
 #include "bundle/manifest.h"
@@ -13,6 +14,10 @@ void for_each_domain_near(const Manifest& m, const float (&p)[3], double radius,
   std::uint32_t at = m.kd_nodes.empty() ? KdNode::leaf_bit : from;
   while (!(at & KdNode::leaf_bit)) {
     const KdNode& node = m.kd_nodes[at];
+    if (node.axis == KdNode::no_axis) {
+      at = node.below;
+      continue;
+    }
     const double to_plane = static_cast<double>(p[node.axis]) - static_cast<double>(node.split);
     const bool above = to_plane >= 0;
     if ((above ? to_plane : -to_plane) <= radius && radius > 0) {

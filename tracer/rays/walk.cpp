@@ -66,6 +66,11 @@ bool DomainWalk::next_leaf(double tmax, Pending& leaf) {
     at.t1 = std::min(at.t1, tmax);
     while (at.t0 <= tmax && !(at.reference & KdNode::leaf_bit)) {
       const KdNode& node = manifest_.kd_nodes[at.reference];
+      if (node.axis == KdNode::no_axis) {
+        stack_[static_cast<std::size_t>(size_++)] = {node.above, at.t0, at.t1};
+        at.reference = node.below;
+        continue;
+      }
       const std::size_t axis = node.axis;
       const double to_plane = static_cast<double>(node.split) - origin_[axis];
       const double reciprocal = reciprocal_[axis];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order in which a ray meets the sub-domains: front to back through the kd-tree, both sides of an
-// interface where the ray is within ε of it.
+// interface where the ray is within ε of it. Those that share a cell come one after the other.
 #pragma once
 
 #include <array>

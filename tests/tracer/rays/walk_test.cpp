@@ -64,6 +64,46 @@ std::vector<Ray> rays() {
   return result;
 }
 
+// Every domain has the same cell as one more, whose number is higher by that of all.
+Manifest with_sharers(Manifest m) {
+  const auto count = static_cast<std::uint32_t>(m.domains.size());
+  const std::vector<DomainInfo> domains = m.domains;
+  m.domains.insert(m.domains.end(), domains.begin(), domains.end());
+  for (std::size_t i = 0, planes = m.kd_nodes.size(); i < planes; ++i)
+    for (std::uint32_t KdNode::*side : {&KdNode::below, &KdNode::above}) {
+      const std::uint32_t child = m.kd_nodes[i].*side;
+      if (!(child & KdNode::leaf_bit)) continue;
+      m.kd_nodes[i].*side = static_cast<std::uint32_t>(m.kd_nodes.size());
+      m.kd_nodes.push_back({0, KdNode::no_axis, child, child + count});
+    }
+  return m;
+}
+
+TEST(Walk, VisitsAllThatShareACell) {
+  const Manifest alone = grid(4), shared = with_sharers(alone);
+  const auto count = static_cast<std::uint32_t>(alone.domains.size());
+  for (const Ray& ray : rays()) {
+    std::vector<std::uint32_t> expected, visited;
+    std::vector<double> entries, expected_entries;
+    for (const DomainWalk::Visit& v : all_visits(alone, ray)) {
+      expected.insert(expected.end(), {v.domain, v.domain + count});
+      expected_entries.insert(expected_entries.end(), {v.entry, v.entry});
+    }
+    for (const DomainWalk::Visit& v : all_visits(shared, ray)) {
+      visited.push_back(v.domain);
+      entries.push_back(v.entry);
+    }
+    EXPECT_EQ(visited, expected);
+    EXPECT_EQ(entries, expected_entries);
+    if (expected.empty()) continue;
+    DomainWalk walk(shared, ray);
+    walk.skip_past(expected[0]);
+    DomainWalk::Visit next;
+    ASSERT_TRUE(walk.next(std::numeric_limits<double>::infinity(), next));
+    EXPECT_EQ(next.domain, expected[1]);
+  }
+}
+
 // Subtrees behind the end are left out as a whole.
 TEST(Walk, AnEndLeavesOutWhatLiesBehindItAndNothingElse) {
   const Manifest m = grid(6);
