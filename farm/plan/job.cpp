@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/plan/job.h"
 
+#include <malloc.h>
+
 #include "farm/plan/job_manifest.h"
 #include "scene/system/resource_usage.h"
 #include "tracer/prepared/film_exponent.h"
@@ -16,6 +18,7 @@ Job set_up(const RenderOptions& options, const Place& place) {
   job.scene->groups = group_lights(options.picture.light_groups, job.scene->manifest).table;
   job.scene->replaced_camera = read.replaced_camera;
   const Manifest& m = job.scene->manifest;
+  ::malloc_trim(0);  // what was freed since the manifest was read
   job.plan = plan_job(m, options, place, {resident_bytes(), peak_resident_bytes(), textures});
   std::shared_ptr<FilmScratch> scratch;
   if (job.plan.film.window > 0) scratch = std::make_shared<FilmScratch>(job.plan.film.window);
