@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <string_view>
 
@@ -127,6 +128,8 @@ void check_objects(const Checker& c, const Manifest& m) {
   bool moves = m.camera_motion.moves();
   for (std::size_t i = 0; i < m.objects.size(); ++i) {
     const ObjectInfo& o = m.objects[i];
+    c.require(!o.continues || (i > 0 && m.objects[i - 1].triangles == o.triangles),
+              "an object continues no other");
     c.require(o.triangles > 0 && o.triangles <= m.triangles, "an object has no triangles, or too many");
     c.require(o.first_surface >= m.objects[0].first_surface &&
                   std::uint64_t{o.first_surface} + o.surface_count <= m.surfaces.size(),
@@ -334,22 +337,40 @@ bool in_range(const PhotonSettings& p) {
 }  // namespace
 
 const char* fault_of_kd_tree(std::span<const KdNode> tree, std::size_t leaves) {
-  if (leaves == 0 || tree.size() != leaves - 1) return "the kd-tree does not have one leaf a domain";
+  // Of the cell that a node is in: the domains that share it, or none where it is one's alone.
+  struct Sharers {
+    std::size_t first = 0, count = 0;
+    bool has(std::size_t domain) const { return domain >= first && domain - first < count; }
+  };
+  if (leaves == 0 || tree.size() + 1 < leaves) return "the kd-tree does not have a leaf for each domain";
   std::vector<bool> nodes(tree.size(), false), domains(leaves, false);
   std::vector<int> depth(tree.size(), 1);
+  std::vector<Sharers> sharers(tree.size());
   for (std::size_t i = 0; i < tree.size(); ++i) {
     const KdNode& n = tree[i];
     if (n.axis > KdNode::no_axis || !std::isfinite(n.split)) return "a node of the kd-tree has no plane";
     if (depth[i] > max_kd_depth) return "the kd-tree is too deep";
+    Sharers& of = sharers[i];
+    if (n.axis == KdNode::no_axis && of.count == 0) {
+      of = {n.below & ~KdNode::leaf_bit,
+            n.split >= 2 ? static_cast<std::size_t>(std::min(n.split, 1e9f)) : 0};
+      if (!(n.below & KdNode::leaf_bit) || of.count == 0 || of.first + of.count > leaves)
+        return "a cell of the kd-tree that domains share does not say which";
+    }
     for (const std::uint32_t child : {n.below, n.above}) {
       const bool leaf = child & KdNode::leaf_bit;
       const std::size_t index = child & ~KdNode::leaf_bit;
       std::vector<bool>& seen = leaf ? domains : nodes;
-      if (index >= seen.size() || seen[index] || (!leaf && index <= i)) return "the kd-tree is not a tree";
+      if (index >= seen.size() || (!leaf && index <= i) || (leaf && of.count > 0 && !of.has(index)) ||
+          (seen[index] && !(leaf && of.has(index))))
+        return "the kd-tree is not a tree";
       seen[index] = true;
-      if (!leaf) depth[index] = depth[i] + 1;
+      if (leaf) continue;
+      depth[index] = depth[i] + 1;
+      sharers[index] = of;
     }
   }
+  if (!tree.empty() && !std::ranges::all_of(domains, std::identity{})) return "the kd-tree lacks a domain";
   return nullptr;
 }
 

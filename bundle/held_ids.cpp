@@ -84,7 +84,10 @@ std::uint32_t end_of_prototype(const Manifest& m, std::uint32_t first) {
     return std::pair(m.objects[i].first_surface, m.objects[i].surface_count);
   };
   std::uint32_t end = first + 1;
-  while (surfaces(first).second > 0 && end < m.objects.size() && surfaces(end) == surfaces(first)) ++end;
+  const bool has_own = surfaces(first).second > 0;
+  while (end < m.objects.size() &&
+         (m.objects[end].continues || (has_own && surfaces(end) == surfaces(first))))
+    ++end;
   return end;
 }
 

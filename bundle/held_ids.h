@@ -45,8 +45,8 @@ class HeldIds {
   std::atomic<std::uint32_t> counted_ = 0;
 };
 
-// The parts of a prototype are objects that follow each other and have the same surfaces. Returns the end of
-// those that begin with `first`.
+// The parts of a prototype are objects that follow each other and have the same surfaces, or say that they
+// continue. Returns the end of those that begin with `first`.
 std::uint32_t end_of_prototype(const Manifest& m, std::uint32_t first);
 
 // Throws Error where a domain does not hold what its line in the manifest says.

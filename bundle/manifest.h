@@ -24,10 +24,12 @@ class TextureFile;
 // Node 0 is the root. A leaf is one domain.
 struct KdNode {
   static constexpr std::uint32_t leaf_bit = 0x80000000u;
-  // In place of an axis: no plane parts the children. Each has the whole cell, with other instances in it. The
-  // scene's own triangles and the points of the cell are all of what is below.
+  // In place of an axis: no plane parts the children, which share the cell. The first such node on a way has
+  // below it the domain with the scene's own triangles and the points of the cell, and its `split` is how
+  // many share the cell: they are numbered in a row from that one. Each may be a leaf in several places; a
+  // ray visits it once, where it comes to it first, for all of its way.
   static constexpr std::uint32_t no_axis = 3;
-  float split = 0;                            // coordinate of the interface on `axis`; 0 where there is none
+  float split = 0;                            // coordinate of the interface on `axis`, or as above
   std::uint32_t axis = 0;                     // 0, 1, 2, or no_axis
   std::uint32_t below = 0, above = leaf_bit;  // index of a node, or leaf_bit | domain
   bool operator==(const KdNode&) const = default;
@@ -63,7 +65,8 @@ struct ObjectInfo {
   std::uint32_t first_surface = 0, surface_count = 0;  // the surfaces of its own triangles
   std::vector<std::uint32_t> objects;      // that its own instances are of, ascending, below its own number
   std::optional<OrientedQuadric> quadric;  // with one id
-  Motion motion;  // of all that is in it, within the coordinates that its instances place
+  Motion motion;           // of all that is in it, within the coordinates that its instances place
+  bool continues = false;  // it is a further part of the prototype that the object before it is of
   bool operator==(const ObjectInfo&) const = default;
 };
 

@@ -238,20 +238,46 @@ TextureFileEntry texture_file_from_json(const Json& j) {
           j.contains("read_bytes") ? number<std::uint64_t>(j, "read_bytes") : 0};
 }
 
-Json kd_node_to_json(const KdNode& n) {
-  const auto child = [](std::uint32_t c) -> Json {
-    return c & KdNode::leaf_bit ? Json{{"domain", c & ~KdNode::leaf_bit}} : Json{{"node", c}};
+// A node by its names; one below a node without an axis, of which there may be many, as [axis, split, below,
+// above], where a domain is −1 − its number.
+Json kd_node_to_json(const KdNode& n, bool in_shared_cell) {
+  const auto child = [&](std::uint32_t c) -> Json {
+    const bool leaf = c & KdNode::leaf_bit;
+    if (in_shared_cell) return leaf ? -1 - static_cast<std::int64_t>(c & ~KdNode::leaf_bit) : std::int64_t{c};
+    return leaf ? Json{{"domain", c & ~KdNode::leaf_bit}} : Json{{"node", c}};
   };
+  if (in_shared_cell) return Json::array({n.axis, n.split, child(n.below), child(n.above)});
   return {{"axis", n.axis}, {"split", n.split}, {"below", child(n.below)}, {"above", child(n.above)}};
 }
 
+Json kd_nodes_to_json(std::span<const KdNode> nodes) {
+  Json list = Json::array();
+  std::vector<bool> shared(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    list.push_back(kd_node_to_json(nodes[i], shared[i]));
+    for (const std::uint32_t child : {nodes[i].below, nodes[i].above})
+      if (!(child & KdNode::leaf_bit)) shared[child] = shared[i] || nodes[i].axis == KdNode::no_axis;
+  }
+  return list;
+}
+
 KdNode kd_node_from_json(const Json& j) {
+  const auto reference = [](std::uint64_t index, bool leaf) {
+    if (index >= KdNode::leaf_bit) throw Error("a node of the kd-tree has a child out of range");
+    return static_cast<std::uint32_t>(index) | (leaf ? KdNode::leaf_bit : 0u);
+  };
+  if (j.is_array()) {
+    const auto child = [&](std::size_t at) {
+      const auto index = number<std::int64_t>(j, at);
+      return index < 0 ? reference(static_cast<std::uint64_t>(-1 - index), true)
+                       : reference(static_cast<std::uint64_t>(index), false);
+    };
+    return {number<float>(j, 1), number<std::uint32_t>(j, 0), child(2), child(3)};
+  }
   const auto child = [&](const char* side) {
     const Json& c = j.at(side);
     const bool leaf = c.contains("domain");
-    const auto index = number<std::uint64_t>(c, leaf ? "domain" : "node");
-    if (index >= KdNode::leaf_bit) throw Error("a node of the kd-tree has a child out of range");
-    return static_cast<std::uint32_t>(index) | (leaf ? KdNode::leaf_bit : 0u);
+    return reference(number<std::uint64_t>(c, leaf ? "domain" : "node"), leaf);
   };
   return {number<float>(j, "split"), number<std::uint32_t>(j, "axis"), child("below"), child("above")};
 }
@@ -306,6 +332,7 @@ Json object_to_json(const ObjectInfo& o) {
   else
     j.update({{"bytes", o.bytes}, {"objects", o.objects}});
   if (o.motion.moves()) j["motion"] = motion_to_json(o.motion);
+  if (o.continues) j["continues"] = true;
   return j;
 }
 
@@ -321,6 +348,7 @@ ObjectInfo object_from_json(const Json& j) {
   o.bytes = number<std::uint64_t>(j, "bytes");
   o.objects = ids_from(j.at("objects"));
   o.motion = motion_from_json(j, "motion");
+  o.continues = j.value("continues", false);
   return o;
 }
 
@@ -431,8 +459,7 @@ Json manifest_to_json(const Manifest& m) {
   if (m.settings.rgb == RgbMethod::matrix_r) j["settings"]["rgb"] = "matrix-r";
   if (m.settings.hides_emitters) j["settings"]["hides_emitters"] = true;
   if (m.settings.photons) j["settings"]["photons"] = photons_to_json(*m.settings.photons);
-  j["kd_nodes"] = Json::array();
-  for (const KdNode& n : m.kd_nodes) j["kd_nodes"].push_back(kd_node_to_json(n));
+  j["kd_nodes"] = kd_nodes_to_json(m.kd_nodes);
   j["domains"] = Json::array();
   for (const DomainInfo& d : m.domains) j["domains"].push_back(domain_to_json(d));
   if (!m.objects.empty()) j["objects"] = Json::array();

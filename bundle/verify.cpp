@@ -197,8 +197,11 @@ class Verifier {
         continue;
       }
       const std::uint32_t end = end_of_prototype(m, i);
-      const fs::path first = object_path(bundle_, i);
-      HeldIds& ids = held_.emplace_back(relative(first), m, m.objects[i].triangles, 0, instances_in({first}));
+      std::vector<HeldInstance> instances;
+      for (std::uint32_t part = i; part < end; ++part)
+        std::ranges::copy(instances_in({object_path(bundle_, part)}), std::back_inserter(instances));
+      HeldIds& ids = held_.emplace_back(relative(object_path(bundle_, i)), m, m.objects[i].triangles, 0,
+                                        std::move(instances));
       for (; i < end; ++i) {
         const fs::path file = object_path(bundle_, i);
         plan(ids, {file}, [&m, i, file](const MappedDomain& mapped) { check_object(m, i, mapped, file); });

@@ -6,7 +6,11 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <bit>
 
+#include "partitioner/cutting/shared_cell.h"
+#include "partitioner/memory_plan.h"
+#include "partitioner/writing/object_groups.h"
 #include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
@@ -69,7 +73,55 @@ CellContent gather(Parts& parts, std::size_t leaf) {
   return all;
 }
 
+// Domains that share the cell with the one of the plan, which has the triangles. Each has objects that fit
+// into memory together.
+SharedCell write_sharers(std::vector<std::vector<InstanceRef>> groups, const Subtree& leaf,
+                         const DomainWriter& writer) {
+  Manifest& m = writer.manifest;
+  SharedCell cell{leaf.first_domain, {}, {}, {}};
+  std::vector<SharedBox> boxes;
+  for (std::vector<InstanceRef>& group : groups) {
+    const auto index = static_cast<std::uint32_t>(cell.numbers.size());
+    for (const InstanceRef& ref : group) boxes.push_back({padded_box(ref), index});
+    const std::uint32_t number = writer.shared.take_number(static_cast<std::uint32_t>(m.domains.size()));
+    cell.numbers.push_back(number);
+    cell.infos.push_back(write_domain(m, {}, {}, std::move(group), writer.store, number, writer.census));
+  }
+  const auto own = static_cast<std::uint32_t>(groups.size());
+  cell.tree = tree_of_shared(leaf.cell, std::move(boxes), own, max_kd_depth - leaf.depth - 1);
+  return cell;
+}
+
+void write_cell(const NumberedTriangles& triangles, const CellContent& content, const Subtree& leaf,
+                const DomainWriter& writer) {
+  Manifest& m = writer.manifest;
+  std::vector<InstanceRef> instances = writer.instances.in(leaf.cell);
+  if (writer.domain_bytes > 0) {
+    const double own_bytes = bytes_of_a_triangle(m) * static_cast<double>(content.size());
+    std::vector<std::vector<InstanceRef>> groups =
+        groups_by_objects(m.objects, instances, writer.domain_bytes, static_cast<std::uint64_t>(own_bytes));
+    const int levels = max_kd_depth - leaf.depth - 2;  // for the others
+    if (groups.size() > 1 && levels >= static_cast<int>(std::bit_width(groups.size()))) {
+      std::erase_if(groups, [](const auto& group) { return group.empty(); });
+      writer.shared.add(write_sharers(std::move(groups), leaf, writer));
+      instances.clear();
+    }
+  }
+  m.domains[leaf.first_domain] = write_domain(m, triangles, content, std::move(instances), writer.store,
+                                              leaf.first_domain, writer.census);
+}
+
 }  // namespace
+
+std::uint32_t SharedCells::take_number(std::uint32_t planned) {
+  const std::lock_guard lock(mutex_);
+  return planned + taken_++;
+}
+void SharedCells::add(SharedCell cell) {
+  const std::lock_guard lock(mutex_);
+  cells_.push_back(std::move(cell));
+}
+std::vector<SharedCell> SharedCells::take() { return std::move(cells_); }
 
 void divide_cell(const NumberedTriangles& triangles, const CellContent& cut, const Subtree& subtree,
                  const DomainWriter& writer) {
@@ -95,9 +147,7 @@ void divide_cell(const NumberedTriangles& triangles, const CellContent& cut, con
         return next++;
       }) & tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel, [&](std::size_t leaf) {
         const CellContent content = gather(parts, leaf);
-        const std::uint32_t domain = plan.leaves[leaf].first_domain;
-        m.domains[domain] = write_domain(m, triangles, content, writer.instances.in(plan.leaves[leaf].cell),
-                                         writer.store, domain, writer.census);
+        write_cell(triangles, content, plan.leaves[leaf], writer);
         writer.wrote(content.size());
       }));
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 
 #include "bundle/census.h"
 #include "partitioner/cutting/kd_plan.h"
@@ -12,12 +13,28 @@
 
 namespace vitrail {
 
+// The cells that several domains share, as they are found. From any thread.
+class SharedCells {
+ public:
+  // Numbers from `planned` on, in any order.
+  std::uint32_t take_number(std::uint32_t planned);
+  void add(SharedCell cell);
+  std::vector<SharedCell> take();
+
+ private:
+  std::mutex mutex_;
+  std::uint32_t taken_ = 0;
+  std::vector<SharedCell> cells_;
+};
+
 // What all cells have in common. Cells write to places of their own in the manifest.
 struct DomainWriter {
   StoreDomain store;
   Manifest& manifest;  // kd_nodes and domains have their sizes
   Census& census;
   const InstanceDealer& instances;
+  SharedCells& shared;
+  std::uint64_t domain_bytes = 0;  // a domain with its objects; 0: they are not parted
   const WorkEstimate& work;
   std::uint64_t items = 0;                   // the scene's own triangles and instances
   bool median = false;                       // PlanRule::median
@@ -26,7 +43,8 @@ struct DomainWriter {
 };
 
 // Divides a cell, of whose triangles `cut` has the pieces of those that are not whole in it, into the domains
-// of the subtree and stores them.
+// of the subtree and stores them. Where the objects in a cell take more than the writer's bytes, several
+// domains share it.
 void divide_cell(const NumberedTriangles& triangles, const CellContent& cut, const Subtree& subtree,
                  const DomainWriter& writer);
 

@@ -18,7 +18,7 @@ namespace vitrail {
 
 std::uint64_t most_object_bytes(std::uint64_t domain_bytes) {
   constexpr std::uint64_t by_default = 64 << 20, least = 64 << 10;
-  return domain_bytes > 0 ? std::max(domain_bytes / 4, least) : by_default;
+  return domain_bytes > 0 ? std::max(domain_bytes / 4 * 3, least) : by_default;
 }
 
 MemoryNeeds needs_of(const Scene& scene, const PartitionOptions& options) {

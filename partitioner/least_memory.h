@@ -15,7 +15,7 @@ inline constexpr std::uint64_t bytes_of_reference = 192;
 // The records of the scene, its meshes, and the options.
 MemoryNeeds needs_of(const Scene& scene, const PartitionOptions& options);
 
-// Most bytes of an object in one file: a domain is to have room for several.
+// Most bytes of an object in one file: a domain is to have room for it and its places.
 std::uint64_t most_object_bytes(std::uint64_t domain_bytes);
 
 // The least budget, not less than options.memory_bytes, in which the scene is partitioned, with its images

@@ -10,6 +10,7 @@
 #include "partitioner/cutting/work_estimate.h"
 #include "partitioner/memory_plan.h"
 #include "partitioner/spilling/spill_scene.h"
+#include "partitioner/writing/object_groups.h"
 #include "partitioner/writing/write_objects.h"
 #include "scene/system/diagnostics.h"
 
@@ -23,6 +24,20 @@ std::uint64_t object_bytes(const Manifest& m, std::span<const InstanceRef> insta
   std::uint64_t bytes = 0;
   for (const std::uint32_t object : needed_objects(m, instances)) bytes += m.objects[object].bytes;
   return bytes + bytes / 4;  // the domains will be cut by another sample
+}
+
+// Throws UsageError where an object with all that it needs takes more by itself.
+void require_room_for_each(const Manifest& m, const SceneInstances& instances, std::uint64_t domain_bytes) {
+  std::vector<bool> seen(m.objects.size());
+  std::uint64_t most = 0;
+  for (const InstanceRef& ref : instances.refs) {
+    if (!seen[ref.object]) most = std::max(most, bytes_with_inner(m.objects, ref.object));
+    seen[ref.object] = true;
+  }
+  if (most > domain_bytes)
+    throw UsageError(
+        fmt::format("--domain-bytes {} is too little for an object with the instances in it, which takes {}K",
+                    domain_bytes, (most + 1023) / 1024));
 }
 
 }  // namespace
@@ -47,18 +62,18 @@ std::uint32_t domains_within(const World& world, const SceneInstances& instances
       most = std::max(most, object_bytes(world.manifest, dealer.in(leaf.cell)));
     return most + static_cast<std::uint64_t>(own_bytes / count);
   };
-  for (;;) {
-    const std::uint64_t most = most_bytes(domains);
-    if (most <= domain_bytes) return domains;
-    if (domains == most_domains)
-      throw UsageError(fmt::format(
-          "--domain-bytes {} is too little for a domain and the objects that it has instances of: even {} "
-          "domains would take up to {}K each, so it has to be more than that",
-          domain_bytes, most_domains, (most + 1023) / 1024));
-    const double growth =
-        std::clamp(static_cast<double>(most) / static_cast<double>(domain_bytes), 1.25, 2.0);
-    domains = static_cast<std::uint32_t>(std::min<double>(std::ceil(domains * growth), most_domains));
+  require_room_for_each(world.manifest, instances, domain_bytes);
+  // More domains help where they have fewer objects. Where four times as many do not halve what one needs,
+  // domains that share a cell part its objects (divide_cell.h).
+  std::uint64_t before_bytes = most_bytes(domains);
+  for (std::uint64_t more = 4 * std::uint64_t{domains}; before_bytes > domain_bytes && more <= most_domains;
+       more *= 4) {
+    const std::uint64_t bytes = most_bytes(static_cast<std::uint32_t>(more));
+    if (2 * bytes > before_bytes) break;
+    domains = static_cast<std::uint32_t>(more);
+    before_bytes = bytes;
   }
+  return domains;
 }
 
 }  // namespace vitrail

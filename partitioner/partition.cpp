@@ -115,6 +115,18 @@ class Phases {
   std::uint64_t work_ = 1, done_ = 0;
 };
 
+// Gives each domain the file of its old number.
+void rename_domains(const std::filesystem::path& bundle, std::span<const std::uint32_t> old_numbers) {
+  const auto on_the_way = [&](std::uint32_t number) {
+    std::filesystem::path file = domain_path(bundle, number);
+    return file += ".numbered";
+  };
+  for (std::uint32_t i = 0; i < old_numbers.size(); ++i)
+    if (old_numbers[i] != i) std::filesystem::rename(domain_path(bundle, old_numbers[i]), on_the_way(i));
+  for (std::uint32_t i = 0; i < old_numbers.size(); ++i)
+    if (old_numbers[i] != i) std::filesystem::rename(on_the_way(i), domain_path(bundle, i));
+}
+
 // What one call of `partition` works with.
 class Partitioner {
  public:
@@ -167,7 +179,8 @@ class Partitioner {
     const std::uint64_t in_objects = triangles_of_objects(world_);
     const auto all = static_cast<double>(std::max<std::uint64_t>(in_objects + world_.own_triangles, 1));
     phases_.begin("writing objects", static_cast<double>(in_objects) / all, in_objects);
-    instances_ = write_objects(world_, world_.manifest, bundle_, {file_bytes, bytes_left(needs)},
+    instances_ = write_objects(world_, world_.manifest, bundle_,
+                               {file_bytes, options.domain_bytes / 2, bytes_left(needs)},
                                [&](std::uint64_t n) { phases_.advance(n); });
     rest_ = static_cast<double>(world_.own_triangles) / all;
     needs.instance_bytes = instances_.refs.size() * bytes_of_reference;
@@ -195,9 +208,7 @@ class Partitioner {
     if (found.lost != 0)
       throw std::logic_error(fmt::format("partitioning lost {} triangles; please report this", found.lost));
     manifest_.cut_triangles = found.cut_triangles;
-    const std::vector<std::uint32_t> kept = leave_out_unused_domains(manifest_);
-    for (std::uint32_t i = 0; i < kept.size(); ++i)
-      if (kept[i] != i) std::filesystem::rename(domain_path(bundle_, kept[i]), domain_path(bundle_, i));
+    rename_domains(bundle_, number_domains(manifest_, shared_.take()));
     return found;
   }
 
@@ -323,6 +334,8 @@ class Partitioner {
             manifest_,
             census,
             instances,
+            shared_,
+            options_.domain_bytes,
             work_,
             items_,
             median_,
@@ -355,6 +368,7 @@ class Partitioner {
   Phases phases_;
   World world_;
   SceneInstances instances_;
+  SharedCells shared_;
   std::uint64_t items_ = 0;                  // triangles and instances
   std::uint64_t coarse_ = 0, quadrics_ = 0;  // as in ScenePlan, World
   double rest_ = 1;                          // of all work, without the objects'

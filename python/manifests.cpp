@@ -59,7 +59,8 @@ void add_manifests(nb::module_& module) {
       .def_prop_ro("domain_bounds", domain_bounds_of, "float32, domains × 2 × 3; lower > upper where empty")
       .def_prop_ro("kd_splits", [](const Manifest& m) { return column(m, m.kd_nodes, &KdNode::split); })
       .def_prop_ro(
-          "kd_axes", [](const Manifest& m) { return column(m, m.kd_nodes, &KdNode::axis); }, "0, 1, 2; 3 where no plane parts the children, which share the cell")
+          "kd_axes", [](const Manifest& m) { return column(m, m.kd_nodes, &KdNode::axis); },
+          "0, 1, 2; 3 where no plane parts the children, which share the cell")
       .def_prop_ro(
           "kd_below", [](const Manifest& m) { return column(m, m.kd_nodes, &KdNode::below); },
           "number of a node, or 2³¹ + that of a domain")

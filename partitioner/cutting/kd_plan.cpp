@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "partitioner/cutting/choose_plane.h"
@@ -116,35 +117,76 @@ KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& s, const PlanRule& 
 
 namespace {
 
-struct CompactTree {
+// The tree with the domains that there are, as numbers of old.
+class FinalTree {
+ public:
+  FinalTree(std::span<const KdNode> planned, const std::vector<SharedCell>& shared) : planned_(planned) {
+    for (const SharedCell& cell : shared) shared_[cell.domain] = &cell;
+    add(planned.empty() ? KdNode::leaf_bit : 0);
+  }
   std::vector<KdNode> nodes;
   std::vector<std::uint32_t> domains;  // the old number of each
-};
 
-// The number of the child in the new tree.
-std::uint32_t compact_below(std::span<const KdNode> kd_nodes, std::uint32_t child, CompactTree& tree) {
-  if (!(child & KdNode::leaf_bit) && kd_nodes[child].below == kd_nodes[child].above)
-    child = kd_nodes[child].below;
-  if (child & KdNode::leaf_bit) {
-    tree.domains.push_back(child & ~KdNode::leaf_bit);
-    return KdNode::leaf_bit | static_cast<std::uint32_t>(tree.domains.size() - 1);
+ private:
+  // Each returns the number of the child in this tree.
+  std::uint32_t add(std::uint32_t child) {
+    if (!(child & KdNode::leaf_bit) && planned_[child].below == planned_[child].above)
+      child = planned_[child].below;
+    if (!(child & KdNode::leaf_bit)) {
+      const KdNode& planned = planned_[child];
+      return add_node(
+          planned, [&] { return add(planned.below); }, [&] { return add(planned.above); });
+    }
+    const std::uint32_t domain = child & ~KdNode::leaf_bit;
+    const auto found = shared_.find(domain);
+    if (found == shared_.end()) return leaf(domain);
+    const SharedCell& cell = *found->second;
+    // Exact: there are fewer than 2²⁴.
+    const auto sharers = static_cast<float>(1 + cell.numbers.size());
+    return add_node(
+        {sharers, KdNode::no_axis}, [&] { return leaf(domain); },
+        [&] { return add_shared(cell, cell.tree.empty() ? KdNode::leaf_bit : 0); });
   }
-  const std::size_t number = tree.nodes.size();
-  KdNode node = tree.nodes.emplace_back(kd_nodes[child]);
-  node.below = compact_below(kd_nodes, node.below, tree);
-  node.above = compact_below(kd_nodes, node.above, tree);
-  tree.nodes[number] = node;
-  return static_cast<std::uint32_t>(number);
-}
+  std::uint32_t add_shared(const SharedCell& cell, std::uint32_t child) {
+    if (child & KdNode::leaf_bit) {
+      const std::uint32_t other = child & ~KdNode::leaf_bit;
+      return leaf(other < cell.numbers.size() ? cell.numbers[other] : cell.domain);
+    }
+    const KdNode& node = cell.tree[child];
+    return add_node(
+        node, [&] { return add_shared(cell, node.below); }, [&] { return add_shared(cell, node.above); });
+  }
+  // A domain of a shared cell may be met in several places.
+  std::uint32_t leaf(std::uint32_t domain) {
+    const auto [found, is_new] = numbers_.emplace(domain, static_cast<std::uint32_t>(domains.size()));
+    if (is_new) domains.push_back(domain);
+    return KdNode::leaf_bit | found->second;
+  }
+  template <class Below, class Above>
+  std::uint32_t add_node(KdNode node, const Below& below, const Above& above) {
+    const std::size_t number = nodes.size();
+    nodes.push_back(node);
+    node.below = below();
+    node.above = above();
+    nodes[number] = node;
+    return static_cast<std::uint32_t>(number);
+  }
+
+  std::span<const KdNode> planned_;
+  std::map<std::uint32_t, const SharedCell*> shared_;  // by domain
+  std::map<std::uint32_t, std::uint32_t> numbers_;     // by the old number
+};
 
 }  // namespace
 
-std::vector<std::uint32_t> leave_out_unused_domains(Manifest& manifest) {
-  CompactTree tree;
-  compact_below(manifest.kd_nodes, manifest.kd_nodes.empty() ? KdNode::leaf_bit : 0, tree);
-  if (tree.domains.size() == manifest.domains.size()) return tree.domains;
+std::vector<std::uint32_t> number_domains(Manifest& manifest, std::vector<SharedCell> shared) {
+  FinalTree tree(manifest.kd_nodes, shared);
+  std::map<std::uint32_t, DomainInfo*> beyond;  // by number
+  for (SharedCell& cell : shared)
+    for (std::size_t i = 0; i < cell.numbers.size(); ++i) beyond[cell.numbers[i]] = &cell.infos[i];
   std::vector<DomainInfo> domains;
-  for (const std::uint32_t old : tree.domains) domains.push_back(std::move(manifest.domains[old]));
+  for (const std::uint32_t old : tree.domains)
+    domains.push_back(std::move(old < manifest.domains.size() ? manifest.domains[old] : *beyond.at(old)));
   manifest.domains = std::move(domains);
   manifest.kd_nodes = std::move(tree.nodes);
   return tree.domains;

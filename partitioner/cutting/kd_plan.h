@@ -42,8 +42,16 @@ struct KdPlan {
 KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& subtree, const PlanRule& rule,
                     std::span<KdNode> kd_nodes);
 
-// Takes the domains out of the manifest that are not there because a cell stayed whole, and numbers the
-// others anew. Returns the old number of each.
-std::vector<std::uint32_t> leave_out_unused_domains(Manifest& manifest);
+// Domains that share a cell, since the objects in it do not fit into memory together.
+struct SharedCell {
+  std::uint32_t domain = 0;            // of the plan: it has the cell's triangles and points
+  std::vector<std::uint32_t> numbers;  // of the others until all are numbered: beyond the plan's
+  std::vector<DomainInfo> infos;       // theirs
+  std::vector<KdNode> tree;  // a leaf is one of the others, or `domain` as their count; empty: there is one
+};
+
+// Takes the domains out of the manifest that are not there because a cell stayed whole, puts in those that
+// share a cell, behind the plan's, and numbers all anew. Returns the old number of each.
+std::vector<std::uint32_t> number_domains(Manifest& manifest, std::vector<SharedCell> shared);
 
 }  // namespace vitrail

@@ -7,14 +7,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <tuple>
 
 #include "bundle/checksum.h"
 #include "partitioner/hierarchy/build_bvh.h"
+#include "partitioner/least_memory.h"
 #include "partitioner/memory_plan.h"
 #include "partitioner/placing/object_bounds.h"
+#include "partitioner/writing/object_groups.h"
 #include "partitioner/writing/write_domain.h"
 #include "scene/shapes/deferred_mesh.h"
 #include "scene/system/diagnostics.h"
@@ -57,6 +61,8 @@ struct Files {
   std::vector<const Assembly*> quadric;  // of each object of the plan, null where it is none
   std::vector<std::uint32_t> first;      // of each object of the plan; one more at the end
   std::vector<Bounds3f> bounds;          // of each file
+  // Of each file before it is written: about its bytes, and the objects that it has instances of.
+  std::vector<ObjectInfo> planned;
 };
 
 InstanceRef reference(const ObjectUse& use, std::uint32_t object, const Bounds3f& box) {
@@ -74,14 +80,6 @@ std::vector<InstanceRef> references(const std::vector<ObjectUse>& uses, const Fi
                                    ? placed_bounds(*files.quadric[use.object], use.to_parent)
                                    : placed_bounds(use.to_parent, files.bounds[file])));
   return refs;
-}
-
-std::vector<std::uint32_t> objects_of(const std::vector<InstanceRef>& refs) {
-  std::vector<std::uint32_t> objects;
-  for (const InstanceRef& ref : refs) objects.push_back(ref.object);
-  std::ranges::sort(objects);
-  objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
-  return objects;
 }
 
 // Of its own triangles.
@@ -114,25 +112,59 @@ std::uint32_t number_of_files(const Manifest& m, const Assembly& object, std::ui
   return wholes <= 1 ? 1 : static_cast<std::uint32_t>(std::min(std::ceil(4 * wholes), triangles));
 }
 
-// Files `first` to `end`: each with a part of the triangles, the first with all instances.
+// Appends the files of one object: parts of its triangles, of which the first has instances too, and more of
+// these where they are of too much for one file.
+void plan_files(const Manifest& m, const Assembly& object, const ObjectLimits& limits, Files& files) {
+  std::map<std::uint32_t, std::uint64_t> places;  // by file
+  for (const ObjectUse& use : object.uses)
+    for (std::uint32_t file = files.first[use.object]; file < files.first[use.object + 1]; ++file)
+      ++places[file];
+  const std::uint32_t parts = number_of_files(m, object, limits.file_bytes);
+  const double part = bytes_of_a_triangle(m) * static_cast<double>(triangles_in(object)) / parts;
+  const std::uint32_t first = files.first.back();
+  for (std::uint32_t i = 0; i < parts; ++i)
+    files.planned.push_back({.bytes = static_cast<std::uint64_t>(part)});
+  std::map<std::uint32_t, std::uint32_t> groups;
+  if (limits.inner_bytes > 0)
+    groups = groups_of(files.planned, places, limits.inner_bytes, files.planned[first].bytes);
+  for (const auto& [file, count] : places) {
+    const std::uint32_t group = groups.empty() ? 0 : groups[file],
+                        holder = group == 0 ? first : first + parts - 1 + group;
+    if (holder == files.planned.size()) files.planned.emplace_back();
+    files.planned[holder].objects.push_back(file);
+    files.planned[holder].bytes += count * bytes_of_reference;
+  }
+  files.first.push_back(static_cast<std::uint32_t>(files.planned.size()));
+}
+
+// Files `first` to `end`, as they are planned.
 void write_object(const World& world, const WorldObject& o, std::uint32_t first, std::uint32_t end,
-                  const std::filesystem::path& bundle, Files& files, std::vector<ObjectInfo>& infos) {
+                  std::uint32_t parts_end, const std::filesystem::path& bundle, Files& files,
+                  std::vector<ObjectInfo>& infos) {
   const NumberedTriangles object = placed_alone(world, o.assembly);
   Indices all(object.ids.size());
   std::iota(all.begin(), all.end(), 0u);
   std::vector<Indices> parts;
-  divide(object, std::move(all), end - first, parts);
+  divide(object, std::move(all), parts_end - first, parts);
+  parts.resize(end - first);
+  std::vector<InstanceRef> all_refs = references(o.assembly.uses, files);
   for (std::uint32_t file = first; file < end; ++file) {
     Indices& part = parts[file - first];
     std::vector<InstanceRef> refs;
-    if (file == first) refs = references(o.assembly.uses, files);
+    if (parts_end < end)
+      std::ranges::copy_if(all_refs, std::back_inserter(refs), [&](const InstanceRef& ref) {
+        return std::ranges::binary_search(files.planned[file].objects, ref.object);
+      });
+    else if (file == first)
+      refs = std::move(all_refs);
     Bounds3f& box = files.bounds[file];
     for (const std::uint32_t t : part)
       for (const Point3f& v : object.triangles[t]) extend(box, v);
     for (const InstanceRef& ref : refs) extend(box, box_of(ref));
     DomainContent content = make_domain(object, {std::move(part), {}, {}}, false);
     ObjectInfo& info = infos[file];
-    info = {o.assembly.triangles, 0, 0, o.first_surface, o.surface_count, objects_of(refs)};
+    info = {o.assembly.triangles, 0, 0, o.first_surface, o.surface_count, files.planned[file].objects};
+    info.continues = file > first;
     add_instances(std::move(refs), infos, content);
     info.bytes = write_domain_file(object_path(bundle, file), content, &info.hash);
     if (!o.assembly.motion) continue;
@@ -192,19 +224,19 @@ void SceneInstances::for_each_of_runs(const std::function<void(const InstanceRef
 SceneInstances write_objects(const World& world, Manifest& m, const std::filesystem::path& bundle,
                              const ObjectLimits& limits, const std::function<void(std::uint64_t)>& written) {
   if (world.objects.empty()) return {};
-  Files files{{}, {0}, {}};
+  Files files{{}, {0}, {}, {}};
   std::vector<Batch> by_depth;
   const int threads = tbb::this_task_arena::max_concurrency();
   for (std::uint32_t i = 0; i < world.objects.size(); ++i) {
     const Assembly& object = world.objects[i].assembly;
     files.quadric.push_back(object.quadric ? &object : nullptr);
     if (object.quadric) {
+      files.planned.emplace_back();
       files.first.push_back(files.first.back() + 1);
       continue;
     }
     std::filesystem::create_directories(bundle / "objects");
-    const std::uint32_t count = number_of_files(world.manifest, object, limits.file_bytes);
-    files.first.push_back(files.first.back() + count);
+    plan_files(world.manifest, object, limits, files);
     const double bytes = bytes_in_work(world.manifest, object, limits.file_bytes);
     by_depth.resize(std::max(by_depth.size(), static_cast<std::size_t>(object.depth) + 1));
     Batch& batch = by_depth[static_cast<std::size_t>(object.depth)];
@@ -216,7 +248,9 @@ SceneInstances write_objects(const World& world, Manifest& m, const std::filesys
     if (files.quadric[i]) note_quadric(world.objects[i], m.objects[files.first[i]]);
   const auto write = [&](std::uint32_t i) {
     const WorldObject& object = world.objects[i];
-    write_object(world, object, files.first[i], files.first[i + 1], bundle, files, m.objects);
+    const std::uint32_t parts = number_of_files(world.manifest, object.assembly, limits.file_bytes);
+    write_object(world, object, files.first[i], files.first[i + 1], files.first[i] + parts, bundle, files,
+                 m.objects);
     written(triangles_in(object.assembly));
   };
   for (const Batch& batch : by_depth) {

@@ -11,8 +11,9 @@
 namespace vitrail {
 
 struct ObjectLimits {
-  std::uint64_t file_bytes = 0;  // what is larger is parted
-  double memory_bytes = 0;       // for all that are in work
+  std::uint64_t file_bytes = 0;   // what is larger is parted
+  std::uint64_t inner_bytes = 0;  // of what a file has instances of, with all that these need; 0: any
+  double memory_bytes = 0;        // for all that are in work
 };
 
 // The instances of the scene, one for each part of an object, in the order of ids; their boxes are not
@@ -30,9 +31,9 @@ struct SceneInstances {
   void for_each_of_runs(const std::function<void(const InstanceRef&)>& visit) const;
 };
 
-// Writes the world's objects, those beyond the limit in parts of a quarter of it, and their lines in the
-// manifest. `written` is told of triangles, from any thread. Objects that together take more than the memory
-// are written one after the other.
+// Writes the world's objects, those beyond the limits in parts, and their lines in the manifest. Triangles
+// are parted into quarters of the limit. `written` is told of triangles, from any thread. Objects that
+// together take more than the memory are written one after the other.
 SceneInstances write_objects(const World& world, Manifest& manifest, const std::filesystem::path& bundle,
                              const ObjectLimits& limits, const std::function<void(std::uint64_t)>& written);
 // While an object is written, with the mesh that is being placed, in files of at most `file_bytes`.

@@ -222,6 +222,19 @@ TEST_F(ManifestFile, NearAndFarPlanes) {
     }
 }
 
+// Domains 0 and 1 share a cell, where 1 is met in two places.
+TEST_F(ManifestFile, ACellThatDomainsShare) {
+  constexpr std::uint32_t leaf = KdNode::leaf_bit;
+  Manifest m = sample_manifest();
+  m.kd_nodes = {{0.1f, 0, 1, leaf | 2},
+                {2, KdNode::no_axis, leaf | 0, 2},
+                {0.3f, 1, leaf | 1, 3},
+                {0.2f, 2, leaf | 1, leaf | 0}};
+  EXPECT_EQ(written_and_read(m).kd_nodes, m.kd_nodes);
+  m.kd_nodes[3].above = leaf | 2;  // which is not of the cell
+  EXPECT_THROW(written_and_read(m), std::exception);
+}
+
 TEST_F(ManifestFile, WithoutAnyTriangle) {
   Manifest m;
   m.domains.resize(1);
@@ -246,6 +259,20 @@ TEST_F(ManifestFile, WrongContentIsFound) {
       [](Manifest& m) { m.kd_nodes[1].axis = KdNode::no_axis + 1; },
       [](Manifest& m) { m.kd_nodes[0].split = std::numeric_limits<float>::infinity(); },
       [](Manifest& m) { m.kd_nodes.pop_back(); },
+      // Cells that domains share: of one domain alone, of more than there are, with another below, with
+      // others.
+      [](Manifest& m) {
+        m.kd_nodes[1] = {1, KdNode::no_axis, leaf | 0, leaf | 1};
+      },
+      [](Manifest& m) {
+        m.kd_nodes[1] = {4, KdNode::no_axis, leaf | 0, leaf | 1};
+      },
+      [](Manifest& m) {
+        m.kd_nodes[1] = {2, KdNode::no_axis, leaf | 1, leaf | 0};
+      },
+      [](Manifest& m) {
+        m.kd_nodes[0] = {3, KdNode::no_axis, 1, leaf | 2};
+      },
       [](Manifest& m) { m.domains.clear(); },
       [](Manifest& m) { m.triangles = 1ull << 32; },
       [](Manifest& m) { m.cut_triangles = 12; },

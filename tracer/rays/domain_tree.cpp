@@ -2,6 +2,7 @@
 #include "tracer/rays/domain_tree.h"
 
 #include <algorithm>
+#include <array>
 
 namespace vitrail {
 
@@ -14,34 +15,36 @@ static_assert(max_kd_depth <= max_bvh_depth);
 
 struct Child {
   std::uint32_t reference = 0;  // of a KdNode
-  Bounds3f box;                 // of all that is in it
+  Bounds3f box;                 // of all that is in it; empty where a domain is met again
 };
 
 class Builder {
  public:
-  explicit Builder(const Manifest& manifest) : manifest_(manifest), boxes_(manifest.kd_nodes.size()) {
-    if (boxes_.empty() || measure(0).empty()) return;
-    add({0, boxes_[0]});
+  explicit Builder(const Manifest& manifest)
+      : manifest_(manifest), halves_(manifest.kd_nodes.size()), met_(manifest.domains.size()) {
+    if (halves_.empty()) return;
+    const Bounds3f box = measure(0);
+    if (!box.empty()) add({0, box});
   }
   std::vector<BvhNode> take() { return std::move(out_); }
 
  private:
   static bool is_leaf(std::uint32_t reference) { return (reference & KdNode::leaf_bit) != 0; }
-  Bounds3f box_of(std::uint32_t reference) const {
-    return is_leaf(reference) ? manifest_.domains[reference & ~KdNode::leaf_bit].tight_bounds
-                              : boxes_[reference];
-  }
 
   Bounds3f measure(std::uint32_t reference) {
-    if (is_leaf(reference)) return box_of(reference);
+    if (is_leaf(reference)) {
+      const std::uint32_t domain = reference & ~KdNode::leaf_bit;
+      if (met_[domain]) return {};
+      met_[domain] = true;
+      return manifest_.domains[domain].tight_bounds;
+    }
     const KdNode& node = manifest_.kd_nodes[reference];
-    Bounds3f box = measure(node.below);
-    const Bounds3f above = measure(node.above);
-    if (box.empty())
-      box = above;
-    else if (!above.empty())
-      extend(box, above);
-    return boxes_[reference] = box;
+    const Child below{node.below, measure(node.below)}, above{node.above, measure(node.above)};
+    halves_[reference] = {below, above};
+    if (below.box.empty()) return above.box;
+    Bounds3f box = below.box;
+    if (!above.box.empty()) extend(box, above.box);
+    return box;
   }
 
   // The largest of them that has children gives way to these, until there are eight.
@@ -54,10 +57,10 @@ class Builder {
             (largest == children.end() || surface_area(c->box) > surface_area(largest->box)))
           largest = c;
       if (largest == children.end() || children.size() == 8) return children;
-      const KdNode& node = manifest_.kd_nodes[largest->reference];
+      const std::array<Child, 2>& halves = halves_[largest->reference];
       children.erase(largest);
-      for (const std::uint32_t half : {node.below, node.above})
-        if (!box_of(half).empty()) children.push_back({half, box_of(half)});
+      for (const Child& half : halves)
+        if (!half.box.empty()) children.push_back(half);
     }
   }
 
@@ -87,7 +90,8 @@ class Builder {
   }
 
   const Manifest& manifest_;
-  std::vector<Bounds3f> boxes_;  // of the kd-tree's nodes
+  std::vector<std::array<Child, 2>> halves_;  // of the kd-tree's nodes: below, above
+  std::vector<bool> met_;                     // by domain
   std::vector<BvhNode> out_;
 };
 

@@ -55,8 +55,28 @@ void DomainWalk::begin(const Ray& ray) {
     const double along = direction_[axis];
     reciprocal_[axis] = 1 / (std::abs(along) < least ? (along < 0 ? -least : least) : along);
   }
-  stack_[static_cast<std::size_t>(size_++)] = {manifest_.kd_nodes.empty() ? KdNode::leaf_bit : 0u, 0,
+  stack_[static_cast<std::size_t>(size_++)] = {manifest_.kd_nodes.empty() ? KdNode::leaf_bit : 0u, false, 0,
                                                infinity};
+}
+
+void DomainWalk::enter_shared(const KdNode& node) {
+  shared_.first = node.below & ~KdNode::leaf_bit;
+  shared_.left = static_cast<std::uint32_t>(node.split);
+  shared_.below = size_;
+  shared_.met = 0;
+  shared_.more.assign(shared_.left > 64 ? shared_.left - 64 : 0, false);
+}
+
+// Whether a leaf of a shared cell has not been met before. Behind the last of them the walk leaves the cell.
+bool DomainWalk::is_first(std::uint32_t reference) {
+  const std::uint32_t i = (reference & ~KdNode::leaf_bit) - shared_.first;
+  if (i < 64 ? (shared_.met >> i & 1) != 0 : shared_.more[i - 64]) return false;
+  if (i < 64)
+    shared_.met |= std::uint64_t{1} << i;
+  else
+    shared_.more[i - 64] = true;
+  if (--shared_.left == 0) size_ = shared_.below;
+  return true;
 }
 
 // The next one that the ray enters at tmax or before.
@@ -67,8 +87,9 @@ bool DomainWalk::next_leaf(double tmax, Pending& leaf) {
     while (at.t0 <= tmax && !(at.reference & KdNode::leaf_bit)) {
       const KdNode& node = manifest_.kd_nodes[at.reference];
       if (node.axis == KdNode::no_axis) {
-        stack_[static_cast<std::size_t>(size_++)] = {node.above, at.t0, at.t1};
-        at.reference = node.below;
+        if (!at.shared) enter_shared(node);
+        stack_[static_cast<std::size_t>(size_++)] = {node.above, true, at.t0, at.t1};
+        at.reference = node.below, at.shared = true;
         continue;
       }
       const std::size_t axis = node.axis;
@@ -82,13 +103,13 @@ bool DomainWalk::next_leaf(double tmax, Pending& leaf) {
       const double near_end = (along + epsilon_) * rate, far_begin = (along - epsilon_) * rate;
       const bool in_near = near_end >= at.t0, in_far = far_begin <= at.t1;
       if (in_near && in_far)
-        stack_[static_cast<std::size_t>(size_++)] = {far, std::max(at.t0, far_begin), at.t1};
+        stack_[static_cast<std::size_t>(size_++)] = {far, at.shared, std::max(at.t0, far_begin), at.t1};
       if (in_near)
-        at = {near, at.t0, std::min(at.t1, near_end)};
+        at = {near, at.shared, at.t0, std::min(at.t1, near_end)};
       else
-        at = {far, std::max(at.t0, far_begin), at.t1};
+        at = {far, at.shared, std::max(at.t0, far_begin), at.t1};
     }
-    if (at.t0 > tmax) continue;
+    if (at.t0 > tmax || (at.shared && !is_first(at.reference))) continue;
     leaf = at;
     return true;
   }

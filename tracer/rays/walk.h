@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order in which a ray meets the sub-domains: front to back through the kd-tree, both sides of an
-// interface where the ray is within ε of it. Those that share a cell come one after the other.
+// interface where the ray is within ε of it. Of those that share a cell each
+// is met once, where it first may have something.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "bundle/manifest.h"
 #include "tracer/rays/ray.h"
@@ -61,11 +63,14 @@ class DomainWalk {
  private:
   struct Pending {
     std::uint32_t reference;
+    bool shared;  // below a node without an axis
     double t0, t1;
   };
   void begin(const Ray& ray);
   bool next_of_many(double tmax, Visit& visit);
   bool next_leaf(double tmax, Pending& leaf);
+  void enter_shared(const KdNode& node);
+  bool is_first(std::uint32_t reference);
 
   const Manifest& manifest_;
   std::span<const DomainView* const> resident_;
@@ -75,6 +80,13 @@ class DomainWalk {
   double epsilon_;
   std::array<Pending, 64> stack_;
   int size_ = 0;
+  // The shared cell that the walk is in.
+  struct {
+    std::uint32_t first, left;  // its first domain, and how many of them are still to be met
+    int below;                  // of the stack, when the walk entered it
+    std::uint64_t met;          // a bit each of the first 64
+    std::vector<bool> more;     // of the others
+  } shared_;
 };
 
 }  // namespace vitrail

@@ -48,6 +48,7 @@ SoupBundle cut_in_memory(const Soup& soup, std::uint32_t domains) {
   Census census(m.triangles);
   const InstanceDealer none({}, m.bounds);
   const WorkEstimate equal;
+  SharedCells shared;
   const auto store = [&](std::uint32_t domain, DomainContent content, DomainInfo&) {
     bundle.contents[domain] = std::move(content);
   };
@@ -55,6 +56,7 @@ SoupBundle cut_in_memory(const Soup& soup, std::uint32_t domains) {
                             .manifest = m,
                             .census = census,
                             .instances = none,
+                            .shared = shared,
                             .work = equal,
                             .items = m.triangles,
                             .wrote = [](std::uint64_t) {}};
@@ -62,7 +64,7 @@ SoupBundle cut_in_memory(const Soup& soup, std::uint32_t domains) {
     divide_at(any_planes(soup, m.bounds), triangles, writer);
   else
     divide_cell(triangles, {}, {m.bounds, 0, 0, domains}, writer);
-  const std::vector<std::uint32_t> kept = leave_out_unused_domains(m);
+  const std::vector<std::uint32_t> kept = number_domains(m, {});
   for (std::uint32_t i = 0; i < kept.size(); ++i)
     if (kept[i] != i) bundle.contents[i] = std::move(bundle.contents[kept[i]]);
   bundle.contents.resize(kept.size());

@@ -97,7 +97,7 @@ Scene moving_forest() {
 class OnePictureOfMotion : public testing::Test {
  protected:
   std::filesystem::path bundle(const std::string& name, PartitionOptions options) {
-    options.domain_bytes = 200'000;
+    if (options.domain_bytes == 0) options.domain_bytes = 200'000;
     stats_ = partition(scene_, directory_ / name, options);
     for (const VerifyFinding& f : verify_bundle(directory_ / name).problems)
       ADD_FAILURE() << f.file << ": " << f.what;
@@ -183,7 +183,7 @@ TEST_F(OnePictureOfMotion, CostsNothingWhereThereIsNone) {
 // Every kernel and the reference traversal find the same at any time; and what they find is within the
 // bounds.
 TEST_F(OnePictureOfMotion, TheReferenceTraversalSeesTheSame) {
-  const auto path = bundle("1.vit", {.domains = 1});
+  const auto path = bundle("1.vit", {.domains = 1, .domain_bytes = 1 << 30});
   const Manifest m = read_manifest(path);
   const auto domain = load_domain(m, path, 0);
   const EmbreeDomain embree(domain->view());

@@ -67,6 +67,22 @@ TEST(DomainTree, HasEachDomainThatIsNotEmptyOnceWithinItsBoxes) {
   }
 }
 
+// Domains 1 and 2 share the cell of 0, where each is met in two places.
+TEST(DomainTree, HasADomainOnceThatIsMetInSeveralPlaces) {
+  constexpr std::uint32_t leaf = KdNode::leaf_bit;
+  Manifest m = chain(3, [](std::uint32_t) { return false; });
+  m.kd_nodes = {{3, KdNode::no_axis, leaf | 0, 1},
+                {0.5f, 1, 2, 3},
+                {1, 0, leaf | 1, leaf | 2},
+                {1, 0, leaf | 2, leaf | 1}};
+  Bounds3f all;
+  for (const DomainInfo& d : m.domains) extend(all, d.tight_bounds);
+  std::vector<std::uint32_t> found;
+  collect(m, domain_tree(m), 0, all, found);
+  std::ranges::sort(found);
+  EXPECT_EQ(found, (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
 TEST(DomainTree, HasNoNodesOfOneDomainOrOfEmptyOnes) {
   EXPECT_TRUE(domain_tree(chain(1, [](std::uint32_t) { return false; })).empty());
   EXPECT_TRUE(domain_tree(chain(9, [](std::uint32_t) { return true; })).empty());

@@ -64,43 +64,48 @@ std::vector<Ray> rays() {
   return result;
 }
 
-// Every domain has the same cell as one more, whose number is higher by that of all.
-Manifest with_sharers(Manifest m) {
-  const auto count = static_cast<std::uint32_t>(m.domains.size());
-  const std::vector<DomainInfo> domains = m.domains;
-  m.domains.insert(m.domains.end(), domains.begin(), domains.end());
-  for (std::size_t i = 0, planes = m.kd_nodes.size(); i < planes; ++i)
+// All of the domains, which have the whole cube, are met in the leaves of `cells`, one of `sharers` in each;
+// and one more, with number 0, comes before them.
+Manifest shared_by(const Manifest& cells, std::uint32_t sharers) {
+  Manifest m = cells;
+  m.domains.resize(sharers + 1, m.domains[0]);
+  for (KdNode& node : m.kd_nodes)
     for (std::uint32_t KdNode::*side : {&KdNode::below, &KdNode::above}) {
-      const std::uint32_t child = m.kd_nodes[i].*side;
-      if (!(child & KdNode::leaf_bit)) continue;
-      m.kd_nodes[i].*side = static_cast<std::uint32_t>(m.kd_nodes.size());
-      m.kd_nodes.push_back({0, KdNode::no_axis, child, child + count});
+      std::uint32_t& child = node.*side;
+      child = child & KdNode::leaf_bit ? KdNode::leaf_bit | (1 + (child & ~KdNode::leaf_bit) % sharers)
+                                       : child + 1;
     }
+  m.kd_nodes.insert(m.kd_nodes.begin(),
+                    {static_cast<float>(sharers + 1), KdNode::no_axis, KdNode::leaf_bit | 0, 1});
   return m;
 }
 
-TEST(Walk, VisitsAllThatShareACell) {
-  const Manifest alone = grid(4), shared = with_sharers(alone);
-  const auto count = static_cast<std::uint32_t>(alone.domains.size());
-  for (const Ray& ray : rays()) {
-    std::vector<std::uint32_t> expected, visited;
-    std::vector<double> entries, expected_entries;
-    for (const DomainWalk::Visit& v : all_visits(alone, ray)) {
-      expected.insert(expected.end(), {v.domain, v.domain + count});
-      expected_entries.insert(expected_entries.end(), {v.entry, v.entry});
+// Of those that share a cell each is visited once, where the ray comes to it first; also of more than 64.
+TEST(Walk, VisitsEachThatSharesACellOnce) {
+  Manifest cells = grid(9);
+  for (DomainInfo& d : cells.domains) d.tight_bounds = {{-1.1f, -1.1f, -1.1f}, {1.1f, 1.1f, 1.1f}};
+  for (const std::uint32_t sharers : {3u, 100u}) {
+    const Manifest shared = shared_by(cells, sharers);
+    for (const Ray& ray : rays()) {
+      std::vector<std::uint32_t> expected, visited;
+      for (const DomainWalk::Visit& v : all_visits(cells, ray)) {
+        const std::uint32_t sharer = 1 + v.domain % sharers;
+        if (std::ranges::find(expected, sharer) == expected.end()) expected.push_back(sharer);
+      }
+      const auto all = all_visits(shared, ray);
+      for (const DomainWalk::Visit& v : all) visited.push_back(v.domain);
+      if (!visited.empty()) expected.insert(expected.begin(), 0);
+      ASSERT_EQ(visited, expected);
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        DomainWalk walk(shared, ray);
+        walk.skip_past(all[i].domain);
+        DomainWalk::Visit next;
+        ASSERT_EQ(walk.next(std::numeric_limits<double>::infinity(), next), i + 1 < all.size());
+        if (i + 1 < all.size()) {
+          EXPECT_EQ(next.domain, all[i + 1].domain);
+        }
+      }
     }
-    for (const DomainWalk::Visit& v : all_visits(shared, ray)) {
-      visited.push_back(v.domain);
-      entries.push_back(v.entry);
-    }
-    EXPECT_EQ(visited, expected);
-    EXPECT_EQ(entries, expected_entries);
-    if (expected.empty()) continue;
-    DomainWalk walk(shared, ray);
-    walk.skip_past(expected[0]);
-    DomainWalk::Visit next;
-    ASSERT_TRUE(walk.next(std::numeric_limits<double>::infinity(), next));
-    EXPECT_EQ(next.domain, expected[1]);
   }
 }
 

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/cutting/shared_cell.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace vitrail {
+
+namespace {
+
+// Cells of so few boxes are not cut, and none is cut more often: 4096 cells at most.
+constexpr std::size_t few_boxes = 4;
+constexpr int most_cuts = 12;
+// A cut that makes more than so many of a box is not worth it.
+constexpr double most_copies = 1.6;
+
+struct Plan {
+  int axis = -1;  // −1: no cut is worth it
+  float split = 0;
+};
+
+class Builder {
+ public:
+  explicit Builder(std::uint32_t none) : none_(none) {}
+
+  std::uint32_t add(const Bounds3f& cell, std::span<const SharedBox> boxes, int levels, int cuts) {
+    const std::vector<std::uint32_t> domains = domains_of(boxes);
+    if (domains.empty()) return KdNode::leaf_bit | none_;
+    const Plan plan = levels > levels_of(domains.size()) && cuts > 0 ? plan_for(cell, boxes) : Plan{};
+    if (domains.size() == 1 || plan.axis < 0) return add_domains(domains);
+    std::vector<SharedBox> below, above;
+    for (const SharedBox& b : boxes) {
+      if (b.box.lower[plan.axis] <= plan.split) below.push_back(b);
+      if (b.box.upper[plan.axis] >= plan.split) above.push_back(b);
+    }
+    Bounds3f low = cell, high = cell;
+    low.upper[plan.axis] = high.lower[plan.axis] = plan.split;
+    return add_node(
+        {plan.split, static_cast<std::uint32_t>(plan.axis)},
+        [&] { return add(low, below, levels - 1, cuts - 1); },
+        [&] { return add(high, above, levels - 1, cuts - 1); });
+  }
+  std::vector<KdNode> take() { return std::move(nodes_); }
+
+ private:
+  static int levels_of(std::size_t domains) { return static_cast<int>(std::bit_width(domains - 1)); }
+
+  static std::vector<std::uint32_t> domains_of(std::span<const SharedBox> boxes) {
+    std::vector<std::uint32_t> domains;
+    for (const SharedBox& b : boxes) domains.push_back(b.domain);
+    std::ranges::sort(domains);
+    domains.erase(std::unique(domains.begin(), domains.end()), domains.end());
+    return domains;
+  }
+
+  // Halves the boxes across the cell's longest side that does not cut too many of them.
+  static Plan plan_for(const Bounds3f& cell, std::span<const SharedBox> boxes) {
+    if (boxes.size() <= few_boxes) return {};
+    std::array<int, 3> axes{0, 1, 2};
+    std::array<float, 3> sides{};
+    for (int a = 0; a < 3; ++a) {
+      float lower = cell.upper[a], upper = cell.lower[a];
+      for (const SharedBox& b : boxes) {
+        lower = std::min(lower, std::max(b.box.lower[a], cell.lower[a]));
+        upper = std::max(upper, std::min(b.box.upper[a], cell.upper[a]));
+      }
+      sides[static_cast<std::size_t>(a)] = upper - lower;
+    }
+    std::ranges::stable_sort(axes, [&](int a, int b) {
+      return sides[static_cast<std::size_t>(a)] > sides[static_cast<std::size_t>(b)];
+    });
+    std::vector<float> centres(boxes.size());
+    for (const int a : axes) {
+      std::ranges::transform(boxes, centres.begin(), [&](const SharedBox& b) {
+        return std::max(b.box.lower[a], cell.lower[a]) / 2 + std::min(b.box.upper[a], cell.upper[a]) / 2;
+      });
+      const auto middle = centres.begin() + static_cast<std::ptrdiff_t>(centres.size() / 2);
+      std::ranges::nth_element(centres, middle);
+      const float split = *middle;
+      const auto below = static_cast<std::size_t>(
+          std::ranges::count_if(boxes, [&](const SharedBox& b) { return b.box.lower[a] <= split; }));
+      const auto above = static_cast<std::size_t>(
+          std::ranges::count_if(boxes, [&](const SharedBox& b) { return b.box.upper[a] >= split; }));
+      const auto all = static_cast<double>(boxes.size());
+      if (split > cell.lower[a] && split < cell.upper[a] && std::max(below, above) < boxes.size() &&
+          static_cast<double>(below + above) <= most_copies * all)
+        return {a, split};
+    }
+    return {};
+  }
+
+  std::uint32_t add_domains(std::span<const std::uint32_t> domains) {
+    if (domains.size() == 1) return KdNode::leaf_bit | domains[0];
+    const std::size_t half = (domains.size() + 1) / 2;
+    return add_node(
+        {0, KdNode::no_axis}, [&] { return add_domains(domains.first(half)); },
+        [&] { return add_domains(domains.subspan(half)); });
+  }
+
+  template <class Below, class Above>
+  std::uint32_t add_node(KdNode node, const Below& below, const Above& above) {
+    const std::size_t number = nodes_.size();
+    nodes_.push_back(node);
+    node.below = below();
+    node.above = above();
+    nodes_[number] = node;
+    return static_cast<std::uint32_t>(number);
+  }
+
+  std::uint32_t none_;
+  std::vector<KdNode> nodes_;
+};
+
+}  // namespace
+
+std::vector<KdNode> tree_of_shared(const Bounds3f& cell, std::vector<SharedBox> boxes, std::uint32_t none,
+                                   int most_depth) {
+  Builder builder(none);
+  builder.add(cell, boxes, most_depth, most_cuts);
+  return builder.take();
+}
+
+}  // namespace vitrail
