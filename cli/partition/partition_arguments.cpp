@@ -14,10 +14,9 @@ namespace vitrail {
 void declare(CLI::App& app, PartitionArguments& a) {
   app.add_option("input", a.input, "scene file")->required();
   app.add_option("-o,--output", a.output, "bundle to write (NAME.vit)")->required();
-  auto* domains =
-      app.add_option("--domains", a.options.domains, "number of sub-domains; default: as --domain-bytes says")
-          ->transform(plain_count)
-          ->check(CLI::Range(1, 999'999));
+  app.add_option("--domains", a.options.domains, "number of sub-domains; default: as --domain-bytes says")
+      ->transform(plain_count)
+      ->check(CLI::Range(1, 999'999));
   app.add_option("--domains-at-once", a.options.domains_at_once)->group("");
   app.add_flag("--require-everything", a.options.everything,
                "store and compute all data, required or not, to measure the gain of the analysis");
@@ -28,8 +27,7 @@ void declare(CLI::App& app, PartitionArguments& a) {
   app.add_option("--domain-bytes", a.domain_bytes,
                  "size of a sub-domain with the objects that it places, e.g. 256M; default: 64M, or a 32nd "
                  "of --memory "
-                 "where that is less")
-      ->excludes(domains);
+                 "where that is less. With --domains a sub-domain whose objects take more becomes several");
   app.add_option("--pack", a.pack,
                  "put the sub-domains into few files of at most this size, e.g. 1G; default: a file each");
   app.add_option("--memory", a.memory,

@@ -26,12 +26,10 @@ std::uint64_t fixed_bytes(std::uint64_t base, int threads) {
          slack_a_loader * loaders_of_a_rank;
 }
 
-// More domains help where all but the largest has room. A smaller domain may place all of its objects still,
-// so these have to have room beside something of its own.
-std::string about_smaller_domains(std::uint64_t budget, std::uint64_t fixed, std::uint64_t peak,
-                                  std::uint64_t objects) {
-  constexpr std::uint64_t least_domain_bytes = 64 << 10;
-  if (budget < peak || budget < fixed + least_queue_bytes + least_domain_bytes + objects) return {};
+// More domains help where all but the largest has room: they part their objects, too.
+std::string about_smaller_domains(std::uint64_t budget, std::uint64_t fixed, std::uint64_t peak) {
+  constexpr std::uint64_t least_domain_bytes = 256 << 10;
+  if (budget < peak || budget < fixed + least_queue_bytes + least_domain_bytes) return {};
   return fmt::format(
       ", or partition the scene with --domain-bytes {}K: so much is left for a domain and the objects "
       "that it places",
@@ -93,7 +91,7 @@ MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t p
         "largest domain {:.0f}M and its objects {:.0f}M; reading the scene and making the picture take "
         "{:.0f}M{}",
         static_cast<double>(budget) / mib, static_cast<double>((least + next_time + mib - 1) / mib),
-        about_smaller_domains(budget, fixed, peak, largest.objects), static_cast<double>(fixed) / mib,
+        about_smaller_domains(budget, fixed, peak), static_cast<double>(fixed) / mib,
         static_cast<double>(largest.bytes - largest.objects) / mib,
         static_cast<double>(largest.objects) / mib, static_cast<double>(peak) / mib,
         peak < least ? "" : "; -o NAME.film needs less, and vitrail develop makes the picture elsewhere"));
