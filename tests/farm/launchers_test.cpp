@@ -79,16 +79,19 @@ TEST_F(Launchers, TasksOfSrunThatDoNotKnowOfEachOtherAreRefused) {
       << "in the job's script itself";
 }
 
-// As MPICH's, Intel's and MVAPICH's mpiexec leave it to the processes that they start.
+// As MPICH's, Intel's and MVAPICH's mpiexec leave it to the processes that they start, Hydra's with -pmi-port
+// too, and PMIx.
 TEST_F(Launchers, RanksOfAnotherMpiAreRefused) {
   for (const char* started : {"PMI_RANK=1 PMI_SIZE=2", "PMI_RANK=0 PMI_SIZE=2 MPI_LOCALNRANKS=2",
-                              "MV2_COMM_WORLD_RANK=1 MV2_COMM_WORLD_SIZE=2"}) {
+                              "MV2_COMM_WORLD_RANK=1 MV2_COMM_WORLD_SIZE=2",
+                              "PMI_ID=0 PMI_PORT=vm:4711 MPI_LOCALNRANKS=2", "PMI_ID=1 PMI_PORT=vm:4711"}) {
     const CommandResult refused = run(fmt::format("{} {}", started, alone("a.film")));
     EXPECT_EQ(refused.status, 2) << refused.output;
     EXPECT_THAT(refused.output, HasSubstr("another MPI started 2 processes that do not know of each other"));
+    EXPECT_THAT(refused.output, HasSubstr("start the ranks with its mpirun"));
     EXPECT_FALSE(fs::exists(path("a.film")));
   }
-  EXPECT_EQ(run("PMI_RANK=0 PMI_SIZE=1 " + alone("a.film", "--crop 0,8,0,8")).status, 0);
+  EXPECT_EQ(run("PMI_RANK=0 PMI_SIZE=1 MPI_LOCALNRANKS=1 " + alone("a.film", "--crop 0,8,0,8")).status, 0);
 }
 
 TEST_F(Launchers, AJobsMemoryAndTimeAreTaken) {
