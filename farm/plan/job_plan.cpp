@@ -73,8 +73,10 @@ void share_out(JobPlan& plan, const Manifest& m, const RenderOptions& options, i
   };
   plan.film =
       place_film(plan.film.bytes, budget, base, peak(), plan.threads, largest.bytes, plan.all_domains);
-  plan.memory =
-      plan_memory(budget, base + plan.film.resident(), peak(), plan.threads, largest, plan.all_domains);
+  const std::uint64_t beside_tiles = texture_budget(m, 1);
+  const TileMemory tiles{plan.scene.textures - beside_tiles, texture_budget(m, 0) - beside_tiles};
+  plan.memory = plan_memory(budget, base + plan.film.resident(), peak(), plan.threads, largest,
+                            plan.all_domains, tiles);
   widen_window(plan.film, plan.memory, largest.bytes, plan.all_domains);
   if (options.resources.domain_memory_bytes > 0)
     plan.memory = {
@@ -101,7 +103,8 @@ std::uint64_t texture_budget(const Manifest& m, std::uint64_t memory_bytes) {
     codes += t.read_bytes;
   }
   all *= 2;  // tiles at an edge are smaller in the file than in memory
-  return (codes > 0 ? conversion_bytes : 0) + (memory_bytes == 0 ? all : std::min(all, memory_bytes / 4));
+  return (codes > 0 ? conversion_bytes : 0) +
+         (memory_bytes == 0 ? all : std::min(all, memory_bytes / tile_share));
 }
 
 std::uint64_t film_file_bytes(const FilmSettings& film, const FilmKey& key) {
