@@ -146,6 +146,9 @@ int render_locked(Transport& transport, RenderArguments& a, const JobSteps& step
   };
   if (preview || display) a.options.outputs.after_checkpoint = show;
   a.options.resources.after_film = developing(a);
+  a.options.outputs.denoises = a.denoised;
+  a.options.outputs.preview = a.preview;
+  a.options.outputs.displays = !a.display_server.empty();
   RenderStats stats = render(transport, a.options);
   agree(transport, [&] { require_unsaturated(stats.refused, a.options.outputs.film); });
   const int signal = number_of(stats.ending);
