@@ -124,7 +124,7 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
 
 int render_locked(Transport& transport, RenderArguments& a, const JobSteps& steps) {
   const bool first = transport.rank() == 0;
-  take_limits_of_job(a.options, first);
+  take_limits_of_job(transport, a.options);
   const auto beside_the_film = fs::path(a.options.outputs.film).replace_extension(".tmp.vit");
   a.options.bundle = a.is_bundle() ? a.input : beside_the_film;
   std::optional<TemporaryBundle> temporary;
