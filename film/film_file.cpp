@@ -16,6 +16,7 @@
 #include "film/film_progress.h"
 #include "film/film_reader.h"
 #include "scene/system/atomic_file.h"
+#include "scene/system/memory_guard.h"
 #include "scene/system/underway.h"
 
 namespace vitrail {
@@ -105,6 +106,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress,
   const Arrays& arrays = head.arrays;
   Film film(std::move(scratch));
   film.settings_ = head.settings, film.key_ = std::move(head.key);
+  if (!film.scratch_) ask_memory(film_bytes(film.settings_, film.key_));
   film.exponent_ = head.exponent, film.length_exponent_ = head.length_exponent;
   film.refused_ = head.refused;
   in.read_array(film.sums_, arrays.sums, "sums", film.scratch_.get());

@@ -19,6 +19,7 @@
 #include "images/image_codec.h"
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
+#include "scene/system/memory_guard.h"
 
 namespace vitrail {
 
@@ -43,8 +44,13 @@ PictureFile file_of(const Picture& picture) {
 
 std::vector<std::byte> encoded(const std::filesystem::path& file, const PictureFile& picture,
                                const void* pixels) {
+  constexpr std::uint64_t opening = 1 << 20, copies = 3;
+  const ImageCodec& codec = image_codec();
+  const GrantedMemory encoding(
+      opening + copies * static_cast<std::uint64_t>(picture.bits / 8) * picture.channels.size() *
+                    static_cast<std::uint64_t>(picture.width) * static_cast<std::uint64_t>(picture.height));
   std::vector<std::byte> bytes;
-  if (const std::string problem = image_codec().encode_picture(file.string(), picture, pixels, bytes);
+  if (const std::string problem = codec.encode_picture(file.string(), picture, pixels, bytes);
       !problem.empty())
     throw MachineError(fmt::format("cannot write {}: {}", file.string(), problem));
   return bytes;

@@ -16,6 +16,7 @@
 #include "scene/records/film_layers.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
+#include "scene/system/memory_guard.h"
 
 namespace vitrail {
 
@@ -83,6 +84,20 @@ void read_layers(Picture& picture, const PictureFile& file, const std::vector<fl
             {kind.channels[i], false, select_channels(file, values, std::span(&channel, 1)).values, {}});
 }
 
+// By the image library, through which no exception may pass.
+void decode(const std::filesystem::path& path, PictureFile& file, std::vector<float>& values) {
+  const ImageCodec& codec = image_codec();
+  ImageLayout layout;
+  {
+    constexpr std::uint64_t opening_bytes = 1 << 20;
+    const GrantedMemory opening(opening_bytes);
+    codec.read({path.string()}, layout, nullptr);  // of what it cannot read, the next call says why
+  }
+  const GrantedMemory decoding(layout.whole_bytes);
+  if (const std::string problem = codec.decode_picture(path.string(), file, values); !problem.empty())
+    throw Error(fmt::format("cannot read the image: {}", problem), {path.string()});
+}
+
 }  // namespace
 
 Picture read_picture(const std::filesystem::path& path) {
@@ -95,10 +110,7 @@ Picture read_picture(const std::filesystem::path& path) {
   const std::size_t matrices = file.attributes.size();
   for (const OriginMatrix& m : origin_matrices) file.attributes.emplace_back(m.name, std::array<float, 16>{});
   std::vector<float> values;
-  if (!read_plain_exr(path, file, values))
-    if (const std::string problem = image_codec().decode_picture(path.string(), file, values);
-        !problem.empty())
-      throw Error(fmt::format("cannot read the image: {}", problem), {path.string()});
+  if (!read_plain_exr(path, file, values)) decode(path, file, values);
   const auto number = [&](std::size_t at) {
     return static_cast<double>(std::get<float>(file.attributes[at].second));
   };

@@ -9,6 +9,7 @@
 #include "images/image_codec.h"
 #include "scene/spectra/color.h"
 #include "scene/system/diagnostics.h"
+#include "scene/system/memory_guard.h"
 
 namespace vitrail {
 
@@ -29,7 +30,9 @@ std::array<double, 9> srgb_to_xyz_matrix() {
 
 Image aces_tone_mapped(const Image& rgb) {
   Image mapped = rgb;
-  if (const std::string problem = image_codec().map_tones(mapped, srgb_to_xyz_matrix()); !problem.empty())
+  const ImageCodec& codec = image_codec();
+  const GrantedMemory mapping(2 * mapped.values.size() * sizeof(float));
+  if (const std::string problem = codec.map_tones(mapped, srgb_to_xyz_matrix()); !problem.empty())
     throw MachineError(fmt::format("cannot map tones: {}", problem));
   for (float& v : mapped.values) v = std::clamp(v, 0.0f, 1.0f);
   return mapped;

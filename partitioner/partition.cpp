@@ -382,10 +382,6 @@ class Partitioner {
 
 }  // namespace
 
-std::uint64_t default_memory_bytes() {
-  const MemoryLimit limit = memory_limit();
-  return limit.is_machine ? limit.bytes / 4 * 3 : limit.bytes / 10 * 9;
-}
 std::uint64_t mesh_bytes_within(std::uint64_t memory_bytes) { return meshes_within(memory_bytes); }
 
 PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
@@ -394,7 +390,7 @@ PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
   const auto start = Clock::now();
   const double cpu_start = cpu_seconds();
   PartitionOptions chosen = options;
-  if (chosen.memory_bytes == 0) chosen.memory_bytes = default_memory_bytes();
+  if (chosen.memory_bytes == 0) chosen.memory_bytes = memory_limit().share();
   BundleDirectory directory(out, options.durable);
   tbb::task_arena arena(threads_for(options.threads));
   PartitionStats stats =

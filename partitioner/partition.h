@@ -57,7 +57,6 @@ struct PartitionStats {
 
 // Meshes that an importer should keep in memory (MeshMemory) for a budget of so many bytes.
 std::uint64_t mesh_bytes_within(std::uint64_t memory_bytes);
-std::uint64_t default_memory_bytes();
 
 // Writes the bundle directory `out` (built beside it under a temporary name, renamed when whole; an existing
 // bundle of that name is replaced). A scene that does not fit into the memory is divided into buckets first,

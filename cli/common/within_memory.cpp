@@ -2,7 +2,6 @@
 #include "cli/common/within_memory.h"
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +34,9 @@ double enough_bytes(const MemoryRefusal& refusal, double budget, const Stage& st
 
 }  // namespace
 
-int within_memory(std::uint64_t budget_bytes, const Stage& stage, const std::function<int()>& body) {
-  guard_memory(budget_bytes, [] { return tbb::this_task_arena::current_thread_index() >= 0; });
+int within_memory(std::uint64_t budget_bytes, const Stage& stage, const std::function<int()>& body,
+                  bool (*is_own)()) {
+  guard_memory(budget_bytes, is_own);
   // What ends after this, static objects of libraries too, is refused nothing.
   const struct End {
     ~End() { guard_no_more(); }

@@ -17,7 +17,10 @@ struct Stage {
 };
 
 // Runs `body` with no more memory resident than that (scene/system/memory_guard.h). Where this is too little
-// throws MachineError that says what is missing, in place of what body throws.
-int within_memory(std::uint64_t budget_bytes, const Stage& stage, const std::function<int()>& body);
+// throws MachineError that says what is missing, in place of what body throws. `is_own`: as guard_memory's;
+// this thread is in any case.
+int within_memory(
+    std::uint64_t budget_bytes, const Stage& stage, const std::function<int()>& body,
+    bool (*is_own)() = [] { return false; });
 
 }  // namespace vitrail

@@ -7,7 +7,9 @@
 
 #include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
+#include "cli/common/memory_budget.h"
 #include "cli/common/rectangle.h"
+#include "cli/common/within_memory.h"
 #include "cli/compare/compare_arguments.h"
 #include "cli/compare/compare_maps.h"
 #include "cli/compare/compare_variances.h"
@@ -124,5 +126,8 @@ int main(int argc, char** argv) {
   CLI::App app("Compares an image with a reference; films are developed in memory.", "vitrail compare");
   CompareArguments arguments;
   declare(app, arguments);
-  return run_guarded(app, argc, argv, [&] { return run(arguments); });
+  return run_guarded(app, argc, argv, [&] {
+    const std::uint64_t bytes = memory_budget(arguments.memory, arguments.quiet || arguments.json);
+    return within_memory(bytes, {"comparing"}, [&] { return run(arguments); });
+  });
 }

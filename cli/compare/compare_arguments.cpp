@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "cli/common/memory_budget.h"
 #include "cli/common/number_checks.h"
 #include "compare/comparison.h"
 
@@ -34,6 +35,7 @@ void declare(CLI::App& app, CompareArguments& o) {
   app.add_option("--fail-above", o.fail_above, "exit with 1 if the value is greater");
   app.add_flag("--resize", o.resized, "resize IMAGE to the size of REFERENCE");
   app.add_flag("--json", o.json, "print one JSON object");
+  declare_memory(app, o.memory);
   app.add_flag("--strict", o.strict, "refuse films that are not finished");
   app.add_flag("--quiet", o.quiet, "say nothing; the exit status does");
   app.add_option("--worst", o.worst, "list this many of the worst pixels")->capture_default_str();

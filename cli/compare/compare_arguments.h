@@ -13,7 +13,7 @@
 namespace vitrail {
 
 struct CompareArguments {
-  std::string image, reference, metric = "relmse", variance, mask, flip_range = "auto";
+  std::string image, reference, metric = "relmse", variance, mask, flip_range = "auto", memory;
   std::filesystem::path heatmap, signed_map, html;  // empty: none
   std::vector<std::string> ignored;
   std::optional<double> variance_samples, fail_above, mean_within, map_scale;

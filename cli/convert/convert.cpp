@@ -8,9 +8,12 @@
 #include "cli/common/import_arguments.h"
 #include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
+#include "cli/common/memory_budget.h"
 #include "cli/common/mesh_options.h"
 #include "cli/common/own_output.h"
+#include "cli/common/own_threads.h"
 #include "cli/common/quadric_counts.h"
+#include "cli/common/within_memory.h"
 #include "cli/convert/check_conversion.h"
 #include "cli/convert/conversion_report.h"
 #include "cli/convert/convert_many.h"
@@ -33,7 +36,7 @@ namespace {
 struct Arguments {
   std::vector<std::filesystem::path> files;
   std::filesystem::path input, output, report;
-  std::string format, check, peer, input_peer;
+  std::string format, check, peer, input_peer, memory;
   int at_once = 0;
   bool strict = false, quiet = false, again = false, pack = false, force = false;
   ImportArguments imports;
@@ -72,6 +75,7 @@ void declare(CLI::App& app, Arguments& a) {
       "copy the images, tables and volumes that the scene refers to beside the output, into OUT-files/");
   declare_import_options(app, a.imports);
   declare_mesh_options(app, a.meshes);
+  declare_memory(app, a.memory);
   app.add_flag("--force", a.force, "replace a file that does not say that vitrail made it");
   app.add_flag("--strict", a.strict, "exit with status 3 if anything is not exact");
   app.add_flag("--quiet", a.quiet, "print problems only");
@@ -159,9 +163,11 @@ int run_many(const Arguments& a) {
   if (!a.report.empty()) throw UsageError("--to gives every scene its report: leave --report out");
   std::vector<std::string> options = reading_options(a);
   if (a.force) options.push_back("--force");
-  ManyConversions many{a.files,  a.output, a.format, threads_for(a.at_once),
-                       a.again,  a.check,  a.peer,   a.input_peer,
-                       a.strict, a.quiet,  options};
+  const int at_once = threads_for(a.at_once);
+  const std::uint64_t bytes = memory_budget(a.memory, a.quiet) / static_cast<std::uint64_t>(at_once);
+  options.insert(options.end(), {"--memory", std::to_string(bytes)});
+  ManyConversions many{a.files, a.output,     a.format, at_once, a.again, a.check,
+                       a.peer,  a.input_peer, a.strict, a.quiet, options};
   return convert_many(many);
 }
 
@@ -176,7 +182,8 @@ int run_one(Arguments a) {
   if (a.output.empty() && a.files.size() == 1) throw UsageError("takes a scene and the file to write");
   if (a.output.empty()) a.output = a.files.back();
   a.input = a.files.front();
-  return run(a);
+  return within_memory(
+      memory_budget(a.memory, a.quiet), {"converting"}, [&] { return run(a); }, runs_a_task);
 }
 
 }  // namespace

@@ -10,8 +10,10 @@
 
 #include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
+#include "cli/common/memory_budget.h"
 #include "cli/common/own_output.h"
 #include "cli/common/rectangle.h"
+#include "cli/common/within_memory.h"
 #include "cli/develop/chosen_layers.h"
 #include "cli/develop/develop_arguments.h"
 #include "cli/develop/exposed_films.h"
@@ -256,6 +258,6 @@ int main(int argc, char** argv) {
     require_agreement(a);
     require_place(a.output);
     if (!a.writes(".film")) require_own(a.output, is_own_picture, a.force);
-    return develop_all(a);
+    return within_memory(memory_budget(a.memory, a.quiet), {"developing"}, [&] { return develop_all(a); });
   });
 }

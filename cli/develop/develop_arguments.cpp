@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "cli/common/memory_budget.h"
 #include "cli/develop/chosen_layers.h"
 #include "denoise/denoiser.h"
 #include "images/image_files.h"
@@ -90,6 +91,7 @@ void declare(CLI::App& app, DevelopArguments& a) {
       ->group("");
   app.add_flag("--force", a.force,
                "replace a file that does not say that vitrail made it, as a .webp never does");
+  declare_memory(app, a.memory);
   app.add_flag("--strict", a.strict, "refuse films that are not finished");
   app.add_flag("--quiet", a.quiet, "print problems only");
 }

@@ -14,7 +14,7 @@ namespace vitrail {
 
 struct DevelopArguments {
   std::vector<std::string> films;
-  std::string output, tone = "none", false_color, exposure = "0", crop, size, layer, layers, groups;
+  std::string output, tone = "none", false_color, exposure = "0", crop, size, layer, layers, groups, memory;
   double white_balance_K = 0;
   int bits = 0;
   bool with_variance = false, spectral = false, logarithmic = false, denoised = false;

@@ -54,7 +54,7 @@ const std::vector<Heading> of_partition{
 
 const std::vector<Heading> of_convert{
     {"What to convert", "files=FILE output=FILE to jobs again"},
-    {"What to write", "pack report=FILE check peer=PROGRAM peer-of-input=PROGRAM force quiet"},
+    {"What to write", "pack report=FILE check peer=PROGRAM peer-of-input=PROGRAM memory=SIZE force quiet"},
     scene,
     meshes,
 };
@@ -63,7 +63,7 @@ const std::vector<Heading> of_compare{
     {"What to compare", "IMAGE=IMAGE REFERENCE=REFERENCE resize ignore=X0,X1,Y0,Y1 mask=IMAGE strict"},
     {"By what", "metric flip-range pixels-per-degree variance=FILE variance-samples"},
     {"When to fail", "fail-above=VALUE mean-within=FRACTION"},
-    {"What to write", "heatmap=FILE signed-map=FILE map-scale=ERROR html=FILE worst json quiet"},
+    {"What to write", "heatmap=FILE signed-map=FILE map-scale=ERROR html=FILE worst memory=SIZE json quiet"},
 };
 
 const std::vector<Heading> of_develop{
@@ -71,7 +71,7 @@ const std::vector<Heading> of_develop{
     {"How it looks",
      "groups=NAME=WEIGHT,… exposure=STOPS white-balance=KELVIN tone false-color=MAXIMUM log denoise "
      "find-denoiser"},
-    {"What to write", "output=FILE bits variance spectral force quiet"},
+    {"What to write", "output=FILE bits variance spectral memory=SIZE force quiet"},
 };
 
 const std::vector<Heading> of_inspect{

@@ -7,6 +7,8 @@
 #include "cli/common/import_arguments.h"
 #include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
+#include "cli/common/memory_budget.h"
+#include "cli/common/own_threads.h"
 #include "cli/common/sizes.h"
 #include "cli/common/within_memory.h"
 #include "scene/system/input_files.h"
@@ -65,7 +67,7 @@ int main(int argc, char** argv) {
       ->required();
   declare_import_options(app, imports);
   app.add_flag("--json", json, "print JSON, as docs/reference/inspect.md lists it");
-  app.add_option("--memory", memory, "most resident memory, e.g. 2G; default: no limit");
+  declare_memory(app, memory);
   app.add_flag("--strict", strict, "exit with 3 if a part of the scene is not read or rendered exactly");
   app.add_flag("--quiet", quiet, "print problems only; the exit status tells the result");
   return run_guarded(app, argc, argv, [&] {
@@ -74,6 +76,6 @@ int main(int argc, char** argv) {
       if (!quiet) show("{}", json ? as_json(report) : to_text(report, folder_of(file)));
       return status_of(report, strict);
     };
-    return memory.empty() ? body() : within_memory(parse_bytes(memory), {"inspecting"}, body);
+    return within_memory(memory_budget(memory, true), {"inspecting"}, body, runs_a_task);
   });
 }

@@ -18,7 +18,9 @@
 #include "cli/common/input_kind.h"
 #include "cli/common/layer_names.h"
 #include "cli/common/main_guard.h"
+#include "cli/common/memory_budget.h"
 #include "cli/common/mesh_options.h"
+#include "cli/common/own_threads.h"
 #include "cli/common/sizes.h"
 #include "cli/common/switching_glazing.h"
 #include "cli/common/within_memory.h"
@@ -127,11 +129,7 @@ void interpret(PartitionArguments& a) {
     a.options.cache = folder / "images";
     if (a.keeps_domains) a.options.bundles = folder / "bundles";
   }
-  a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
-  if (const MemoryLimit limit = memory_limit();
-      a.memory.empty() && !limit.is_machine && !a.quiet && a.summary)
-    say("vitrail: {:.0f} MiB of memory, as {} gives this job\n",
-        static_cast<double>(a.options.memory_bytes) / (1 << 20), limit.giver);
+  a.options.memory_bytes = memory_budget(a.memory, a.quiet || !a.summary);
 }
 
 ProgressManner manner_of(const PartitionArguments& a) {
@@ -283,6 +281,7 @@ int main(int argc, char** argv) {
   return end_with(run_guarded(app, argc, argv, [&] {
     interpret(arguments);
     Stage stage{"reading the scene"};
-    return within_memory(arguments.options.memory_bytes, stage, [&] { return run(arguments, stage); });
+    return within_memory(
+        arguments.options.memory_bytes, stage, [&] { return run(arguments, stage); }, runs_a_task);
   }));
 }

@@ -69,7 +69,6 @@ Json to_json(const PlanPoint& p, std::uint64_t scene_bytes) {
           {"loaded_bytes", r.loaded_bytes},
           {"domain_loads", r.loads},
           {"forwarded_rays", r.forwarded_rays},
-          {"messages", r.messages},
           {"trace_s", r.busy_s},
           {"busiest_workers", r.busiest_workers},
           {"busiest_loader", r.busiest_loader},

@@ -108,8 +108,8 @@ void declare_photons(CLI::App& app, RenderOptions& o) {
 void declare_resources(CLI::App& app, RenderArguments& a) {
   RenderOptions& o = a.options;
   app.add_option("--memory", a.memory,
-                 "most memory a rank may use, e.g. 512M or 2G; default: what Slurm or a control group gives, "
-                 "else no limit");
+                 "most memory a rank may use, e.g. 512M or 2G; default: what Slurm, a control group or "
+                 "the machine gives");
   app.add_option("-t,--threads,--nthreads", o.resources.threads,
                  "threads a rank, at most 64 or four a processor; default: one a processor allowed")
       ->check(CLI::Range(1, 4096));

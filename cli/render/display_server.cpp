@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "film/develop.h"
-#include "film/film_progress.h"
+#include "film/film_rows.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/say.h"
 
@@ -89,7 +89,7 @@ void DisplayServer::show(const std::filesystem::path& film) {
 
 void DisplayServer::send_film(const std::filesystem::path& file) {
   try {
-    const Film film = read_film(file, nullptr);
+    const FilmRows film(file, nullptr);
     if (film.samples() == 0) return;
     if (socket_ < 0) connect();
     send_picture(develop_colors(film).rgb);

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <memory>
 #include <span>
-#include <thread>
 #include <vector>
 
 #include "bundle/checksum.h"
@@ -45,20 +44,6 @@ std::optional<FileMark> mark_from_json(const Json& json) {
   if (found == json.end()) return std::nullopt;
   return FileMark{found->at("bytes").get<std::uint64_t>(),
                   std::stoull(found->at("hash").get<std::string>(), nullptr, 16)};
-}
-
-// Others hold it for as long as it takes to write the file.
-std::unique_ptr<OutputLock> wait_for_lock(const std::filesystem::path& file) {
-  using namespace std::chrono_literals;
-  const auto end = std::chrono::steady_clock::now() + 60s;
-  for (;;) {
-    try {
-      return std::make_unique<OutputLock>(file);
-    } catch (const BeingWritten&) {
-      if (std::chrono::steady_clock::now() > end) throw;
-      std::this_thread::sleep_for(20ms);
-    }
-  }
 }
 
 std::string key_of(const std::filesystem::path& picture) { return picture.filename().string(); }
@@ -122,7 +107,8 @@ void FrameRecord::remove(const std::filesystem::path& picture) {
 }
 
 void FrameRecord::change(const std::function<bool(Json& pictures)>& changed) {
-  const std::unique_ptr<OutputLock> alone = wait_for_lock(file_);
+  // Others hold it for as long as it takes to write the file.
+  const std::unique_ptr<OutputLock> alone = wait_for_lock(file_, std::chrono::minutes(1));
   remove_temporaries(file_);
   read_again();
   if (changed(pictures_)) write();

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "farm/transport/agreement.h"
 #include "scene/system/machine_limits.h"
 #include "scene/system/say.h"
 
@@ -17,23 +18,20 @@ namespace vitrail {
 
 namespace {
 
-// Of "4", and of "4(x2),3" the first: this node's number is not told, and the first has the most.
 std::uint64_t number(const char* variable) {
   const char* text = std::getenv(variable);
   return text ? std::strtoull(text, nullptr, 10) : 0;
 }
 
-std::uint64_t ranks_of_node() {
-  for (const char* variable : {"OMPI_COMM_WORLD_LOCAL_SIZE", "SLURM_STEP_TASKS_PER_NODE"})
-    if (const std::uint64_t ranks = number(variable)) return ranks;
-  return 1;
-}
-
-void take_memory(RenderOptions& o, bool say_so) {
-  const MemoryLimit limit = memory_limit();
-  if (limit.is_machine || o.resources.memory_bytes > 0) return;
-  o.resources.memory_bytes = limit.bytes / ranks_of_node() / 10 * 9;
-  if (say_so)
+// Rank 0 alone asks Slurm. `is_told`: by rank 0.
+void take_memory(Transport& transport, RenderOptions& o, bool is_told) {
+  std::uint64_t by_slurm[] = {0};
+  agree_on_root(transport, [&] { by_slurm[0] = o.resources.memory_bytes > 0 ? 0 : slurm_memory(); });
+  transport.broadcast_from_root(by_slurm);
+  if (o.resources.memory_bytes > 0) return;
+  const MemoryLimit limit = memory_limit(by_slurm[0]);
+  o.resources.memory_bytes = limit.share(processes_of_node());
+  if (is_told && !limit.is_machine)
     say("vitrail: {:.0f} MiB a rank, as {} gives this job\n",
         static_cast<double>(o.resources.memory_bytes) / (1 << 20), limit.giver);
 }
@@ -74,9 +72,9 @@ double time_to_work_s(double left_s) { return std::max(1.0, left_s - std::min(60
 
 }  // namespace
 
-void take_limits_of_job(RenderOptions& o, bool rank_0) {
-  const bool say_so = rank_0 && !o.outputs.quiet;
-  take_memory(o, say_so);
+void take_limits_of_job(Transport& transport, RenderOptions& o) {
+  const bool rank_0 = transport.rank() == 0, say_so = rank_0 && !o.outputs.quiet;
+  take_memory(transport, o, say_so);
   if (number("SLURM_JOB_ID") == 0) return;
   if (!rank_0 || o.resources.time_limit_s > 0) return;
   if (const double left_s = time_left_s(); left_s > 0) {

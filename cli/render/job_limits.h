@@ -2,12 +2,13 @@
 #pragma once
 
 #include "farm/plan/options.h"
+#include "farm/transport/transport.h"
 
 namespace vitrail {
 
-// Takes what Slurm and the control groups give the job of this process, where the user gives no other:
-// memory, this rank's share of its node's less a tenth for MPI and the system; and, on rank 0, which watches
-// the clock and says both, the time until Slurm's job has to have stopped.
-void take_limits_of_job(RenderOptions& options, bool rank_0);
+// Takes what Slurm, the control groups and the machine give this process, where the user gives no other, on
+// all ranks together: memory, this rank's share of its node's (scene/system/machine_limits.h); and, on rank
+// 0, which watches the clock and says both, the time until Slurm's job has to have stopped.
+void take_limits_of_job(Transport& transport, RenderOptions& options);
 
 }  // namespace vitrail

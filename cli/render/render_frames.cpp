@@ -91,7 +91,7 @@ class FrameRun {
   std::size_t wanted_ = 0;                                // of a dry run: the frames that are not there
   std::vector<double> expected_s_;                        // of those that it tries
   // Of the frame under way.
-  std::optional<OutputLock> lock_;
+  std::unique_ptr<OutputLock> lock_;
   WorkWords asked_;
   State found_ = State::open;
 };

@@ -99,26 +99,32 @@ void complete_picture(RenderArguments& a, const Manifest& manifest, KnownViews& 
     a.options.picture.view.view = view_from_text(text_of_view(a.camera_file, a.options.outputs.film, views));
 }
 
-void lock_film(const RenderArguments& a, std::optional<OutputLock>& lock) {
+void lock_film(const RenderArguments& a, std::unique_ptr<OutputLock>& lock,
+               std::chrono::milliseconds longest) {
   const fs::path& film = a.options.outputs.film;
-  lock.emplace(film);
+  lock = wait_for_lock(film, longest, [&](const BeingWritten& refused) {
+    if (longest.count() > 0 && !a.quiet)
+      say("vitrail: {} is being written by another render ({}): waiting up to {} s for its end\n",
+          film.string(), refused.holder, std::chrono::ceil<std::chrono::seconds>(longest).count());
+  });
   for (const fs::path& file : {film, checkpoint_path(film)}) remove_temporaries(file);
 }
 
 int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   agree(transport, [&] { interpret(app, a); });
-  std::optional<OutputLock> lock;
+  std::unique_ptr<OutputLock> lock;
   agree(transport, [&] {
     if (transport.rank() != 0) return;
     check_outputs(a);
-    lock_film(a, lock);
+    // A rank outlives its mpirun, and one that is killed gives its memory back before its locks.
+    lock_film(a, lock, std::chrono::seconds(5));
   });
   return render_locked(transport, a);
 }
 
 int render_locked(Transport& transport, RenderArguments& a, const JobSteps& steps) {
   const bool first = transport.rank() == 0;
-  take_limits_of_job(a.options, first);
+  take_limits_of_job(transport, a.options);
   const auto beside_the_film = fs::path(a.options.outputs.film).replace_extension(".tmp.vit");
   a.options.bundle = a.is_bundle() ? a.input : beside_the_film;
   std::optional<TemporaryBundle> temporary;
@@ -140,6 +146,9 @@ int render_locked(Transport& transport, RenderArguments& a, const JobSteps& step
   };
   if (preview || display) a.options.outputs.after_checkpoint = show;
   a.options.resources.after_film = developing(a);
+  a.options.outputs.denoises = a.denoised;
+  a.options.outputs.preview = a.preview;
+  a.options.outputs.displays = !a.display_server.empty();
   RenderStats stats = render(transport, a.options);
   agree(transport, [&] { require_unsaturated(stats.refused, a.options.outputs.film); });
   const int signal = number_of(stats.ending);

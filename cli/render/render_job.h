@@ -2,8 +2,9 @@
 // The job of one picture, on all ranks.
 #pragma once
 
+#include <chrono>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "cli/render/other_camera.h"
@@ -18,8 +19,9 @@ namespace vitrail {
 void complete_picture(RenderArguments& arguments, const Manifest& manifest, KnownViews& views);
 
 // Takes the right to write the film, and removes what a killed writer left half written. On rank 0 alone.
-// Throws as OutputLock does.
-void lock_film(const RenderArguments& arguments, std::optional<OutputLock>& lock);
+// Throws as wait_for_lock does, and says that it waits.
+void lock_film(const RenderArguments& arguments, std::unique_ptr<OutputLock>& lock,
+               std::chrono::milliseconds longest_wait = {});
 
 struct JobSteps {
   KnownViews* views = nullptr;               // read before, on rank 0

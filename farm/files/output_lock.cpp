@@ -14,6 +14,7 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "scene/system/diagnostics.h"
@@ -123,6 +124,22 @@ OutputLock::OutputLock(const std::filesystem::path& output) : file_(lock_of(outp
 OutputLock::~OutputLock() {
   ::unlink(file_.c_str());
   ::close(descriptor_);
+}
+
+std::unique_ptr<OutputLock> wait_for_lock(const std::filesystem::path& output,
+                                          std::chrono::milliseconds longest,
+                                          const std::function<void(const BeingWritten&)>& before_waiting) {
+  using namespace std::chrono_literals;
+  const auto end = std::chrono::steady_clock::now() + longest;
+  for (bool waits = false;;) {
+    try {
+      return std::make_unique<OutputLock>(output);
+    } catch (const BeingWritten& refused) {
+      if (refused.is_only_named || std::chrono::steady_clock::now() > end) throw;
+      if (!std::exchange(waits, true) && before_waiting) before_waiting(refused);
+    }
+    std::this_thread::sleep_for(20ms);
+  }
 }
 
 namespace {

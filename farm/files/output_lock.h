@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,6 +36,12 @@ class OutputLock {
   std::filesystem::path file_;
   int descriptor_ = -1;
 };
+
+// The same, which tries again for so long where another job has it, once `before_waiting` has been called
+// with that refusal. A name that nobody can verify is not waited for.
+std::unique_ptr<OutputLock> wait_for_lock(
+    const std::filesystem::path& output, std::chrono::milliseconds longest,
+    const std::function<void(const BeingWritten&)>& before_waiting = {});
 
 // Whether a job has that lock, as far as this host can know: not where the process in the file is of this
 // host and has ended.

@@ -15,12 +15,15 @@ namespace vitrail {
 
 namespace {
 
+std::uint64_t pixels_of(const PixelRect& c) {
+  return static_cast<std::uint64_t>(c.x1 - c.x0) * static_cast<std::uint64_t>(c.y1 - c.y0);
+}
+
 // Of an adaptive round's numbers, and what it takes to find them, or those of the round before beside its
 // own.
 std::uint64_t map_bytes(const PixelRect& crop) {
   constexpr std::uint64_t held_and_more = 8, finding_them = 8;
-  return static_cast<std::uint64_t>(crop.x1 - crop.x0) * static_cast<std::uint64_t>(crop.y1 - crop.y0) *
-         (held_and_more + finding_them);
+  return pixels_of(crop) * (held_and_more + finding_them);
 }
 
 // Of sensors that photons measure at.
@@ -37,22 +40,50 @@ std::uint64_t base_bytes(const Manifest& m, const RenderOptions& options, const 
          (options.outputs.trace.empty() ? 0 : Timeline::most_bytes(ranks));
 }
 
+constexpr std::uint64_t develop_bytes = 10 << 20;  // of vitrail-develop beside the film and the picture
+constexpr std::uint64_t image_library = 136 << 20;
+
+// Of vitrail-develop where it has all of the film in memory. A picture was measured to take five eighths of
+// the film beside it; denoising 950 bytes a pixel with the film's 168, at 64 × 48 to 2400 × 1600 pixels.
+std::uint64_t developing_bytes(const std::filesystem::path& picture, const PixelRect& crop,
+                               std::uint64_t film_bytes, bool denoises) {
+  constexpr std::uint64_t denoiser = 70 << 20, denoising_a_pixel = 800;
+  const std::string kind = picture.extension().string();
+  const bool by_library = kind != ".png" && kind != ".exr" && kind != ".csv";
+  return develop_bytes + (by_library ? image_library : 0) + film_bytes +
+         (denoises ? denoiser + denoising_a_pixel * pixels_of(crop) : film_bytes / 8 * 5);
+}
+
 // Of rank 0 while it makes the picture, for which it reads the film again, a PNG and an .exr row by row. A
 // PNG it makes itself: the colours as numbers, and as bytes. For others and for what is denoised it runs
-// vitrail-develop, which takes 7 MiB, and with the image library for other pictures 135 MiB. Those were
-// measured to take five eighths of the film beside it; what denoises is not counted.
+// vitrail-develop.
 std::uint64_t picture_bytes(const Manifest& m, const RenderOptions& options, const JobPlan& plan) {
   const std::filesystem::path& picture = options.outputs.picture;
   if (picture.empty() || options.outputs.dry_run) return 0;
-  constexpr std::uint64_t a_pixel = 24, encoder = 2 << 20, program = 10 << 20, image_library = 136 << 20;
+  constexpr std::uint64_t a_pixel = 24, encoder = 2 << 20;
   const PixelRect& c = m.film.crop;
-  const auto pixels = static_cast<std::uint64_t>(c.x1 - c.x0) * static_cast<std::uint64_t>(c.y1 - c.y0);
   const std::uint64_t by_rows = exr_memory(m.film, plan.key);
   const std::string kind = picture.extension().string();
-  if (kind == ".png") return plan.scene.resident + a_pixel * pixels + encoder + by_rows;
-  if (kind == ".exr") return plan.scene.resident + by_rows + program;
-  return plan.scene.resident + plan.film.bytes + plan.film.bytes / 8 * 5 +
-         (kind == ".csv" ? program : image_library);
+  if (!options.outputs.denoises) {
+    if (kind == ".png") return plan.scene.resident + a_pixel * pixels_of(c) + encoder + by_rows;
+    if (kind == ".exr") return plan.scene.resident + by_rows + develop_bytes;
+  }
+  return plan.scene.resident + developing_bytes(picture, c, plan.film.bytes, options.outputs.denoises);
+}
+
+// Of rank 0 while it shows checkpoints and goes on rendering: of the preview's program, and of the colours
+// and the packets for a viewer.
+std::uint64_t showing_bytes(const Manifest& m, const RenderOptions& options, const JobPlan& plan) {
+  if (options.outputs.dry_run) return 0;
+  std::uint64_t bytes = 0;
+  if (!options.outputs.preview.empty())
+    bytes += developing_bytes(options.outputs.preview, m.film.crop, plan.film.bytes, false);
+  if (options.outputs.displays) {
+    constexpr std::uint64_t a_pixel = 12, most_of_packet = std::uint64_t{1} << 20, copies = 2;
+    const std::uint64_t pixels = pixels_of(m.film.crop);
+    bytes += exr_memory(m.film, plan.key) + a_pixel * (pixels + copies * std::min(pixels, most_of_packet));
+  }
+  return bytes;
 }
 
 // What `--memory` sets aside at least for the photons that land on a rank: three of each that flies.
@@ -65,16 +96,19 @@ void share_out(JobPlan& plan, const Manifest& m, const RenderOptions& options, i
   const std::uint64_t budget = options.resources.memory_bytes;
   const LargestDomain largest = largest_domain(m);
   plan.most_photons = least_room(plan.key.photons, budget);
-  const std::uint64_t base =
-      plan.base_bytes + plan.scene.textures + PhotonMap::photon_bytes * plan.most_photons;
   plan.film = {film_bytes(m.film, plan.key), 0};
+  const std::uint64_t base = plan.base_bytes + plan.scene.textures +
+                             PhotonMap::photon_bytes * plan.most_photons +
+                             (rank == 0 ? showing_bytes(m, options, plan) : 0);
   const auto peak = [&] {
     return std::max(plan.scene.peak, rank == 0 ? picture_bytes(m, options, plan) : 0);
   };
   plan.film =
       place_film(plan.film.bytes, budget, base, peak(), plan.threads, largest.bytes, plan.all_domains);
-  plan.memory =
-      plan_memory(budget, base + plan.film.resident(), peak(), plan.threads, largest, plan.all_domains);
+  const std::uint64_t beside_tiles = texture_budget(m, 1);
+  const TileMemory tiles{plan.scene.textures - beside_tiles, texture_budget(m, 0) - beside_tiles};
+  plan.memory = plan_memory(budget, base + plan.film.resident(), peak(), plan.threads, largest,
+                            plan.all_domains, tiles);
   widen_window(plan.film, plan.memory, largest.bytes, plan.all_domains);
   if (options.resources.domain_memory_bytes > 0)
     plan.memory = {
@@ -101,7 +135,8 @@ std::uint64_t texture_budget(const Manifest& m, std::uint64_t memory_bytes) {
     codes += t.read_bytes;
   }
   all *= 2;  // tiles at an edge are smaller in the file than in memory
-  return (codes > 0 ? conversion_bytes : 0) + (memory_bytes == 0 ? all : std::min(all, memory_bytes / 4));
+  return (codes > 0 ? conversion_bytes : 0) +
+         (memory_bytes == 0 ? all : std::min(all, memory_bytes / tile_share));
 }
 
 std::uint64_t film_file_bytes(const FilmSettings& film, const FilmKey& key) {

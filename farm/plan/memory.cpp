@@ -79,10 +79,15 @@ void widen_window(FilmMemory& film, MemoryPlan& plan, std::uint64_t largest_doma
 }
 
 MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t peak, int threads,
-                       LargestDomain largest, std::uint64_t all_domains) {
+                       LargestDomain largest, std::uint64_t all_domains, TileMemory tiles) {
   if (budget == 0) return {all_domains, most_queue_bytes};
   const std::uint64_t fixed = fixed_bytes(base, threads);
-  const std::uint64_t least = least_memory(base, peak, threads, largest.bytes);
+  std::uint64_t least = least_memory(base, peak, threads, largest.bytes);
+  if (budget < least) {
+    const std::uint64_t without = least_memory(base - tiles.within, 0, threads, largest.bytes);
+    const std::uint64_t share_of_all = without / (tile_share - 1);
+    least = std::max(peak, without + std::min(tiles.all, share_of_all));
+  }
   // The program itself takes a little more or less each time.
   constexpr std::uint64_t next_time = 2 * mib;
   if (budget < least)

@@ -25,11 +25,18 @@ LargestDomain largest_domain(const Manifest& manifest);
 // What has to be the budget at least, as below.
 std::uint64_t least_memory(std::uint64_t base, std::uint64_t peak, int threads, std::uint64_t largest_domain);
 
-// `budget` for the whole rank, 0: no limit. `base`: resident already, film and manifest included; `peak`: at
-// the highest so far, or later while the picture is made. `largest_domain` has to fit. Throws MachineError
-// with the least budget that would do, and with smaller domains where these help.
+// For tiles of images: within this budget, and all of them. With more memory they take more, up to this part.
+struct TileMemory {
+  std::uint64_t within = 0, all = 0;
+};
+inline constexpr std::uint64_t tile_share = 4;
+
+// `budget` for the whole rank, 0: no limit. `base`: resident already, film, manifest and tiles within the
+// budget included; `peak`: at the highest so far, or later while the picture is made. `largest_domain` has to
+// fit. Throws MachineError with the least budget that would do, in which tiles take more, and with smaller
+// domains where these help.
 MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t peak, int threads,
-                       LargestDomain largest, std::uint64_t all_domains);
+                       LargestDomain largest, std::uint64_t all_domains, TileMemory tiles = {});
 
 // Of a rank's film, whose sums take `bytes`: in memory, or in files of which a window is.
 struct FilmMemory {

@@ -88,11 +88,14 @@ struct JobOutputs {
       film;  // where the finished film goes; the checkpoint lies beside it (checkpoint_path)
   std::filesystem::path picture;  // made of the film once that is written; empty: the film is the output
   bool keeps_film =
-      true;  // false: a work file, worth nothing once the picture is written that was made of it
-  std::string scene_name;  // what the picture says that it is of; empty: nothing
-  bool dry_run = false;    // renders until the time limit, writes nothing and says what all would take
-  bool resume = false;     // says where there is nothing to go on from; going on needs no asking
-  bool force = false;      // replaces what lies under the names of film and checkpoint, whatever it is
+      true;               // false: a work file, worth nothing once the picture is written that was made of it
+  bool denoises = false;  // the picture is denoised
+  std::filesystem::path preview;  // another program makes it of each checkpoint; empty: none
+  bool displays = false;          // rank 0 sends the colours of each checkpoint to a viewer
+  std::string scene_name;         // what the picture says that it is of; empty: nothing
+  bool dry_run = false;           // renders until the time limit, writes nothing and says what all would take
+  bool resume = false;            // says where there is nothing to go on from; going on needs no asking
+  bool force = false;             // replaces what lies under the names of film and checkpoint, whatever it is
   // On rank 0, of each checkpoint while the render goes on; empty: nothing.
   std::function<void(const std::filesystem::path&)> after_checkpoint;
   std::string command;            // that was typed, for the statistics

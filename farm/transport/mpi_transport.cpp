@@ -246,6 +246,18 @@ class MpiTransport final : public Transport {
 
 }  // namespace
 
+const char* name_of_mpi() {
+#if defined(OPEN_MPI)
+  return "Open MPI";
+#elif defined(I_MPI_VERSION)
+  return "Intel MPI";
+#elif defined(MPICH_VERSION)
+  return "MPICH";
+#else
+  return "another MPI";
+#endif
+}
+
 std::unique_ptr<Transport> make_mpi_transport(int* argc, char*** argv) {
   return std::make_unique<MpiTransport>(argc, argv);
 }

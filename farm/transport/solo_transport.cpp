@@ -47,28 +47,39 @@ bool launched_by_mpi() {
 
 namespace {
 
+// 0 where it is not set.
 int number(const char* variable) {
   const char* text = std::getenv(variable);
-  return text ? std::atoi(text) : 1;
+  return text ? std::atoi(text) : 0;
+}
+
+// By the environment that a launcher leaves, how many processes it started at least.
+int processes_of_launcher() {
+  // mpirun's ranks are not the tasks of srun that it may run under.
+  if (const int ranks = number("OMPI_COMM_WORLD_SIZE")) return ranks;
+  int processes = 1;
+  // MPICH and Intel MPI (Hydra), MVAPICH; the last two are of one host.
+  for (const char* size : {"PMI_SIZE", "MV2_COMM_WORLD_SIZE", "MPI_LOCALNRANKS", "MV2_COMM_WORLD_LOCAL_SIZE"})
+    processes = std::max(processes, number(size));
+  // Hydra's -pmi-port and PMIx tell no size.
+  for (const char* rank : {"PMI_RANK", "PMI_ID", "PMIX_RANK"})
+    processes = std::max(processes, number(rank) + 1);
+  return processes;
 }
 
 // Of one process that was started with others and does not know of them.
 void require_no_others() {
-  if (std::getenv("OMPI_COMM_WORLD_SIZE")) return;
-  // Of the step that srun started this process in; mpirun's ranks are not srun's tasks.
-  if (const int tasks = number("SLURM_STEP_NUM_TASKS"); tasks > 1)
+  if (const int tasks = number("SLURM_STEP_NUM_TASKS"); tasks > 1 && !std::getenv("OMPI_COMM_WORLD_SIZE"))
     throw UsageError(fmt::format(
         "srun started {} tasks that do not know of each other, and each would render everything: start the "
         "ranks with mpirun, or with srun --mpi=pmix where Slurm and Open MPI have it",
         tasks));
-  // MPICH and Intel MPI, MVAPICH.
-  for (const char* size : {"PMI_SIZE", "MV2_COMM_WORLD_SIZE"})
-    if (const int ranks = number(size); ranks > 1)
-      throw UsageError(
-          fmt::format("the mpiexec of another MPI started {} processes that do not know of each other, and "
-                      "each would render everything: this program is built with Open MPI, start the ranks "
-                      "with its mpirun",
-                      ranks));
+  if (const int processes = processes_of_launcher(); processes > 1)
+    throw UsageError(
+        fmt::format("the launcher of another MPI started {} processes that do not know of each other, and "
+                    "each would render everything: this program is built with {}, start the ranks with its "
+                    "mpirun",
+                    processes, name_of_mpi()));
 }
 
 }  // namespace

@@ -71,6 +71,8 @@ class Transport {
 // another MPI, started several processes that do not know of each other.
 std::unique_ptr<Transport> make_transport(int* argc, char*** argv);
 bool launched_by_mpi();
+// Returns "Open MPI" or the name of another MPI that this program is built with.
+const char* name_of_mpi();
 std::unique_ptr<Transport> make_mpi_transport(int* argc, char*** argv);
 
 }  // namespace vitrail

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/system/machine_limits.h"
 
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 namespace vitrail {
 
@@ -53,16 +58,44 @@ void take(ControlGroupLimits& limits, const fs::path& group) {
                    number_in(group / "cpu.cfs_period_us", -1));
 }
 
+// Of "4", and of "4(x2),3" the first: this node's number is not told, and the first has the most.
 std::uint64_t number_of(const char* variable) {
   const char* text = std::getenv(variable);
   return text ? std::strtoull(text, nullptr, 10) : 0;
 }
 
-std::uint64_t bytes_by_slurm() {
-  constexpr std::uint64_t mib = 1 << 20;
-  if (number_of("SLURM_JOB_ID") == 0) return 0;
-  if (const std::uint64_t node = number_of("SLURM_MEM_PER_NODE")) return node * mib;
-  return number_of("SLURM_MEM_PER_CPU") * number_of("SLURM_CPUS_ON_NODE") * mib;
+bool is_slurm() { return number_of("SLURM_JOB_ID") > 0; }
+
+// The first line that scontrol says, "" where it does not answer.
+std::string said_by_slurm() {
+  const char* const step = std::getenv("SLURM_STEP_ID");
+  const std::string ask =
+      "timeout 5 scontrol -o show " +
+      (step ? "step " + std::to_string(number_of("SLURM_JOB_ID")) + "." + std::to_string(std::atoi(step))
+            : "job " + std::to_string(number_of("SLURM_JOB_ID"))) +
+      " 2>/dev/null";
+  std::FILE* answer = ::popen(ask.c_str(), "r");
+  if (!answer) return {};
+  std::string text(1 << 14, '\0');
+  if (!std::fgets(text.data(), static_cast<int>(text.size()), answer)) text.clear();
+  ::pclose(answer);
+  return text.c_str();
+}
+
+// glibc 2.36's get_nprocs, and so std::thread::hardware_concurrency, does not look at it.
+double processors_by_affinity() {
+  std::vector<cpu_set_t> sets(16);  // of 1024 processors each
+  const std::size_t bytes = sets.size() * sizeof(cpu_set_t);
+  if (::sched_getaffinity(0, bytes, sets.data()) == 0) return CPU_COUNT_S(bytes, sets.data());
+  return std::thread::hardware_concurrency();
+}
+
+// Whole ones, by Slurm; 0: it says nothing.
+std::uint64_t processors_by_slurm() {
+  if (!is_slurm()) return 0;
+  if (const std::uint64_t of_task = number_of("SLURM_CPUS_PER_TASK")) return of_task;
+  const std::uint64_t of_node = number_of("SLURM_CPUS_ON_NODE");
+  return of_node > 0 ? std::max<std::uint64_t>(1, of_node / processes_of_node()) : 0;
 }
 
 const ControlGroupLimits& own_limits() {
@@ -92,19 +125,60 @@ ControlGroupLimits control_group_limits(const std::string& own, const fs::path& 
   return limits;
 }
 
-MemoryLimit memory_limit() {
+std::uint64_t memory_a_node(const std::string& said) {
+  const std::size_t tres = said.rfind("TRES=");
+  if (tres == said.npos) return 0;
+  const std::string list = said.substr(tres, said.find(' ', tres) - tres);
+  const auto number_after = [&](const char* key, const char** end) {
+    const std::size_t at = list.find(key);
+    return at == list.npos ? 0.0 : std::strtod(list.c_str() + at + std::strlen(key), const_cast<char**>(end));
+  };
+  const char *unit = "", *ignored = "";
+  const double memory = number_after("mem=", &unit), nodes = number_after("node=", &ignored);
+  constexpr std::string_view units = "KMGTP";
+  const std::size_t power = units.find(*unit);
+  const double bytes =
+      std::ldexp(memory, power == units.npos || *unit == '\0' ? 20 : 10 * static_cast<int>(power + 1));
+  return static_cast<std::uint64_t>(bytes / std::max(nodes, 1.0));
+}
+
+std::uint64_t slurm_memory() {
+  constexpr std::uint64_t mib = 1 << 20;
+  if (!is_slurm()) return 0;
+  std::uint64_t least = 0;
+  for (const std::uint64_t bytes : {number_of("SLURM_MEM_PER_NODE") * mib,
+                                    number_of("SLURM_MEM_PER_CPU") * number_of("SLURM_CPUS_ON_NODE") * mib,
+                                    memory_a_node(said_by_slurm())})
+    if (bytes > 0 && (least == 0 || bytes < least)) least = bytes;
+  return least;
+}
+
+std::uint64_t processes_of_node() {
+  for (const char* variable : {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "SLURM_STEP_TASKS_PER_NODE"})
+    if (const std::uint64_t processes = number_of(variable)) return processes;
+  return 1;
+}
+
+std::uint64_t MemoryLimit::share(std::uint64_t processes) const {
+  return (is_machine ? bytes / 4 * 3 : bytes / 10 * 9) / processes;
+}
+
+MemoryLimit memory_limit(std::uint64_t slurm_bytes) {
   MemoryLimit limit{static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)),
                     "the machine", true};
   if (own_limits().bytes < limit.bytes) limit = {own_limits().bytes, "the control group", false};
-  if (const std::uint64_t slurm = bytes_by_slurm(); slurm > 0 && slurm < limit.bytes)
-    limit = {slurm, "Slurm", false};
+  if (slurm_bytes > 0 && slurm_bytes < limit.bytes) limit = {slurm_bytes, "Slurm", false};
   return limit;
 }
 
+MemoryLimit memory_limit() { return memory_limit(slurm_memory()); }
+
 int processors_allowed() {
-  const double by_affinity = std::max(1.0, static_cast<double>(std::thread::hardware_concurrency()));
-  return static_cast<int>(std::max(1.0, std::ceil(std::min(by_affinity, own_limits().processors))));
+  double allowed = std::min(processors_by_affinity(), own_limits().processors);
+  if (const std::uint64_t slurm = processors_by_slurm())
+    allowed = std::min(allowed, static_cast<double>(slurm));
+  return static_cast<int>(std::max(1.0, std::ceil(allowed)));
 }
 
 int threads_for(int asked) {

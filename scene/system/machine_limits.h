@@ -10,16 +10,33 @@
 
 namespace vitrail {
 
-// The least of what Slurm gave the job (SLURM_MEM_PER_NODE, or SLURM_MEM_PER_CPU times SLURM_CPUS_ON_NODE,
-// MiB), the control groups around this process allow (versions 1 and 2) and the machine has.
+// The memory of this machine that a job may have.
 struct MemoryLimit {
   std::uint64_t bytes = 0;  // of all processes of this job on this machine together
   const char* giver = "";   // "Slurm", "the control group" or "the machine"
   bool is_machine = false;
+  // Returns what one of so many processes takes where the user gives no other: nine tenths, for MPI and the
+  // system take some; of the machine, which others use too, three quarters.
+  std::uint64_t share(std::uint64_t processes = 1) const;
 };
-MemoryLimit memory_limit();
 
-// By affinity and by the control groups' quota, of which a part of a processor counts as one; at least 1.
+// Returns the least of what Slurm gave the job (slurm_memory), the control groups around this process allow
+// (versions 1 and 2) and the machine has. The second is for ranks that were told what Slurm gave; 0: nothing.
+MemoryLimit memory_limit();
+MemoryLimit memory_limit(std::uint64_t slurm_bytes);
+
+// Returns the bytes that Slurm gave this step, or this job, on one of its nodes; 0 where it says nothing.
+// Asks scontrol, for srun leaves its --mem in no variable: on one rank alone. The least of the answer,
+// SLURM_MEM_PER_NODE, and SLURM_MEM_PER_CPU times SLURM_CPUS_ON_NODE, in MiB.
+std::uint64_t slurm_memory();
+// Returns the bytes a node by what scontrol says of a job or step in one line: TRES=cpu=2,mem=200M,node=1.
+std::uint64_t memory_a_node(const std::string& said);
+
+// Returns how many processes of this job are on this machine, as mpirun and srun say; 1 where they do not.
+std::uint64_t processes_of_node();
+
+// Returns the least of affinity, the control groups' quota, of which a part of a processor counts as one, and
+// what Slurm gave this task (SLURM_CPUS_PER_TASK, or its part of SLURM_CPUS_ON_NODE); at least 1.
 int processors_allowed();
 
 // Returns the threads that are asked for, at most 64 or four a processor: more would only take memory. For 0

@@ -17,7 +17,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FAULTS = ROOT / "build/release/tests/farm/libmessage_faults.so"
-COUNTS = "trace_s", "busiest_trace_s", "domain_loads", "forwarded_rays", "messages"
+COUNTS = "trace_s", "busiest_trace_s", "domain_loads", "forwarded_rays"
 
 
 def run(*command):

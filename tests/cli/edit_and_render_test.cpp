@@ -106,6 +106,30 @@ TEST_F(EditAndRender, PicturesByTheImageLibraryAreCounted) {
   }
 }
 
+// Other programs make them beside rank 0, or it reads the film once more.
+TEST_F(EditAndRender, WhatShowsAPictureIsCounted) {
+  edit({.width = 200});
+  const std::string here = fmt::format("cd '{}' && ", directory_.path().string());
+  ASSERT_EQ(run(here + vitrail("partition") + " scene.pbrt -o s.vit --quiet").status, 0);
+  const auto render_it = [&](const std::string& more) {
+    return run(here + vitrail("render") + " s.vit -o x.png --spp 1 --threads 1 --force " + more);
+  };
+  const auto least = [&](const std::string& more) {
+    const CommandResult refused = render_it("--memory 1M " + more);
+    EXPECT_EQ(refused.status, 4) << refused.output;
+    const std::size_t at = refused.output.find("Give at least ");
+    return at == std::string::npos ? 0 : std::stoi(refused.output.substr(at + 14));
+  };
+  const int alone = least("");
+  EXPECT_GT(alone, 10);
+  EXPECT_GE(least("--preview p.jpg"), alone + 136);
+  EXPECT_GT(least("--display-server localhost:1"), alone);
+  const int shown = least("--preview p.png");
+  EXPECT_GE(shown, alone + 10);
+  const CommandResult made = render_it(fmt::format("--preview p.png --memory {}M", shown));
+  EXPECT_EQ(made.status, 0) << made.output;
+}
+
 TEST_F(EditAndRender, TheLastLineNamesThePicture) {
   const CommandResult done = render("-o x.png --spp 4");
   const std::string text = done.output.substr(0, done.output.size() - 1);

@@ -57,6 +57,27 @@ TEST(Everyday, SaysWhereItStandsAndIsSilentIfAsked) {
   EXPECT_EQ(std::ranges::count(lines.output, '\n'), memory_limit().is_machine ? 2 : 3) << lines.output;
 }
 
+// By --memory, and by what Slurm gives: none is killed for more.
+TEST(Everyday, EachVerbKeepsItsMemory) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const char* name) { return (directory / name).string(); };
+  ASSERT_EQ(run(fmt::format("{} '{}' -o '{}' --spp 1 --width 640 --height 640 --quiet", vitrail("render"),
+                            scene, path("a.film")))
+                .status,
+            0);
+  for (const std::string& command :
+       {fmt::format("{} '{}' -o '{}' --force", vitrail("develop"), path("a.film"), path("a.png")),
+        fmt::format("{} '{}' '{}'", vitrail("compare"), path("a.film"), path("a.film")),
+        fmt::format("{} '{}' '{}' --force", vitrail("convert"), scene, path("a.xml")),
+        fmt::format("{} '{}'", vitrail("inspect"), scene)}) {
+    const CommandResult refused = run(command + " --memory 10M");
+    EXPECT_EQ(refused.status, 4) << command;
+    EXPECT_THAT(refused.output, HasSubstr("10 MiB of memory are too little for ")) << command;
+    EXPECT_EQ(run("SLURM_JOB_ID=7 SLURM_MEM_PER_NODE=12 " + command).status, 4) << command;
+    EXPECT_EQ(run(command + " --memory 300M").status, 0) << command;
+  }
+}
+
 // Standard output holds nothing else.
 TEST(Everyday, ProgressAsJsonLines) {
   const TemporaryDirectory directory;

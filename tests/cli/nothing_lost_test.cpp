@@ -234,11 +234,26 @@ TEST_F(NothingLost, TheSecondJobOnAnOutputIsRefused) {
     const CommandResult second = render(more.empty() ? "a.film" : "a.png", "--spp 1 --force" + more);
     EXPECT_EQ(second.status, 4) << second.output;
     EXPECT_THAT(second.output, HasSubstr("being written by another render (process "));
+    EXPECT_THAT(second.output, HasSubstr("waiting up to 5 s for its end"));
   }
   job.send(SIGKILL);
   job.wait();
   EXPECT_EQ(render("a.film", "--spp 1").status, 0) << "the lock of a killed job is free";
   EXPECT_FALSE(std::filesystem::exists(path("a.film.lock")));
+}
+
+// A rank outlives its mpirun by a moment, and one that was killed gives its locks back last.
+TEST_F(NothingLost, TheNextJobWaitsForOneThatEnds) {
+  Background job(line("a.film", "--spp 60000"));
+  while (job.running() && !std::filesystem::exists(path("a.film.lock"))) std::this_thread::sleep_for(5ms);
+  std::this_thread::sleep_for(100ms);
+  ASSERT_TRUE(job.running());
+  std::jthread killer([&] {
+    std::this_thread::sleep_for(1500ms);
+    job.send(SIGKILL);
+  });
+  const CommandResult next = render("a.film", "--spp 1 --force");
+  EXPECT_EQ(next.status, 0) << next.output;
 }
 
 TEST_F(NothingLost, OutputsAreCheckedBeforeTheWork) {

@@ -52,6 +52,15 @@ class DenoisedBox : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
+// By what it was measured to take: 79 MiB at 64 × 48 pixels.
+TEST_F(DenoisedBox, IsCountedInTheMemoryOfARender) {
+  const CommandResult little = render("x.png", 1, "--denoise --memory 60M");
+  EXPECT_EQ(little.status, 4);
+  EXPECT_THAT(little.output, HasSubstr("Give at least "));
+  const CommandResult enough = render("x.png", 1, "--denoise --memory 110M");
+  EXPECT_EQ(enough.status, 0) << enough.output;
+}
+
 // Measured: the error falls to a thirtieth (docs/why/denoising.md), and the mean of all light stays.
 TEST_F(DenoisedBox, HasItsLightAndLittleOfItsError) {
   ASSERT_EQ(render("box.film", 16, "--aov albedo,normal").status, 0);

@@ -79,16 +79,19 @@ TEST_F(Launchers, TasksOfSrunThatDoNotKnowOfEachOtherAreRefused) {
       << "in the job's script itself";
 }
 
-// As MPICH's, Intel's and MVAPICH's mpiexec leave it to the processes that they start.
+// As MPICH's, Intel's and MVAPICH's mpiexec leave it to the processes that they start, and Hydra's
+// with -pmi-port.
 TEST_F(Launchers, RanksOfAnotherMpiAreRefused) {
   for (const char* started : {"PMI_RANK=1 PMI_SIZE=2", "PMI_RANK=0 PMI_SIZE=2 MPI_LOCALNRANKS=2",
-                              "MV2_COMM_WORLD_RANK=1 MV2_COMM_WORLD_SIZE=2"}) {
+                              "MV2_COMM_WORLD_RANK=1 MV2_COMM_WORLD_SIZE=2",
+                              "PMI_ID=0 PMI_PORT=vm:4711 MPI_LOCALNRANKS=2", "PMI_ID=1 PMI_PORT=vm:4711"}) {
     const CommandResult refused = run(fmt::format("{} {}", started, alone("a.film")));
     EXPECT_EQ(refused.status, 2) << refused.output;
     EXPECT_THAT(refused.output, HasSubstr("another MPI started 2 processes that do not know of each other"));
+    EXPECT_THAT(refused.output, HasSubstr("start the ranks with its mpirun"));
     EXPECT_FALSE(fs::exists(path("a.film")));
   }
-  EXPECT_EQ(run("PMI_RANK=0 PMI_SIZE=1 " + alone("a.film", "--crop 0,8,0,8")).status, 0);
+  EXPECT_EQ(run("PMI_RANK=0 PMI_SIZE=1 MPI_LOCALNRANKS=1 " + alone("a.film", "--crop 0,8,0,8")).status, 0);
 }
 
 TEST_F(Launchers, AJobsMemoryAndTimeAreTaken) {
@@ -108,6 +111,25 @@ TEST_F(Launchers, AJobsMemoryAndTimeAreTaken) {
   EXPECT_TRUE(fs::exists(path("b.film.partial")));
   EXPECT_EQ(run(alone("b.film")).status, 0);
   EXPECT_EQ(hash("b.film"), hash("a.film"));
+}
+
+// srun leaves its --mem in no variable: rank 0 asks once, for all.
+TEST_F(Launchers, TheMemoryOfSrunIsAskedFor) {
+  const std::string tools = path("tools"), asked = path("asked");
+  fs::create_directory(tools);
+  std::ofstream(tools + "/scontrol") << fmt::format(
+      "#!/bin/sh\necho \"$*\" >> '{}'\necho 'JobId=7 TRES=cpu=2,mem=400M,node=1,billing=1 "
+      "MinMemoryNode=400M'\n",
+      asked);
+  fs::permissions(tools + "/scontrol", fs::perms::owner_all);
+  std::string line =
+      mpi_vitrail("render", 2) + arguments("a.film", fmt::format("--stats '{}'", path("stats.json")));
+  line.erase(line.find("--quiet"), 7);
+  const CommandResult made = run(fmt::format("export PATH='{}':\"$PATH\" SLURM_JOB_ID=7; {}", tools, line));
+  EXPECT_EQ(made.status, 0) << made.output;
+  EXPECT_THAT(made.output, HasSubstr("180 MiB a rank, as Slurm gives this job"));
+  EXPECT_EQ(read_json(path("stats.json"))["memory_budget_bytes"], 180u << 20);
+  EXPECT_EQ(text("asked"), "-o show job 7\n");
 }
 
 TEST_F(Launchers, TermToMpirunLeavesWhatCanBeResumed) {

@@ -60,6 +60,25 @@ TEST(Memory, ARefusalDoesNotAdviseWhatDoesNotHelp) {
       << "smaller domains part the objects";
 }
 
+// With more memory tiles take more: the number is that of the budget that it names, at once.
+TEST(Memory, ARefusalReckonsWithTheTilesOfTheBudgetThatItNames) {
+  for (const std::uint64_t all : {0 * mib, 3 * mib, 10 * mib, 400 * mib}) {
+    const auto refusal = [&](std::uint64_t budget) -> std::string {
+      const TileMemory tiles{std::min(all, budget / tile_share), all};
+      try {
+        plan_memory(budget, 20 * mib + tiles.within, 20 * mib, 2, {5 * mib}, 50 * mib, tiles);
+      } catch (const MachineError& error) {
+        return error.what();
+      }
+      return {};
+    };
+    const std::string said = refusal(mib);
+    const std::uint64_t least = std::stoull(said.substr(said.find("at least ") + 9));
+    EXPECT_EQ(refusal(least * mib), "") << all;
+    EXPECT_NE(refusal((least - 4) * mib), "") << all;
+  }
+}
+
 TEST(Memory, FilmIsInFilesWhereItHasNoRoomBesideTheDomains) {
   constexpr std::uint64_t base = 20 * mib, largest = 5 * mib, all = 60 * mib;
   const auto placed = [&](std::uint64_t film, std::uint64_t budget) {
