@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Patterns by (u,v), beside povray's pictures: which transforms move them, and on which shapes.
-#include "importers/povray/write/write_povray.h"
 #include "tests/importers/povray/povray_pictures.h"
 
 namespace vitrail::povray_uv_test {
@@ -97,10 +96,13 @@ TEST_F(PovrayUvs, Shapes) {
   }
 }
 
-// An image lies as a pattern does; what is written for another program, too.
+// An image lies as a pattern does.
 TEST_F(PovrayUvs, ImagesOnShapes) {
-  folder_.write("a.ppm",
-                "P3 4 2 255\n255 0 0  0 255 0  0 0 255  255 255 255\n128 0 0  0 128 0  0 0 128  30 30 30\n");
+  // Of 4 × 2 pixels.
+  folder_.write(
+      "a.ppm",
+      "P6\n4 2\n255\n\xff\x10\x10\x10\xff\x10\x10\x10\xff\xff\xff\xff\x80\x10\x10\x10\x80\x10\x10\x10\x80"
+      "\x20\x20\x20");
   for (const char* shape : {"sphere { 0, 1.2", "box { -1, 1", "torus { 1, .4", "cylinder { -y, y, .8"})
     expect_alike(std::string("#version 3.7; global_settings { assumed_gamma 1 }\n"
                              "camera { location <.3, .2, -4> look_at 0 angle 50 } background { rgb .1 }\n") +
