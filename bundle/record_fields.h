@@ -196,9 +196,22 @@ void fields(auto& io, Is<PtexTexture> auto&) {
   if constexpr (reads<decltype(io)>) io.stream.fail("a texture is not baked");
   throw std::logic_error("a bundle takes baked textures");
 }
+// The kind of a pattern has 128 added where it is looked up by (u,v).
+void pattern_kind(auto& io, Is<PatternTexture> auto& t) {
+  constexpr std::uint8_t by_uv = 128;
+  auto byte = static_cast<std::uint8_t>(static_cast<std::uint8_t>(t.kind) | (t.by_uv ? by_uv : 0));
+  io(byte);
+  if constexpr (reads<decltype(io)>) {
+    t.by_uv = (byte & by_uv) != 0;
+    byte = static_cast<std::uint8_t>(byte & ~by_uv);
+    if (byte > static_cast<std::uint8_t>(last_of<PatternTexture::Kind>))
+      io.stream.fail("a record has an unknown choice");
+    t.kind = static_cast<PatternTexture::Kind>(byte);
+  }
+}
 // Only those of the feature `formulas` have a formula. Patterns in it have none: a file cannot nest them.
 void plain_fields(auto& io, Is<PatternTexture> auto& t) {
-  visit_fields(t, [&](auto&... field) { (fields(io, field), ...); });
+  visit_fields(t, [&](auto&, auto&... field) { pattern_kind(io, t), (fields(io, field), ...); });
 }
 void fields(auto& io, Is<PatternTexture> auto& t) {
   plain_fields(io, t);

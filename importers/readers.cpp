@@ -32,7 +32,7 @@ ImportedScene read_obj_scene(ReadRequest request) {
 
 // As many vertices as the longest list has, shared out by triangles; the lists and corners are held beside
 // them.
-SkimmedScene skim_obj(ReadRequest request) {
+SkimmedScene skim_obj(const ReadRequest& request) {
   const ObjCounts counts = count_obj(request.file);
   const std::uint64_t lists = 12 * counts.positions + 8 * counts.uvs + 12 * counts.normals;
   const std::uint64_t a_vertex = 12u + (counts.uvs > 0 ? 8u : 0u) + (counts.normals > 0 ? 12u : 0u);
@@ -94,7 +94,7 @@ const std::vector<Reader>& readers() {
        .adds_view = true,
        .has_definitions = false,
        .has_many_cameras = false,
-       .skim = [](ReadRequest r) { return skim_pbrt(r.file, r.progress, r.options); }},
+       .skim = [](const ReadRequest& r) { return skim_pbrt(r.file, r.progress, r.options); }},
       {.name = "Mitsuba",
        .suffixes = {".xml"},
        .gzipped = true,
@@ -138,7 +138,7 @@ const std::vector<Reader>& readers() {
        .has_definitions = false,
        .has_many_cameras = false,
        .goes_on_without_images = true,
-       .skim = [](ReadRequest r) { return skim_ply_scene(r.file); }},
+       .skim = [](const ReadRequest& r) { return skim_ply_scene(r.file); }},
       {.name = "STL",
        .suffixes = {".stl"},
        .gzipped = true,

@@ -38,7 +38,7 @@ struct Reader {
   // Models, which people hand on without their images more often than not: those are replaced unasked.
   bool goes_on_without_images = false;
   // Null: the format has no reading without its long lists.
-  SkimmedScene (*skim)(ReadRequest request) = nullptr;
+  SkimmedScene (*skim)(const ReadRequest& request) = nullptr;
 };
 
 // All of them, in the order in which they are asked.

@@ -50,7 +50,7 @@ std::vector<Timeline::Event> Timeline::events(Kind kind) const {
   const Ring& ring = rings_[static_cast<std::size_t>(kind)];
   std::vector<Event> all = ring.events;
   if (ring.added > ring.most)
-    std::ranges::rotate(all, all.begin() + static_cast<std::ptrdiff_t>(ring.added % ring.most));
+    std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(ring.added % ring.most), all.end());
   return all;
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <ranges>
 #include <string>
 
 #include "farm/plan/ending_time.h"
@@ -28,8 +27,8 @@ ProgressManner manner_of(ProgressMode mode) {
 // Where there are several ranks: whether some drown in rays while others wait for them.
 std::string waiting_text(const std::vector<RankReport>& ranks) {
   if (ranks.size() < 2) return {};
-  const auto [least, most] = std::ranges::minmax(ranks | std::views::transform(&RankReport::waiting));
-  return fmt::format("{} to {} krays wait on a rank", least / 1000, most / 1000);
+  const auto [least, most] = std::ranges::minmax_element(ranks, {}, &RankReport::waiting);
+  return fmt::format("{} to {} krays wait on a rank", least->waiting / 1000, most->waiting / 1000);
 }
 
 std::vector<std::int64_t> by_rank(const Round& round, std::int64_t RankReport::*number) {

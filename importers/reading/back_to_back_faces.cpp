@@ -90,11 +90,11 @@ class FacesOfSpace {
     std::vector<bool> has_back(corners.size());
     for (auto first = corners.begin(), end = first; first != corners.end(); first = end) {
       end = std::find_if(first, corners.end(), [&](std::uint32_t c) { return place(c) != place(*first); });
-      for (const std::uint32_t c : std::ranges::subrange(first, end))
-        has_back[c] = std::any_of(first, end, [&](std::uint32_t d) { return are_two_sides(c / 3, d / 3); });
+      for (auto c = first; c != end; ++c)
+        has_back[*c] = std::any_of(first, end, [&](std::uint32_t d) { return are_two_sides(*c / 3, d / 3); });
     }
-    std::uint32_t kept = 0;
-    for (std::uint32_t i = 0; i < faces_.size(); ++i)
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < faces_.size(); ++i)
       if (has_back[3 * i] && has_back[3 * i + 1] && has_back[3 * i + 2])
         faces_[kept] = faces_[i], flat_[kept++] = flat_[i];
     faces_.resize(kept), flat_.resize(kept);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "scene/models/pattern.h"
+#include "scene/models/texture_mapping.h"
 #include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
@@ -122,7 +123,8 @@ RGB mean_of_pattern(const PatternTexture& t) {
       const double x = 0.5 + i * steps[axis];
       return side * (x - std::floor(x) - 0.5);
     };
-    const Point3d p{coordinate(0), coordinate(1), coordinate(2)};
+    Point3d p{coordinate(0), coordinate(1), coordinate(2)};
+    if (t.by_uv) p = transform_point(inverse(t.texture_to_world), {p.x / side + 0.5, p.y / side + 0.5, 0});
     if (t.map.empty()) {
       const double value = pattern_value(t, p);
       add({value, value, value}, 1.0 / points);
@@ -135,13 +137,16 @@ RGB mean_of_pattern(const PatternTexture& t) {
   return sum;
 }
 
-std::optional<CheckerboardTexture> solid_checkerboard(const PatternTexture& t) {
+std::optional<CheckerboardTexture> as_checkerboard(const PatternTexture& t) {
   if (t.kind != PatternTexture::Kind::checker || t.map.size() != 2) return std::nullopt;
   if (t.turbulence.amount != Vector3d{} || t.repeat != Vector3d{}) return std::nullopt;
   CheckerboardTexture board;
   board.even = t.map[0].value, board.odd = t.map[1].value;
-  board.solid = true;
-  board.texture_to_world = t.texture_to_world;
+  board.solid = !t.by_uv;
+  if (t.by_uv)
+    board.mapping = uv_mapping(t.texture_to_world);
+  else
+    board.texture_to_world = t.texture_to_world;
   return board;
 }
 

@@ -45,11 +45,11 @@ SheetColors colors_at_normal(const MeasuredSheet& sheet);
 // The mean of noise over space, by sampling: marble's at its defaults.
 RGB mean_of_noise(const NoiseTexture& noise);
 
-// The mean of a pattern over a cube of 16 units around its origin, by sampling. Textures in its map count as
-// 0.5.
+// The mean of a pattern over a cube of 16 units around its origin, or over (u,v) from 0 to 1, by sampling.
+// Textures in its map count as 0.5.
 RGB mean_of_pattern(const PatternTexture& pattern);
-// A pattern that is nothing but the cubes of a solid checkerboard.
-std::optional<CheckerboardTexture> solid_checkerboard(const PatternTexture& pattern);
+// A pattern that is nothing but a checkerboard, of cubes or of squares in (u,v).
+std::optional<CheckerboardTexture> as_checkerboard(const PatternTexture& pattern);
 
 // The mean of the values that meshes have by that name, where there are any, times its scale. Meshes that are
 // left in their files are read for it.

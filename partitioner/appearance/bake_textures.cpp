@@ -312,6 +312,9 @@ void move(std::vector<Texture>& textures, Vector3d by) {
     std::visit(
         [&](auto& model) {
           if constexpr (requires { model.mapping; }) move_mapping(model.mapping);
+          if constexpr (requires { model.by_uv; }) {
+            if (model.by_uv) return;
+          }
           if constexpr (requires { model.texture_to_world; }) moved(model.texture_to_world);
         },
         texture.model);

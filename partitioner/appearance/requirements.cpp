@@ -51,7 +51,7 @@ struct TextureNeeds {
   void operator()(const MixTexture&) {}
   void operator()(const DirectionMixTexture&) {}
   void operator()(const NoiseTexture&) {}
-  void operator()(const PatternTexture&) {}
+  void operator()(const PatternTexture& t) { r.uv |= t.by_uv; }
   void operator()(const PtexTexture&) {}
   void operator()(const MeshAttributeTexture&) {}
 

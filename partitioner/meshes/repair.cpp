@@ -14,7 +14,7 @@ namespace {
 // Equal for triangles with the same corners: turned to its least corner and, unless the two sides are told
 // apart, with the other two sorted.
 Triangle key(Triangle t, bool with_side) {
-  std::ranges::rotate(t, std::ranges::min_element(t));
+  std::rotate(t.begin(), std::ranges::min_element(t), t.end());
   if (!with_side && t[1] > t[2]) std::swap(t[1], t[2]);
   return t;
 }
@@ -25,9 +25,8 @@ void drop_duplicates(std::vector<std::uint32_t>& kept, const std::vector<Triangl
   std::ranges::sort(sorted, [&](std::uint32_t a, std::uint32_t b) {
     return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
   });
-  const auto again =
-      std::ranges::unique(sorted, [&](std::uint32_t a, std::uint32_t b) { return keys[a] == keys[b]; });
-  sorted.erase(again.begin(), again.end());
+  const auto is_same = [&](std::uint32_t a, std::uint32_t b) { return keys[a] == keys[b]; };
+  sorted.erase(std::unique(sorted.begin(), sorted.end(), is_same), sorted.end());
   std::ranges::sort(sorted);
   kept = std::move(sorted);
 }

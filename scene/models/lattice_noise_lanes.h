@@ -112,8 +112,8 @@ VITRAIL_NOISE double noise(Point3d p, std::uint64_t which) {
 VITRAIL_NOISE Vector3d noises(Point3d p) {
   if (!is_within(p)) return {};
   const Place at = place_of(p);
-  const Face a = face_of(at, at.i + 1), b = face_of(at, at.i + 2), c = face_of(at, at.i + 3),
-             d = face_of(at, at.i + 4);
+  const Face a = face_of(at, at.i), b = face_of(at, at.i + 1), c = face_of(at, at.i + 2),
+             d = face_of(at, at.i + 3);
   return {between(at, a, b), between(at, b, c), between(at, c, d)};
 }
 

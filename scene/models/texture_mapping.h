@@ -13,6 +13,13 @@ struct PreparedMapping {
   Transform world_to_texture;  // of all but uv
 };
 
+// What takes (u, v, 0) to the (s,t) of a texture, by the inverse of its transform.
+inline UvMapping uv_mapping(const Transform& texture_to_uv) {
+  const Transform m = inverse(texture_to_uv);
+  const auto at = [&](std::size_t row, std::size_t column) { return static_cast<float>(m.m[row][column]); };
+  return {at(0, 0), at(0, 1), at(0, 3), at(1, 0), at(1, 1), at(1, 3)};
+}
+
 struct MappedPoint {
   double s = 0, t = 0;
 };

@@ -59,7 +59,7 @@ auto visit_fields(Is<PatternFractal> auto& p, auto&& f) {
   return f(p.kind, p.is_julia, p.seed, p.exponent, p.iterations, p.outside, p.inside, p.outside_factor,
            p.inside_factor);
 }
-// Without what belongs to a formula, which refers to no other records.
+// Without what belongs to a formula, which refers to no other records, and without `by_uv`.
 auto visit_fields(Is<PatternTexture> auto& t, auto&& f) {
   return f(t.kind, t.texture_to_world, t.repeat, t.turbulence, t.frequency, t.phase, t.wave, t.exponent,
            t.direction, t.brick, t.crackle, t.arms, t.agate_turb, t.iterations, t.map);

@@ -93,8 +93,10 @@ struct PatternTexture {
   };
   Kind kind = Kind::checker;
   // The point that the pattern is looked up at is that of the world under the inverse of this, whatever
-  // instance has it; then in the first tile, then moved by turbulence.
+  // instance has it; then in the first tile, then moved by turbulence. By (u,v) it is (u, v, 0) in place of
+  // that of the world. Normals are tilted by the world's alone.
   Transform texture_to_world;
+  bool by_uv = false;
   Vector3d repeat{0, 0, 0};  // `warp { repeat }`: tiles from 0 to this along an axis; 0: none along it
   PatternTurbulence turbulence;
   float frequency = 1, phase = 0;

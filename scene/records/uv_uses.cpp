@@ -25,6 +25,10 @@ struct Search : FieldSearch<Search> {
     if (!t.solid) in(t.mapping);
     in(t.even), in(t.odd);
   }
+  void in(const PatternTexture& t) {
+    found = found || t.by_uv;
+    in(t.map);
+  }
 };
 
 }  // namespace

@@ -88,6 +88,7 @@ TEST_F(ManifestFile, WhatPovRayHas) {
   PatternTexture pattern;
   pattern.kind = PatternTexture::Kind::wood;
   pattern.turbulence.amount = {1, 2, 3};
+  pattern.by_uv = true;
   pattern.map = {{0, ConstantSpectrum{0}}, {0.5f, Id<Texture>{0}}};
   m.textures.push_back({pattern});
   EXPECT_EQ(features_of(m).required & (fadings | glows | patterns), fadings | glows | patterns);

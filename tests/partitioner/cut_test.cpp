@@ -72,7 +72,7 @@ TEST(Cut, PartsWithAnEdgeInThePlaneDoNotOverlap) {
     split_polygon(polygon, {0, 1}, below, above);
     EXPECT_DOUBLE_EQ(polygon_area(below) + polygon_area(above), polygon_area(polygon));
     EXPECT_EQ(below.size() + above.size(), 7u);
-    std::ranges::rotate(polygon, polygon.begin() + 1);
+    std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
     if (turn == 3) std::ranges::reverse(polygon);
   }
 }

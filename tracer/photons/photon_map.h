@@ -57,8 +57,10 @@ template <class IsOf>
 SampledSpectrum PhotonMap::at_sensor(const Gather& at, std::uint32_t max_depth, std::uint64_t& found,
                                      const IsOf& is_of) const {
   std::array<double, hero_count> sum{};
-  for (const Placed& placed : std::ranges::equal_range(photons_, cell_of(at.p), {}, &Placed::cell)) {
-    const Photon& photon = placed.photon;
+  const std::uint64_t cell = cell_of(at.p);
+  for (auto placed = std::ranges::lower_bound(photons_, cell, {}, &Placed::cell);
+       placed != photons_.end() && placed->cell == cell; ++placed) {
+    const Photon& photon = placed->photon;
     if (!std::ranges::equal(photon.p, at.p) || !(photon.direction == at.out) || !is_of(photon.number))
       continue;
     if (std::uint32_t{photon.depth} % Photon::dispersed + 1 > max_depth) continue;

@@ -22,8 +22,8 @@ SensorDiscs::SensorDiscs(std::span<const Sensor> sensors) {
   if (sensors.empty()) return;
   for (const Sensor& sensor : sensors) discs_.push_back({sensor, SensorName::of(sensor)});
   std::ranges::stable_sort(discs_, is_before);
-  const auto same = std::ranges::unique(discs_, {}, &Disc::name);
-  discs_.erase(same.begin(), same.end());
+  const auto is_same = [](const Disc& a, const Disc& b) { return a.name == b.name; };
+  discs_.erase(std::unique(discs_.begin(), discs_.end(), is_same), discs_.end());
   build(0, static_cast<std::uint32_t>(discs_.size()));
   middle_ = nodes_.front().centre;
 }

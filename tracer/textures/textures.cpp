@@ -249,7 +249,8 @@ struct Evaluation {
     return lookup.constant(static_cast<float>(noise_value(t, p)));
   }
   Value operator()(const PatternTexture& t) const {
-    const Point3d p = transform_point(node.world_to_solid, lookup.at.p);
+    const Point3d at = t.by_uv ? Point3d{lookup.at.uv.x, lookup.at.uv.y, 0} : lookup.at.p;
+    const Point3d p = transform_point(node.world_to_solid, at);
     const Vector3d n = lookup.at.normal * lookup.at.side;
     if (t.map.empty()) return lookup.constant(static_cast<float>(pattern_value(t, p, n)));
     const PatternMix mix = pattern_mix(t, p, n);

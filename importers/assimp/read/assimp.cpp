@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "importers/assimp/asset.h"
 #include "importers/assimp/read/asset_file.h"
@@ -116,6 +117,9 @@ class SceneReader {
       targets_ = facts.targets;
       if (facts.has_orthographic_camera && !asset_.cameras.empty())
         note(Fidelity::approximated, "an orthographic camera: it is a perspective one", RecordKind::camera);
+      if (facts.has_vertical_angles)
+        for (AssetCamera& camera : asset_.cameras)
+          camera.vertical_fov_deg = std::exchange(camera.horizontal_fov_deg, 0);
     }
   }
 

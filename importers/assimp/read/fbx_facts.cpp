@@ -81,18 +81,18 @@ void add_target_of_binary(std::string_view bytes, std::size_t at, FbxFacts& fact
   if (target && looker) facts.targets.emplace(binary_name(bytes, *looker), binary_name(bytes, *target));
 }
 
-// The last number of the property: 1 is orthographic.
-bool is_orthographic_in_text(std::string_view line) {
+// The last number of the property, 0 without one.
+int choice_in_text(std::string_view line) {
   const std::size_t comma = line.rfind(',');
   int value = 0;
-  if (comma == std::string_view::npos) return false;
+  if (comma == std::string_view::npos) return 0;
   std::string_view number = line.substr(comma + 1);
   while (number.starts_with(' ')) number.remove_prefix(1);
   std::from_chars(number.data(), number.data() + number.size(), value);
-  return value == 1;
+  return value;
 }
 
-bool is_orthographic_in_binary(std::string_view bytes, std::size_t at) {
+int choice_in_binary(std::string_view bytes, std::size_t at) {
   constexpr std::size_t reach = 64;  // texts of the property's type, then its value
   for (std::size_t i = at; i < std::min(at + reach, bytes.size()); ++i) {
     const auto length = value_at<std::uint32_t>(bytes, i, 'S');
@@ -100,15 +100,16 @@ bool is_orthographic_in_binary(std::string_view bytes, std::size_t at) {
       i += 4 + *length;
       continue;
     }
-    if (const auto value = value_at<std::int32_t>(bytes, i, 'I')) return *value == 1;
+    if (const auto value = value_at<std::int32_t>(bytes, i, 'I')) return *value;
   }
-  return false;
+  return 0;
 }
 
 }  // namespace
 
 FbxFacts fbx_facts(std::string_view bytes) {
-  constexpr std::string_view look_at = "LookAtProperty", projection = "CameraProjectionType";
+  constexpr std::string_view look_at = "LookAtProperty", projection = "CameraProjectionType",
+                             aperture = "ApertureMode";
   const bool is_binary = bytes.starts_with("Kaydara FBX Binary");
   FbxFacts facts;
   int left = 1000;  // each looks for two names in all of the file
@@ -117,10 +118,15 @@ FbxFacts fbx_facts(std::string_view bytes) {
     is_binary ? add_target_of_binary(bytes, at, facts) : add_target_of_text(bytes, at, facts);
   });
   facts.targets.erase("");
-  each(bytes, projection, [&](std::size_t at) {
-    facts.has_orthographic_camera |= is_binary ? is_orthographic_in_binary(bytes, at + projection.size())
-                                               : is_orthographic_in_text(line_around(bytes, at));
-  });
+  const auto choice = [&](std::size_t at, std::string_view name) {
+    return is_binary ? choice_in_binary(bytes, at + name.size()) : choice_in_text(line_around(bytes, at));
+  };
+  constexpr int orthographic = 1, vertical = 2;
+  each(bytes, projection,
+       [&](std::size_t at) { facts.has_orthographic_camera |= choice(at, projection) == orthographic; });
+  // First the value of those that state none, then their own.
+  each(bytes, aperture,
+       [&](std::size_t at) { facts.has_vertical_angles = choice(at, aperture) == vertical; });
   return facts;
 }
 

@@ -89,8 +89,7 @@ class TextureWriter {
     return name_of(t.kind);
   }
   const char* operator()(const PatternTexture& t) {
-    texture_to_world_ = t.texture_to_world;
-    if (const auto board = solid_checkerboard(t)) return (*this)(*board);
+    if (const auto board = as_checkerboard(t)) return (*this)(*board);
     const RGB mean = mean_of_pattern(t);
     p_.dropped(
         fmt::format("pbrt has no patterns of POV-Ray's; the mean stands for it, rgb {:.3g} {:.3g} {:.3g}",

@@ -82,13 +82,17 @@ std::optional<FloatParameter> Surfaces::bump_of_image(const Bump& bump, const Tr
   const double steps = std::sqrt(static_cast<double>(values.width()) * values.height()) * bump_step;
   const double size = 1 / steps;
   const SpectrumParameter height =
-      image_texture(image, bump.pattern, to_world, Part::grey, false, {}, bump.size * bump_step, bump.place);
+      image_texture(image, bump.pattern, to_world, Part::grey, false, bump.size * bump_step, bump.place);
   return add(carrier_of(height, to_world * scale({size, size, size})), true, bump.place);
 }
 
 std::optional<FloatParameter> Surfaces::bump_of_pigment(const Bump& bump, const Transform& to_world,
                                                         double height) {
   const Pigment& pigment = *bump.pattern.pigment;
+  if (pigment.pattern.uv_mapping) {
+    dropped("a normal by a pigment in (u,v): the surface is smooth", bump.place);
+    return std::nullopt;
+  }
   note_modifiers(bump.pattern, bump.place);
   if (bump.map) approximated("a slope_map of a pigment_pattern: without it", bump.place);
   const SpectrumParameter grey =
@@ -120,7 +124,7 @@ std::optional<FloatParameter> Surfaces::bump_texture(const Bump& bump, const Tra
             bump.place);
     return std::nullopt;
   }
-  auto made = pattern_texture(bump.pattern, to_world, bump.place);
+  auto made = pattern_texture(bump.pattern, to_world, false, bump.place);
   if (!made) return std::nullopt;
   const double height = height_of(bump, to_world);
   if (bump.map && bump.map->kind == Word::slope_map_ && !is_of_places(made->kind) &&
@@ -160,7 +164,7 @@ Id<Material> Surfaces::bumpy(const Body& body, const Bump* bump, const Transform
     if (result) {
       const FloatParameter amount =
           average ? FloatParameter{static_cast<float>(weights > 0 ? entry.at / weights : 0)}
-                  : amount_texture(bump->pattern, to_world, before, entry.at, bump->place, list, i);
+                  : amount_texture(bump->pattern, to_world, false, before, entry.at, bump->place, list, i);
       result = add(BlendMaterial{*result, made, amount}, bump->place);
     } else {
       result = made;

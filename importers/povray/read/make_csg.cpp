@@ -50,6 +50,13 @@ bool is_endless(const Shared<Object>& object) {
   return std::holds_alternative<PlaneShape>(object->shape) || (solid && solid->unbounded);
 }
 
+SurfaceUvs uvs_of(const Object& object) {
+  if (const auto* s = std::get_if<SphereShape>(&object.shape)) return sphere_uvs(s->center);
+  if (const auto* s = std::get_if<BoxShape>(&object.shape)) return box_uvs(s->corner1, s->corner2);
+  const auto* const solid = std::get_if<SolidShape>(&object.shape);
+  return solid ? solid->uvs : SurfaceUvs{};
+}
+
 }  // namespace
 
 std::optional<solids::Csg> SceneMaker::shape_csg(const Object& object, std::uint32_t surface) {
@@ -107,6 +114,7 @@ std::optional<solids::Csg> SceneMaker::csg_of(const Object& object, const Transf
         result = unite(std::move(operands));
     }
   } else {
+    own.uvs = moved(uvs_of(object), to_set);
     looks.push_back(own);
     try {
       result = shape_csg(object, static_cast<std::uint32_t>(looks.size() - 1));
@@ -148,7 +156,7 @@ std::vector<SceneMaker::Piece> SceneMaker::evaluated(const solids::Csg& csg, con
   for (const std::uint32_t surface : solids::surfaces_of(result.solid)) {
     TriangleMesh mesh = solids::mesh_of(result.solid, surface);
     if (mesh.triangles.empty()) continue;
-    Piece piece{add_mesh(std::move(mesh)), {}, {}};
+    Piece piece = piece_with(std::move(mesh), surface < looks.size() ? looks[surface].uvs : SurfaceUvs{});
     if (surface < looks.size() && (looks[surface].texture || looks[surface].interior))
       piece.look = looks[surface];
     pieces.push_back(piece);

@@ -126,8 +126,9 @@ void Surfaces::put_above(const pov::Texture& texture, const Transform& to_world,
     for (std::size_t i = 0; i < 3; ++i)
       look.filter_above[i] *= std::clamp((v[i] * filter + transmit) / all, 0.0, 1.0);
   } else {
-    const Transform placed = to_world * texture.to_object * pigment.to_object;
-    look.tint = tinted(color_texture(pigment, placed, Part::filtered, 1, look.by_uv), look, texture.place);
+    const Transform placed = placed_in(to_world, texture) * pigment.to_object;
+    const bool by_uv = look.by_uv || texture.by_uv;
+    look.tint = tinted(color_texture(pigment, placed, Part::filtered, 1, by_uv), look, texture.place);
   }
 }
 
@@ -169,7 +170,10 @@ void Surfaces::add_glow_alone(std::vector<std::pair<double, Layer>>& layers, con
   layers[0].second.material = add(InterfaceMaterial{}, place);
 }
 
-Surfaces::Layer Surfaces::layered(const pov::Texture& texture, const Transform& to_world, const Look& look) {
+Surfaces::Layer Surfaces::layered(const pov::Texture& texture, const Transform& to_world,
+                                  const Look& around) {
+  Look look = around;
+  look.by_uv = look.by_uv || texture.by_uv;
   if (texture.layers.empty())
     return texture.pattern ? blended(texture, to_world, look) : layer_of(texture, to_world, look);
   Layer result;
@@ -181,7 +185,7 @@ Surfaces::Layer Surfaces::layered(const pov::Texture& texture, const Transform& 
     Look worn = look;
     worn.covers = look.covers || i > 0;
     for (std::size_t j = i + 1; j < layers.size(); ++j) put_above(*layers[j], to_world, worn);
-    const Layer above = layered(one, to_world * one.to_object, worn);
+    const Layer above = layered(one, placed_in(to_world, one), worn);
     const float* const opacity = std::get_if<float>(&above.opacity);
     if (i == 0 || (opacity && *opacity >= 1)) {
       result = above;
@@ -206,7 +210,7 @@ Surfaces::Layer Surfaces::blended(const pov::Texture& texture, const Transform& 
   if (texture.map)
     for (const BlendEntry& entry : texture.map->entries)
       if (entry.texture)
-        layers.emplace_back(entry.at, layered(*entry.texture, to_world * entry.texture->to_object, look));
+        layers.emplace_back(entry.at, layered(*entry.texture, placed_in(to_world, *entry.texture), look));
   if (layers.empty()) {
     dropped("a pattern of textures without textures: black", texture.place);
     return layer_of({}, to_world, look);
@@ -221,8 +225,8 @@ Surfaces::Layer Surfaces::blended(const pov::Texture& texture, const Transform& 
     const FloatParameter amount =
         kind == Word::average_
             ? FloatParameter{static_cast<float>(weights > 0 ? layers[i].first / weights : 0)}
-            : amount_texture(*texture.pattern, to_world, layers[i - 1].first, layers[i].first, texture.place,
-                             list, i);
+            : amount_texture(*texture.pattern, to_world, look.by_uv, layers[i - 1].first, layers[i].first,
+                             texture.place, list, i);
     result = mixed(result, layers[i].second, amount, texture.place);
   }
   return result;

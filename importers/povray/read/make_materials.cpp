@@ -90,8 +90,8 @@ std::string key_of(const Finish& f) {
 }
 
 std::string key_of(const Look& look) {
-  std::string key = fmt::format("{},{},{};", static_cast<const void*>(look.interior.get()), look.by_uv,
-                                look.double_illuminate);
+  std::string key = fmt::format("{},{},{},{};", static_cast<const void*>(look.interior.get()), look.by_uv,
+                                look.uvs_are_places, look.double_illuminate);
   if (!look.texture) return key;
   const pov::Texture& t = *look.texture;
   if (t.layers.empty() && !t.pattern && !t.normal && t.pigment && t.pigment->color) {
@@ -103,8 +103,9 @@ std::string key_of(const Look& look) {
                      static_cast<const void*>(t.normal.get()));
   if (t.pattern || !t.layers.empty())
     key += fmt::format("t{};", static_cast<const void*>(look.texture.get()));
-  if (is_plain(t)) return key;
-  const Transform placed = look.to_world * t.to_object;
+  const bool by_uv = look.by_uv || t.by_uv;
+  if (is_plain(t) && !by_uv) return key;
+  const Transform placed = by_uv ? t.to_object : look.to_world * t.to_object;
   for (const auto& row : placed.m) key += fmt::format("{},{},{},{};", row[0], row[1], row[2], row[3]);
   return key;
 }
@@ -117,7 +118,9 @@ bool is_plain(const Pigment& pigment) {
 }
 
 bool is_plain(const pov::Texture& texture) {
-  if (texture.pattern || texture.normal) return false;
+  if (texture.normal) return false;
+  if (texture.by_uv) return true;
+  if (texture.pattern) return false;
   for (const auto& layer : texture.layers)
     if (!is_plain(*layer)) return false;
   return !texture.pigment || is_plain(*texture.pigment);
@@ -184,7 +187,10 @@ Surface Surfaces::of_sides(const Look& look, const Place& place) {
 Surface Surfaces::made(const Look& look) {
   static const auto black = std::make_shared<pov::Texture>();
   const pov::Texture& texture = look.texture ? *look.texture : *black;
-  const Transform to_world = look.to_world * texture.to_object;
+  constexpr double flat = 1e9;
+  uvs_are_places_ = look.uvs_are_places;
+  uv_space_ = uvs_are_places_ ? scale({1, 1, flat}) : Transform{};
+  const Transform to_world = placed_in(look.by_uv ? uv_space_ : look.to_world, texture);
   const bool alone = texture.layers.empty() && !texture.pattern;
   const Layer result = alone ? layer_of(texture, to_world, look, alone) : layered(texture, to_world, look);
   Surface surface{result.material, std::nullopt, result.opacity};
@@ -207,6 +213,7 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
     return Shared<Pigment>(pigment);
   }();
   Look look = given;
+  look.by_uv = look.by_uv || texture.by_uv;
   const Shared<Pigment> own = filtered_by(texture.pigment ? *texture.pigment : *black, look.filter_above);
   const Pigment& pigment = *own;
   const auto& [r, g, b] = look.filter_above;
@@ -228,6 +235,8 @@ Surfaces::Layer Surfaces::layer_of(const pov::Texture& texture, const Transform&
                 is_glazed(finish, look.interior.get(), *opacity);
   if (clear || colored || (body.glazed && *opacity < 1)) body.solid = *opacity;
   const Bump* const bump = texture.normal.get();
+  if (bump && (look.by_uv || bump->pattern.uv_mapping))
+    approximated("uv_mapping of a normal: it lies by position", bump->place);
   layer.material = bumpy(body, bump, bump ? to_world * bump->to_object : to_world);
   if (body.solid) layer.opacity = 1.0f;
   std::array<double, 3> factors;

@@ -33,12 +33,19 @@ std::optional<TriangleMesh> rectangle(const BoxShape& box) {
 
 }  // namespace
 
+SceneMaker::Piece SceneMaker::piece_with(TriangleMesh mesh, const SurfaceUvs& uvs) {
+  if (!uvs.at || !reader_.has_uv_mapping) return {add_mesh(std::move(mesh)), {}, {}};
+  return {add_mesh(with_uvs(mesh, uvs)), {}, {}, true, true};
+}
+
 std::vector<SceneMaker::Piece> SceneMaker::pieces_of(const Object& object) {
   if (const auto* s = std::get_if<SphereShape>(&object.shape)) {
     if (!(s->radius > 0)) return {};
     return {{quadric_mesh({QuadricKind::sphere}),
              translate(s->center - Point3d{}) * scale({s->radius, s->radius, s->radius}),
-             {}}};
+             {},
+             true,
+             true}};
   }
   if (const auto* s = std::get_if<DiscShape>(&object.shape)) {
     if (!(s->radius > s->hole_radius)) return {};
@@ -54,13 +61,16 @@ std::vector<SceneMaker::Piece> SceneMaker::pieces_of(const Object& object) {
       reader_.notes.dropped("a box without volume", reader_.location(object.place));
       return {};
     }
-    return {{add_mesh(solids::mesh_of(solids::box(s->corner1, s->corner2))), {}, {}}};
+    return {
+        piece_with(solids::mesh_of(solids::box(s->corner1, s->corner2)), box_uvs(s->corner1, s->corner2))};
   }
   if (const auto* s = std::get_if<MeshShape>(&object.shape)) {
     std::vector<Piece> pieces;
     for (const MeshShape::Part& part : s->parts)
       if (!part.mesh->triangles.empty()) {
-        Piece piece{add_mesh(*part.mesh), {}, {}};
+        TriangleMesh mesh = *part.mesh;
+        if (reader_.has_uv_mapping && mesh.uvs.empty()) mesh.uvs.resize(mesh.positions.size());  // as POV-Ray
+        Piece piece{add_mesh(std::move(mesh)), {}, {}, true, s->has_uvs};
         if (part.texture) piece.look = Look{part.texture, {}, nullptr};
         pieces.push_back(piece);
       }
@@ -71,7 +81,7 @@ std::vector<SceneMaker::Piece> SceneMaker::pieces_of(const Object& object) {
     try {
       TriangleMesh mesh = solids::mesh_of(s->make());
       if (mesh.triangles.empty()) return {};
-      return {{add_mesh(std::move(mesh)), {}, {}}};
+      return {piece_with(std::move(mesh), s->uvs)};
     } catch (const Error& error) {
       reader_.notes.dropped(fmt::format("an object: {}", error.what()), reader_.location(object.place));
       return {};

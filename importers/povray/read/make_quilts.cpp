@@ -26,7 +26,7 @@ std::optional<SpectrumParameter> Surfaces::distance_from_middles(const Pattern& 
                                                                  const Place& place) {
   Pattern along = quilted;
   along.kind = Word::gradient_, along.direction = axis, along.wave = Word::triangle_wave_;
-  auto made = pattern_texture(along, to_world, place);
+  auto made = pattern_texture(along, to_world, false, place);
   if (!made) return std::nullopt;
   made->map.resize(2);
   made->map[0].value = constant(1);

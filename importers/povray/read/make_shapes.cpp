@@ -39,6 +39,14 @@ Transform turned_to_image(const Transform& image_to_sphere) {
   return turn * pole;
 }
 
+// Turns a sphere's own (u,v) to POV-Ray's: around +y, from +x towards +z.
+Transform turned_to_y() {
+  Transform t;
+  t.m[1] = {0, 0, 1, 0};
+  t.m[2] = {0, 1, 0, 0};
+  return t;
+}
+
 // A sheet that lets all light through.
 bool is_clear(const Material& material) {
   const auto* sheet = std::get_if<ThinDielectricMaterial>(&material.model);
@@ -233,6 +241,7 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
     if (piece.look->texture != look.texture) own.interior_texture = nullptr;
   }
   if (piece.look && piece.look->interior) own.interior = piece.look->interior;
+  own.uvs_are_places = reader_.has_uv_mapping && !piece.has_uvs;
   const Surface whole = surfaces_.of(own);
   Surface surface = surfaces_.of_sides(own, object.place);
   const bool has_sides = surface.material != whole.material || surface.glow != whole.glow;
@@ -244,13 +253,18 @@ void SceneMaker::add_piece(const Object& object, const Piece& piece, const Trans
   shape.area_light = surface.glow;
   shape.opacity = surface.opacity;
   shape.object_to_world = to_world * piece.to_object;
+  const bool is_sphere =
+      std::holds_alternative<SphereShape>(object.shape) && scene_.meshes[piece.mesh.value].quadric;
   if (const Pigment* const image = own.texture ? wrapped_image(*own.texture) : nullptr;
-      image && std::holds_alternative<SphereShape>(object.shape) && is_invertible(to_world))
+      image && is_sphere && is_invertible(to_world))
     shape.object_to_world =
         shape.object_to_world *
         turned_to_image(inverse(to_world) * own.to_world * own.texture->to_object * image->to_object);
+  else if (reader_.has_uv_mapping && is_sphere)
+    shape.object_to_world = shape.object_to_world * turned_to_y();
   shape.flip_orientation = !piece.faces_out != object.inverse;
-  if (has_sides && faces_in(object, shape.object_to_world)) shape.flip_orientation = !shape.flip_orientation;
+  if (has_sides && faces_in(object, to_world * piece.to_object))
+    shape.flip_orientation = !shape.flip_orientation;
   shape.origin = origin(object.place);
   if (own.medium && (own.hollow || lets_light_in(shape)))
     fill(shape, *own.medium);

@@ -16,6 +16,7 @@
 #include "importers/povray/read/pigment_patterns.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/surfaces.h"
+#include "scene/models/texture_mapping.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail::pov {
@@ -126,13 +127,10 @@ Transform exchanged_y_z() {
 }
 
 // What a pigment's transforms do to (u, v, 0).
-UvMapping uv_mapping(Transform to_uv, const std::vector<Warp>& warps) {
+UvMapping uv_mapping_of(Transform to_uv, const std::vector<Warp>& warps) {
   for (const Warp& warp : warps)
     if (warp.kind == Warp::Kind::transform) to_uv = to_uv * warp.transform;
-  if (!is_invertible(to_uv)) return {};
-  const Transform m = inverse(to_uv);
-  const auto at = [&](std::size_t row, std::size_t column) { return static_cast<float>(m.m[row][column]); };
-  return {at(0, 0), at(0, 1), at(0, 3), at(1, 0), at(1, 1), at(1, 3)};
+  return is_invertible(to_uv) ? uv_mapping(to_uv) : UvMapping{};
 }
 
 }  // namespace
@@ -236,14 +234,15 @@ Numbers mean_color(const Pigment& pigment) {
   return sum;
 }
 
-SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transform& to_world, Part part,
-                                          double factor, bool by_uv) {
+SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transform& around, Part part,
+                                          double factor, bool around_by_uv) {
+  const bool own_uv = pigment.pattern.uv_mapping, by_uv = (around_by_uv || own_uv) && !uvs_are_places_;
+  const Transform to_world = own_uv ? uv_space_ * pigment.to_object : around;
   if (pigment.color || pigment.pattern.kind == Word::none)
     return spectrum_of(mean_color(pigment), part, factor);
   const Pattern& pattern = pigment.pattern;
   if (pattern.image && pattern.kind == Word::image_map_)
-    return image_texture(*pattern.image, pattern, to_world, part, by_uv || pattern.uv_mapping,
-                         pigment.to_object, factor, pigment.place);
+    return image_texture(*pattern.image, pattern, to_world, part, by_uv, factor, pigment.place);
   if (pattern.kind == Word::average_ && pigment.map)
     return average_texture(pigment, to_world, part, factor, by_uv);
   if (const auto both = as_pattern_of_pigment(
@@ -251,9 +250,7 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
     note_modifiers(pattern, pigment.place);
     return color_texture(*both, to_world * both->to_object, part, factor, by_uv);
   }
-  if (by_uv || pattern.uv_mapping)
-    dropped("uv_mapping of a pattern that is no image: it lies by position", pigment.place);
-  auto made = pattern_texture(pattern, to_world, pigment.place);
+  auto made = pattern_texture(pattern, to_world, by_uv, pigment.place);
   if (!made && pattern.kind == Word::function_)
     return spectrum_of(PatternField(reader_, pigment).mean(), part, factor);
   if (!made) return spectrum_of(pigment.quick_color.value_or(mean_color(pigment)), part, factor);
@@ -316,23 +313,24 @@ void Surfaces::note_modifiers(const Pattern& pattern, const Place& place) {
     approximated("waves and turbulence of a pattern that asks a pigment: those of the pigment alone", place);
 }
 
-FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform& to_world, double from,
-                                        double to, const Place& place, bool list, std::size_t index) {
+FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform& to_world, bool by_uv,
+                                        double from, double to, const Place& place, bool list,
+                                        std::size_t index) {
   BlendEntry first, second;
   first.at = from, first.color = Finish::grey(0);
   second.at = to, second.color = Finish::grey(1);
   if (const auto both = as_pattern_of_pigment(pattern, {first, second})) {
     note_modifiers(pattern, place);
-    const SpectrumParameter amount = color_texture(*both, to_world * both->to_object, Part::grey, 1, false);
+    const SpectrumParameter amount = color_texture(*both, to_world * both->to_object, Part::grey, 1, by_uv);
     if (const auto* id = std::get_if<Id<vitrail::Texture>>(&amount)) return *id;
     return static_cast<float>(grey_of(mean_color(*both)));
   }
   if (pattern.kind == Word::image_pattern_ && pattern.image && from == 0 && to == 1) {
     const SpectrumParameter amount =
-        image_texture(*pattern.image, pattern, to_world, Part::grey, pattern.uv_mapping, {}, 1, place);
+        image_texture(*pattern.image, pattern, to_world, Part::grey, by_uv, 1, place);
     if (const auto* id = std::get_if<Id<vitrail::Texture>>(&amount)) return *id;
   }
-  auto made = pattern_texture(pattern, to_world, place);
+  auto made = pattern_texture(pattern, to_world, by_uv, place);
   if (!made) return 0.5f;
   const auto stop = [&](double at, float value) { made->map.push_back(number_stop(at, value)); };
   if (const std::size_t places = list ? places_of_formula(*made, pattern.kind) : 0) {
@@ -350,7 +348,7 @@ FloatParameter Surfaces::amount_texture(const Pattern& pattern, const Transform&
 }
 
 std::optional<PatternTexture> Surfaces::pattern_texture(const Pattern& pattern, const Transform& to_world,
-                                                        const Place& place) {
+                                                        bool by_uv, const Place& place) {
   std::optional<PatternTexture> made = pattern_record(pattern);
   if (!made) {
     dropped(fmt::format("this pattern ({}): the mean of its colours", name_of(pattern.kind)), place);
@@ -358,6 +356,7 @@ std::optional<PatternTexture> Surfaces::pattern_texture(const Pattern& pattern, 
   }
   PatternTexture& t = *made;
   t.texture_to_world = to_world;
+  t.by_uv = by_uv && !uvs_are_places_;
   for (const Warp& warp : pattern.warps) {
     if (warp.kind == Warp::Kind::transform) {
       t.texture_to_world = t.texture_to_world * warp.transform;
@@ -404,8 +403,8 @@ void Surfaces::set_encoding(ImageTexture& texture, const ImageMap& image) const 
 }
 
 SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& pattern,
-                                          const Transform& to_world, Part part, bool by_uv,
-                                          const Transform& to_uv, double factor, const Place& place) {
+                                          const Transform& to_world, Part part, bool by_uv, double factor,
+                                          const Place& place) {
   if (image.filename.empty()) return Spectrum{ConstantSpectrum{static_cast<float>(0.5 * factor)}};
   ImageTexture texture;
   texture.filename = std::filesystem::absolute(image.filename).string();
@@ -418,7 +417,7 @@ SpectrumParameter Surfaces::image_texture(const ImageMap& image, const Pattern& 
   else
     set_encoding(texture, image);
   if (by_uv) {
-    texture.mapping = uv_mapping(to_uv, pattern.warps);
+    texture.mapping = uv_mapping_of(to_world, pattern.warps);
   } else if (image.map_type == 0) {
     PlanarMapping planar{to_world};
     for (const Warp& warp : pattern.warps)

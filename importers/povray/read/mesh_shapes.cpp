@@ -39,7 +39,7 @@ struct Listed {
       mesh.positions.push_back(single(reader, p[i]));
       mesh.normals.push_back(normal_of(n ? (*n)[i] : flat));
       mesh.uvs.push_back(uv ? Point2f{static_cast<float>((*uv)[i].x), static_cast<float>((*uv)[i].y)}
-                            : Point2f{i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f});
+                            : Point2f{0, 0});
     }
     smooth = smooth || n;
   }
@@ -69,7 +69,7 @@ void read_triangle(Reader& reader, Object& object, bool smooth) {
   listed.add(reader, p, smooth ? &n : nullptr, nullptr);
   // Of one that is smooth the normals say where its outside is.
   const bool clockwise = !smooth || dot(cross(p[1] - p[0], p[2] - p[0]), n[0] + n[1] + n[2]) <= 0;
-  object.shape = MeshShape{{part_of(std::move(listed), nullptr)}, false, clockwise};
+  object.shape = MeshShape{{part_of(std::move(listed), nullptr)}, false, clockwise, false};
 }
 
 void read_polygon(Reader& reader, Object& object) {
@@ -99,7 +99,7 @@ void read_polygon(Reader& reader, Object& object) {
     for (const CornerTriple& t : triples)
       listed.add(reader, {corners[t[0]], corners[t[1]], corners[t[2]]}, nullptr, nullptr);
   }
-  object.shape = MeshShape{{part_of(std::move(listed), nullptr)}};
+  object.shape = MeshShape{{part_of(std::move(listed), nullptr)}, false, false, false};
 }
 
 void read_mesh(Reader& reader, Object& object) {

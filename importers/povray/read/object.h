@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "importers/povray/read/surface.h"
+#include "importers/povray/read/surface_uvs.h"
 #include "importers/solids/csg.h"
 #include "scene/geometry/bounds.h"
 #include "scene/shapes/mesh.h"
@@ -48,6 +49,7 @@ struct MeshShape {
   std::vector<Part> parts;
   bool closed = false;     // has an inside (inside_vector)
   bool clockwise = false;  // seen from its outside the corners run clockwise
+  bool has_uvs = true;     // else those are the world's x and y
 };
 // A shape of importers/solids, made where it is needed.
 struct SolidShape {
@@ -56,6 +58,7 @@ struct SolidShape {
   std::function<bool(Point3d)> inside;         // where a formula says it; else its triangles do
   std::optional<Bounds3d> box;  // what POV-Ray takes for its extents; else those of what is made
   bool patch = false;           // encloses nothing; seen from its outside the corners run clockwise
+  SurfaceUvs uvs{};
 };
 struct GroupShape {
   Word kind = Word::union_;  // union_, merge_, intersection_, difference_, light_group_

@@ -89,8 +89,9 @@ void add_layer(Object& object, const Shared<Texture>& texture, int& layers) {
 
 void move(Object& object, const Transform& by) {
   object.to_parent = by * object.to_parent;
-  if (object.texture) object.texture = moved(object.texture, by);
-  if (object.interior_texture) object.interior_texture = moved(object.interior_texture, by);
+  if (object.texture && !object.uv_mapping) object.texture = moved(object.texture, by);
+  if (object.interior_texture && !object.uv_mapping)
+    object.interior_texture = moved(object.interior_texture, by);
   if (object.interior) object.interior = moved(object.interior, by);
   for (Shared<Object>& clip : object.clipped_by) {
     auto copy = std::make_shared<Object>(*clip);
@@ -239,7 +240,7 @@ bool read_object_modifier(Reader& reader, Object& object, int& layers) {
       object.hollow = reader.flag();
       return true;
     case Word::uv_mapping_:
-      object.uv_mapping = true;
+      object.uv_mapping = reader.has_uv_mapping = true;
       return true;
     case Word::no_reflection_:
       object.no_reflection = reader.flag();

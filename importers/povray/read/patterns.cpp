@@ -295,7 +295,7 @@ bool read_pattern_modifier(Reader& reader, Pattern& pattern, Shared<BlendMap>& m
       pattern.control1 = reader.number("control1");
       return true;
     case Word::uv_mapping_:
-      pattern.uv_mapping = true;
+      pattern.uv_mapping = reader.has_uv_mapping = true;
       return true;
     case Word::noise_generator_:
     case Word::number_of_waves_:

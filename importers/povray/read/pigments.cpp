@@ -114,6 +114,7 @@ Shared<Pigment> read_pigment_block(Reader& reader, Shared<Pigment> from) {
   const Reader::Deeper deeper(reader, reader.here());
   Pigment pigment = from ? *from : Pigment{};
   pigment.place = reader.here();
+  std::optional<Transform> in_uv;  // of one by (u,v), which what follows its name does not move
   for (;;) {
     reader.comma();
     const Token token = reader.peek();
@@ -121,6 +122,7 @@ Shared<Pigment> read_pigment_block(Reader& reader, Shared<Pigment> from) {
     if (auto named = reader.identifier<Shared<Pigment>>()) {
       pigment = **named;
       pigment.place = token.place;
+      if (pigment.pattern.uv_mapping) in_uv = pigment.to_object;
       continue;
     }
     if (reader.number_follows()) {
@@ -167,6 +169,7 @@ Shared<Pigment> read_pigment_block(Reader& reader, Shared<Pigment> from) {
     reader.unexpected(reader.next(), "a part of pigment");
   }
   reader.next();
+  if (in_uv) pigment.to_object = *in_uv;
   settle(reader, pigment);
   return std::make_shared<Pigment>(std::move(pigment));
 }

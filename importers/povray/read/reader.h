@@ -136,6 +136,7 @@ class Reader {
   double version = 0;
   std::optional<double> assumed_gamma;  // srgb_gamma: sRGB's curve
   bool for_export = false;              // ImportOptions::for_export
+  bool has_uv_mapping = false;          // somewhere in the scene
   int image_width = 640, image_height = 480;
   // They say whether an object is a target of photons, and whether a lamp or an object lets them bend or
   // mirror: povray shoots none without both.

@@ -28,6 +28,7 @@ class SceneMaker {
     Transform to_object;
     std::optional<Look> look;  // of its own
     bool faces_out = true;
+    bool has_uvs = false;  // as POV-Ray has them; else those are the world's x and y
   };
   // Where shapes go to: the scene, or a prototype.
   struct Target {
@@ -58,6 +59,8 @@ class SceneMaker {
   bool is_plain(const Object& object);
   // Quadrics and meshes (make_pieces.cpp).
   std::vector<Piece> pieces_of(const Object& object);
+  // A mesh with these (u,v), if there are any and the scene has a use for them.
+  Piece piece_with(TriangleMesh mesh, const SurfaceUvs& uvs);
   std::vector<Piece> round_pieces(const ConeShape& cone);
   // Sets of points (make_csg.cpp).
   std::vector<Piece> set_pieces(const Object& object);

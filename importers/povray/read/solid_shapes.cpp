@@ -21,7 +21,12 @@ SolidShape torus(Reader& reader) {
   const double major = reader.number("the radius of a torus");
   reader.comma();
   const double minor = reader.number("the radius of a torus' tube");
-  return {[=] { return solids::torus(std::abs(major), std::abs(minor)); }, {}, {}, {}};
+  return {[=] { return solids::torus(std::abs(major), std::abs(minor)); },
+          {},
+          {},
+          {},
+          false,
+          torus_uvs(std::abs(major))};
 }
 
 SolidShape superellipsoid(Reader& reader) {
@@ -83,14 +88,16 @@ SolidShape lathe(Reader& reader) {
   solids::Lathe lathe;
   lathe.spline = spline_kind_of(reader);
   lathe.points = plane_points(reader);
-  return {[lathe] { return solids::lathe(lathe); }, {}, {}, {}};
+  const SurfaceUvs uvs = lathe_uvs(lathe.spline, lathe.points);
+  return {[lathe] { return solids::lathe(lathe); }, {}, {}, {}, false, uvs};
 }
 
 SolidShape revolution(Reader& reader) {
   solids::SurfaceOfRevolution sor;
   sor.points = plane_points(reader);
   sor.open = reader.accept(Word::open_);
-  return {[sor] { return solids::surface_of_revolution(sor); }, {}, {}, {}};
+  const SurfaceUvs uvs = revolution_uvs(sor.points);
+  return {[sor] { return solids::surface_of_revolution(sor); }, {}, {}, {}, false, uvs};
 }
 
 SolidShape letters(Reader& reader) {
@@ -133,11 +140,12 @@ SolidShape sphere_sweep(Reader& reader) {
 }
 
 SolidShape bicubic_patch(Reader& reader) {
+  std::array<Point2d, 4> corners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
   for (Token t = reader.next();; t = reader.next()) {
     if (t.is(Word::type_) || t.is(Word::flatness_) || t.is(Word::u_steps_) || t.is(Word::v_steps_)) {
       reader.numbers();
     } else if (t.is(Word::uv_vectors_)) {
-      for (int i = 0; i < 4; ++i) reader.numbers(), reader.comma();
+      for (Point2d& corner : corners) corner = reader.point2("a uv vector"), reader.comma();
     } else if (!t.is(',')) {
       reader.put_back(t);
       break;
@@ -148,7 +156,7 @@ SolidShape bicubic_patch(Reader& reader) {
     p = reader.point("a point of a patch");
     reader.comma();
   }
-  return {[points] { return solids::bicubic_patch(points); }, {}, {}, {}, true};
+  return {[points] { return solids::bicubic_patch(points); }, {}, {}, {}, true, patch_uvs(points, corners)};
 }
 
 std::array<double, 4> four(Reader& reader, const char*) {

@@ -149,7 +149,8 @@ struct Texture {
   std::optional<Pattern> pattern;
   Shared<BlendMap> map;
   std::vector<Shared<Texture>> layers;
-  Transform to_object;  // of all of it
+  Transform to_object;  // of all of it; of (u, v, 0) where it is by that
+  bool by_uv = false;
 };
 
 // media {}: coefficients per unit of length, times the product of the densities.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "importers/povray/read/surface.h"
+#include "importers/povray/read/surface_uvs.h"
 #include "scene/records/scene.h"
 
 namespace vitrail::pov {
@@ -17,7 +18,9 @@ struct Look {
   Shared<Texture> texture;
   Transform to_world;
   Shared<Interior> interior;
-  bool by_uv = false;  // images lie by (u,v)
+  bool by_uv = false;           // the texture lies by (u,v), and `to_world` is not looked at
+  bool uvs_are_places = false;  // (u,v) are the world's x and y
+  SurfaceUvs uvs;               // of a part of a set
   bool no_shadow = false;
   bool no_image = false;
   bool hollow = false;
@@ -70,6 +73,10 @@ class Surfaces {
   };
 
   Surface made(const Look& look);
+  // Returns what takes the space of a texture, which lies in that of `around`, to the world or to (u, v, 0).
+  Transform placed_in(const Transform& around, const Texture& texture) const {
+    return texture.by_uv ? uv_space_ * texture.to_object : around * texture.to_object;
+  }
   // `alone`: nothing shows through it but what is behind the surface.
   Layer layer_of(const Texture& texture, const Transform& to_world, const Look& given, bool alone = false);
   // Of layers or a pattern of textures, else layer_of (make_layers.cpp).
@@ -104,8 +111,9 @@ class Surfaces {
   void put_above(const Texture& texture, const Transform& to_world, Look& look);
   Id<Material> clear_material(const Pigment& pigment, const Finish& finish, const Interior* interior);
 
-  // Textures (make_textures.cpp): what of a colour becomes the value. A factor may be above 1. `grey` is that
-  // of its numbers as they are; `filtered` is the tint of what shows through.
+  // Textures (make_textures.cpp): what of a colour becomes the value. By (u,v), `to_world` takes the
+  // texture's space to that of (u, v, 0), and it is the pigment's own where that has `uv_mapping`. A factor
+  // may be above 1. `grey` is that of its numbers as they are; `filtered` is the tint of what shows through.
   enum class Part { reflectance, factor, radiance, opacity, grey, filtered };
   static bool is_number(Part part) { return part == Part::opacity || part == Part::grey; }
   SpectrumParameter color_texture(const Pigment& pigment, const Transform& to_world, Part part, double factor,
@@ -117,10 +125,8 @@ class Surfaces {
   // A number of each point, 1 − amount … 1 + amount: grains too small to be seen.
   SpectrumParameter grain(double amount, const Place& place);
   FloatParameter opacity_of(const Pigment& pigment, const Transform& to_world, bool by_uv);
-  // `to_uv`: of the pigment alone, where the image lies by (u,v).
   SpectrumParameter image_texture(const ImageMap& image, const Pattern& pattern, const Transform& to_world,
-                                  Part part, bool by_uv, const Transform& to_uv, double factor,
-                                  const Place& place);
+                                  Part part, bool by_uv, double factor, const Place& place);
   // A displacement that is everywhere what another texture is there (make_bumps.cpp).
   PatternTexture carrier_of(const SpectrumParameter& height, const Transform& to_world) const;
   std::optional<FloatParameter> bump_of_image(const Bump& bump, const Transform& to_world);
@@ -130,11 +136,11 @@ class Surfaces {
                                                          const Transform& to_world, const Place& place);
   double height_of(const Bump& bump, const Transform& to_world);
   void set_encoding(ImageTexture& texture, const ImageMap& image) const;
-  std::optional<PatternTexture> pattern_texture(const Pattern& pattern, const Transform& to_world,
+  std::optional<PatternTexture> pattern_texture(const Pattern& pattern, const Transform& to_world, bool by_uv,
                                                 const Place& place);
   void note_modifiers(const Pattern& pattern, const Place& place);  // of a pigment_pattern
-  FloatParameter amount_texture(const Pattern& pattern, const Transform& to_world, double from, double to,
-                                const Place& place, bool second_of_list, std::size_t index);
+  FloatParameter amount_texture(const Pattern& pattern, const Transform& to_world, bool by_uv, double from,
+                                double to, const Place& place, bool second_of_list, std::size_t index);
 
   Spectrum spectrum_of(const Numbers& color, Part part, double factor) const;
   // Returns by how much less a colour shows of itself for what it lets through: filter + transmit, and before
@@ -159,6 +165,8 @@ class Surfaces {
   Numbers ambient_;
   bool glazes_;
   std::optional<FloatParameter> displacement_;  // of materials that are added
+  Transform uv_space_;  // of the look that is made: where (u,v) are places, what flattens the world along z
+  bool uvs_are_places_ = false;
   std::map<std::string, Surface> made_;
   std::map<std::array<std::uint32_t, 3>, std::optional<Surface>> sides_;  // by outside, inside, glow
   std::vector<Shared<Texture>> kept_;

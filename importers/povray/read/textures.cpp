@@ -135,6 +135,7 @@ Shared<Finish> read_finish_block(Reader& reader, Shared<Finish> from) {
 }
 
 Shared<Texture> moved(const Shared<Texture>& texture, const Transform& by) {
+  if (texture->by_uv) return texture;
   auto result = std::make_shared<Texture>(*texture);
   result->to_object = by * result->to_object;
   return result;
@@ -220,7 +221,7 @@ Shared<Texture> read_texture_block(Reader& reader) {
       }
       if (word == Word::uv_mapping_) {
         reader.next();
-        uv = true;
+        uv = reader.has_uv_mapping = true;
         continue;
       }
       if (names_pattern(word)) {
@@ -240,7 +241,7 @@ Shared<Texture> read_texture_block(Reader& reader) {
     // A transformation moves all that is there by then.
     Transform step;
     if (read_transform(reader, step)) {
-      texture.to_object = step * texture.to_object;
+      if (!texture.by_uv) texture.to_object = step * texture.to_object;
       continue;
     }
     Transform none;
@@ -250,14 +251,10 @@ Shared<Texture> read_texture_block(Reader& reader) {
   reader.next();
   const bool is_default_alone = !map && places_of_list(pattern.kind) > 0;
   if (pattern.kind != Word::none && !is_default_alone) {
-    pattern.uv_mapping = uv;
     texture.pattern = pattern;
     texture.map = map;
-  } else if (uv && texture.pigment) {
-    auto pigment = std::make_shared<Pigment>(*texture.pigment);
-    pigment->pattern.uv_mapping = true;
-    texture.pigment = pigment;
   }
+  texture.by_uv = texture.by_uv || uv;
   settle(reader, texture);
   return std::make_shared<Texture>(std::move(texture));
 }

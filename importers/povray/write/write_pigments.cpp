@@ -201,9 +201,11 @@ Pigment pattern(Context& context, const PatternTexture& texture, const Origin& o
   }
   std::vector<std::string> values;
   for (const PatternStop& stop : texture.map) values.push_back(entry(context, stop.value, use));
-  const Transform t = from_pov(context, inverse(texture.texture_to_world));
+  const Transform inverted = inverse(texture.texture_to_world);
+  const Transform t = texture.by_uv ? inverted : from_pov(context, inverted);
   Pigment p;
-  p.text = pattern_text(texture, values) + (is_invertible(t) ? undoing(t) : "");
+  p.text = (texture.by_uv ? "uv_mapping " : "") + pattern_text(texture, values) +
+           (is_invertible(t) ? undoing(t) : "");
   return p;
 }
 
@@ -339,6 +341,7 @@ bool is_uv(const TextureMapping& mapping) { return std::holds_alternative<UvMapp
 bool shows_uvs(const TextureModel& model) {
   if (const auto* t = std::get_if<ImageTexture>(&model)) return is_uv(t->mapping);
   if (const auto* t = std::get_if<CheckerboardTexture>(&model)) return !t->solid && is_uv(t->mapping);
+  if (const auto* t = std::get_if<PatternTexture>(&model)) return t->by_uv;
   const auto* t = std::get_if<BilinearTexture>(&model);
   return t && is_uv(t->mapping);
 }

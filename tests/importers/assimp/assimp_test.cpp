@@ -302,6 +302,22 @@ TEST_F(Assimp, AnOrthographicCameraOfFbxIsTold) {
       says(import_scene(folder_.write("b.fbx", fbx(1, "", "", projection + "0\n"))), "orthographic"));
 }
 
+// FBX's own programs write 2: the field of view is that of the height.
+TEST_F(Assimp, AnglesOfFbxCamerasAreOfTheHeightWhereTheirApertureModeSaysSo) {
+  const auto screen = [&](const std::string& more) {
+    const std::string shape =
+        "P: \"AspectWidth\", \"double\", \"Number\", \"\",300\n"
+        "P: \"AspectHeight\", \"double\", \"Number\", \"\",200\n";
+    const Scene scene = import_scene(folder_.write("a.fbx", fbx(1, "", "", shape + more))).scene;
+    return std::get<PerspectiveCamera>(scene.camera).screen;
+  };
+  const double half = std::tan(20 * std::numbers::pi / 180);
+  const std::string mode = "P: \"ApertureMode\", \"enum\", \"\", \"\",";
+  EXPECT_NEAR(screen(mode + "1\n").x1, half, 1e-5);
+  EXPECT_NEAR(screen(mode + "2\n").y1, half, 1e-5);
+  EXPECT_NEAR(screen(mode + "2\n").x1, 1.5 * half, 1e-5);
+}
+
 TEST_F(Assimp, BrokenFilesAreRefused) {
   EXPECT_THAT(error_of("a.fbx", "Kaydara FBX Binary  \x00\x1a\x00 and no more"), HasSubstr("cannot read it"));
   EXPECT_THAT(error_of("a.3ds", "MM"), HasSubstr("cannot read it"));

@@ -17,7 +17,7 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 // Each turned so that its least corner is first.
 Triangles canonical(Triangles triangles) {
-  for (auto& t : triangles) std::ranges::rotate(t, std::ranges::min_element(t));
+  for (auto& t : triangles) std::rotate(t.begin(), std::ranges::min_element(t), t.end());
   return triangles;
 }
 
