@@ -165,9 +165,8 @@ int run_many(const Arguments& a) {
   if (a.force) options.push_back("--force");
   const int at_once = threads_for(a.at_once);
   const std::uint64_t bytes = memory_budget(a.memory, a.quiet) / static_cast<std::uint64_t>(at_once);
-  options.insert(options.end(), {"--memory", std::to_string(bytes)});
-  ManyConversions many{a.files, a.output,     a.format, at_once, a.again, a.check,
-                       a.peer,  a.input_peer, a.strict, a.quiet, options};
+  ManyConversions many{a.files, a.output, a.format,     at_once,  bytes,   a.again,
+                       a.check, a.peer,   a.input_peer, a.strict, a.quiet, options};
   return convert_many(many);
 }
 

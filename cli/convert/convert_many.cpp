@@ -96,8 +96,13 @@ class Outcomes {
 };
 
 void convert(const Conversion& c, const ManyConversions& many, Outcomes& outcomes) {
-  std::vector<std::string> words{c.input.string(), c.output.string(), "--report", c.report.string(),
-                                 "--quiet"};
+  std::vector<std::string> words{c.input.string(),
+                                 c.output.string(),
+                                 "--report",
+                                 c.report.string(),
+                                 "--quiet",
+                                 "--memory",
+                                 std::to_string(many.memory_bytes)};
   words.insert(words.end(), many.options.begin(), many.options.end());
   if (!many.check.empty()) words.push_back("--check=" + many.check);
   if (!many.peer.empty()) words.insert(words.end(), {"--peer", many.peer});

@@ -2,6 +2,7 @@
 // Many scenes into one format: each by a `vitrail convert` of its own, several at once.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ struct ManyConversions {
   std::filesystem::path folder;               // below it what is below a folder of `inputs`
   std::string format;                         // "xml": the extension
   int at_once = 1;
+  std::uint64_t memory_bytes = 0;       // of each at work
   bool again = false;                   // also what is converted already
   std::string check, peer, input_peer;  // of --check, --peer and --peer-of-input; empty: none
   bool strict = false, quiet = false;
