@@ -96,7 +96,8 @@ void write_cell(const NumberedTriangles& triangles, const CellContent& content, 
                 const DomainWriter& writer) {
   Manifest& m = writer.manifest;
   std::vector<InstanceRef> instances = writer.instances.in(leaf.cell);
-  if (writer.domain_bytes > 0) {
+  // Where places take more than the objects, smaller cells help, and these are a matter of the plan.
+  if (writer.domain_bytes > 0 && 2 * bytes_of_objects(m, instances) > writer.domain_bytes) {
     const double own_bytes = bytes_of_a_triangle(m) * static_cast<double>(content.size());
     std::vector<std::vector<InstanceRef>> groups =
         groups_by_objects(m.objects, instances, writer.domain_bytes, static_cast<std::uint64_t>(own_bytes));

@@ -20,12 +20,6 @@ namespace {
 
 constexpr std::uint32_t most_domains = 65535;  // farm/: 16 bits in a ray's record
 
-std::uint64_t object_bytes(const Manifest& m, std::span<const InstanceRef> instances) {
-  std::uint64_t bytes = 0;
-  for (const std::uint32_t object : needed_objects(m, instances)) bytes += m.objects[object].bytes;
-  return bytes + bytes / 4;  // the domains will be cut by another sample
-}
-
 // Throws UsageError where an object with all that it needs takes more by itself.
 void require_room_for_each(const Manifest& m, const SceneInstances& instances, std::uint64_t domain_bytes) {
   std::vector<bool> seen(m.objects.size());
@@ -59,7 +53,8 @@ std::uint32_t domains_within(const World& world, const SceneInstances& instances
     const KdPlan plan = plan_kd_tree(items, {bounds, 0, 0, count}, {share, 1, false, rate}, nodes);
     std::uint64_t most = 0;
     for (const Subtree& leaf : plan.leaves)
-      most = std::max(most, object_bytes(world.manifest, dealer.in(leaf.cell)));
+      most = std::max(most, bytes_of_objects(world.manifest, dealer.in(leaf.cell)));
+    most += most / 4;  // the domains will be cut by another sample
     return most + static_cast<std::uint64_t>(own_bytes / count);
   };
   require_room_for_each(world.manifest, instances, domain_bytes);

@@ -280,6 +280,12 @@ std::vector<std::uint32_t> needed_objects(const Manifest& m, std::span<const Ins
   return objects;
 }
 
+std::uint64_t bytes_of_objects(const Manifest& m, std::span<const InstanceRef> instances) {
+  std::uint64_t bytes = 0;
+  for (const std::uint32_t object : needed_objects(m, instances)) bytes += m.objects[object].bytes;
+  return bytes;
+}
+
 namespace {
 
 // A box of what an instance shows, all of which is in `whole`.
