@@ -28,7 +28,8 @@ std::uint64_t page_size() { return static_cast<std::uint64_t>(::sysconf(_SC_PAGE
 [[noreturn]] void fail(std::uint64_t bytes, int reason) {
   throw MachineError(fmt::format(
       "the film is too large for its share of --memory, and {} MB of it have no room in {}: {}; TMPDIR names "
-      "another place, and more --memory keeps the film there",
+      "another place, more --memory keeps the film there, and a large picture is rendered in parts with "
+      "--crop",
       bytes / 1'000'000 + 1, scratch_directory().string(), std::generic_category().message(reason)));
 }
 

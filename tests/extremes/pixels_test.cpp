@@ -163,8 +163,7 @@ TEST(Pixels, WhatDoesNotFitIsRefused) {
   EXPECT_NE(budget.output.find("--memory 100M is too little"), std::string::npos) << budget.output;
   const CommandResult whole = run(render), crop = run(render + " --crop 32704,32768,32704,32768");
   expect_exactly("32768² pixels in 4 GB: exit status", 4, whole.status);
-  EXPECT_NE(whole.output.find("out of memory; a large picture is rendered in parts with --crop"),
-            std::string::npos)
+  EXPECT_NE(whole.output.find("a large picture is rendered in parts with --crop"), std::string::npos)
       << whole.output;
   expect_exactly("a crop of them: exit status", 0, crop.status);
 }
