@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "partitioner/cutting/add_node.h"
 #include "partitioner/cutting/choose_plane.h"
 
 namespace vitrail {
@@ -135,7 +136,7 @@ class FinalTree {
     if (!(child & KdNode::leaf_bit)) {
       const KdNode& planned = planned_[child];
       return add_node(
-          planned, [&] { return add(planned.below); }, [&] { return add(planned.above); });
+          nodes, planned, [&] { return add(planned.below); }, [&] { return add(planned.above); });
     }
     const std::uint32_t domain = child & ~KdNode::leaf_bit;
     const auto found = shared_.find(domain);
@@ -144,7 +145,7 @@ class FinalTree {
     // Exact: there are fewer than 2²⁴.
     const auto sharers = static_cast<float>(1 + cell.numbers.size());
     return add_node(
-        {sharers, KdNode::no_axis}, [&] { return leaf(domain); },
+        nodes, {sharers, KdNode::no_axis}, [&] { return leaf(domain); },
         [&] { return add_shared(cell, cell.tree.empty() ? KdNode::leaf_bit : 0); });
   }
   std::uint32_t add_shared(const SharedCell& cell, std::uint32_t child) {
@@ -154,22 +155,14 @@ class FinalTree {
     }
     const KdNode& node = cell.tree[child];
     return add_node(
-        node, [&] { return add_shared(cell, node.below); }, [&] { return add_shared(cell, node.above); });
+        nodes, node, [&] { return add_shared(cell, node.below); },
+        [&] { return add_shared(cell, node.above); });
   }
   // A domain of a shared cell may be met in several places.
   std::uint32_t leaf(std::uint32_t domain) {
     const auto [found, is_new] = numbers_.emplace(domain, static_cast<std::uint32_t>(domains.size()));
     if (is_new) domains.push_back(domain);
     return KdNode::leaf_bit | found->second;
-  }
-  template <class Below, class Above>
-  std::uint32_t add_node(KdNode node, const Below& below, const Above& above) {
-    const std::size_t number = nodes.size();
-    nodes.push_back(node);
-    node.below = below();
-    node.above = above();
-    nodes[number] = node;
-    return static_cast<std::uint32_t>(number);
   }
 
   std::span<const KdNode> planned_;

@@ -5,6 +5,8 @@
 #include <array>
 #include <bit>
 
+#include "partitioner/cutting/add_node.h"
+
 namespace vitrail {
 
 namespace {
@@ -37,7 +39,7 @@ class Builder {
     Bounds3f low = cell, high = cell;
     low.upper[plan.axis] = high.lower[plan.axis] = plan.split;
     return add_node(
-        {plan.split, static_cast<std::uint32_t>(plan.axis)},
+        nodes_, {plan.split, static_cast<std::uint32_t>(plan.axis)},
         [&] { return add(low, below, levels - 1, cuts - 1); },
         [&] { return add(high, above, levels - 1, cuts - 1); });
   }
@@ -94,18 +96,8 @@ class Builder {
     if (domains.size() == 1) return KdNode::leaf_bit | domains[0];
     const std::size_t half = (domains.size() + 1) / 2;
     return add_node(
-        {0, KdNode::no_axis}, [&] { return add_domains(domains.first(half)); },
+        nodes_, {0, KdNode::no_axis}, [&] { return add_domains(domains.first(half)); },
         [&] { return add_domains(domains.subspan(half)); });
-  }
-
-  template <class Below, class Above>
-  std::uint32_t add_node(KdNode node, const Below& below, const Above& above) {
-    const std::size_t number = nodes_.size();
-    nodes_.push_back(node);
-    node.below = below();
-    node.above = above();
-    nodes_[number] = node;
-    return static_cast<std::uint32_t>(number);
   }
 
   std::uint32_t none_;
