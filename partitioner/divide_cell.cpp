@@ -88,7 +88,7 @@ SharedCell write_sharers(std::vector<std::vector<InstanceRef>> groups, const Sub
     cell.infos.push_back(write_domain(m, {}, {}, std::move(group), writer.store, number, writer.census));
   }
   const auto own = static_cast<std::uint32_t>(groups.size());
-  cell.tree = tree_of_shared(leaf.cell, std::move(boxes), own, max_kd_depth - leaf.depth - 1);
+  cell.tree = tree_of_shared(leaf.cell, boxes, own, max_kd_depth - leaf.depth - 1);
   return cell;
 }
 

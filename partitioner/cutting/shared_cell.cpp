@@ -106,7 +106,7 @@ class Builder {
 
 }  // namespace
 
-std::vector<KdNode> tree_of_shared(const Bounds3f& cell, std::vector<SharedBox> boxes, std::uint32_t none,
+std::vector<KdNode> tree_of_shared(const Bounds3f& cell, std::span<const SharedBox> boxes, std::uint32_t none,
                                    int most_depth) {
   Builder builder(none);
   builder.add(cell, boxes, most_depth, most_cuts);

@@ -51,7 +51,7 @@ std::map<std::uint32_t, std::uint32_t> groups_of(std::span<const ObjectInfo> obj
 }
 
 std::vector<std::vector<InstanceRef>> groups_by_objects(std::span<const ObjectInfo> objects,
-                                                        std::vector<InstanceRef> instances,
+                                                        std::span<const InstanceRef> instances,
                                                         std::uint64_t most_bytes, std::uint64_t own_bytes) {
   std::map<std::uint32_t, std::uint64_t> places;
   for (const InstanceRef& ref : instances) ++places[ref.object];
