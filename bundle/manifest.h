@@ -24,10 +24,10 @@ class TextureFile;
 // Node 0 is the root. A leaf is one domain.
 struct KdNode {
   static constexpr std::uint32_t leaf_bit = 0x80000000u;
-  // In place of an axis: no plane parts the children, which share the cell. The first such node on a way has
-  // below it the domain with the scene's own triangles and the points of the cell, and its `split` is how
-  // many share the cell: they are numbered in a row from that one. Each may be a leaf in several places; a
-  // ray visits it once, where it comes to it first, for all of its way.
+  // This stands in place of an axis where no plane parts the children, which share the cell. The first such
+  // node on a way has below it the domain with the scene's own triangles and the points of the cell, and its
+  // `split` is how many share the cell: they are numbered in a row from that one. Each may be a leaf in
+  // several places; a ray visits it once, where it comes to it first, for all of its way.
   static constexpr std::uint32_t no_axis = 3;
   float split = 0;                            // coordinate of the interface on `axis`, or as above
   std::uint32_t axis = 0;                     // 0, 1, 2, or no_axis

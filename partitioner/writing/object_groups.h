@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// Of the files of an object and of all that it needs.
+// Returns the bytes of the files of an object and of all that it needs.
 std::uint64_t bytes_with_inner(std::span<const ObjectInfo> objects, std::uint32_t object);
 
 // Numbers the groups of objects that are placed so many times: by object. Each group takes at most

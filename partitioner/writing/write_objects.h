@@ -43,7 +43,7 @@ std::uint64_t triangles_of_objects(const World& world);
 
 // The objects of these instances and all that they need, ascending.
 std::vector<std::uint32_t> needed_objects(const Manifest& manifest, std::span<const InstanceRef> instances);
-// Of their files.
+// Returns the bytes of the files of these.
 std::uint64_t bytes_of_objects(const Manifest& manifest, std::span<const InstanceRef> instances);
 
 // The cell, without end where it is at the border of `root`: what lies beyond belongs to it.

@@ -15,8 +15,8 @@ namespace vitrail {
 // In [−1, 1], without a mean, of standard deviation 0.117. `which`: of independent ones. 0 where p is not
 // finite, or beyond 2⁵².
 double lattice_noise(Point3d p, std::uint64_t which = 0);
-// Of which = 0, 1 and 2, for less than three of them. The first is that of `bozo`, as POV-Ray's: moved by its
-// own noise, `bozo` deviates by 4 % less and `wrinkles` by 7 %.
+// Returns the noises of which = 0, 1 and 2, for less than three of them cost. The first is that of `bozo`, as
+// POV-Ray's: moved by its own noise, `bozo` deviates by 4 % less and `wrinkles` by 7 %.
 Vector3d lattice_noises(Point3d p);
 
 // 0 … 1: of `bozo` and all that is as smooth.

@@ -13,7 +13,7 @@ struct PreparedMapping {
   Transform world_to_texture;  // of all but uv
 };
 
-// What takes (u, v, 0) to the (s,t) of a texture, by the inverse of its transform.
+// Returns the mapping of (u, v, 0) to the (s,t) of a texture, which is the inverse of its transform.
 inline UvMapping uv_mapping(const Transform& texture_to_uv) {
   const Transform m = inverse(texture_to_uv);
   const auto at = [&](std::size_t row, std::size_t column) { return static_cast<float>(m.m[row][column]); };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order in which a ray meets the sub-domains: front to back through the kd-tree, both sides of an
-// interface where the ray is within ε of it. Of those that share a cell each
-// is met once, where it first may have something.
+// interface where the ray is within ε of it. Of those that share a
+// cell each is met once, where it first may have something.
 #pragma once
 
 #include <array>

@@ -22,7 +22,8 @@ struct SurfaceUvs {
 SurfaceUvs sphere_uvs(Point3d center);
 SurfaceUvs box_uvs(Point3d corner1, Point3d corner2);
 SurfaceUvs torus_uvs(double major);
-// By the angle around y and how far along the curve of these points it is, each segment being as long.
+// Returns (u,v) by the angle around y and by how far along the curve of these points it is, where each
+// segment counts as equally long.
 SurfaceUvs lathe_uvs(solids::SplineKind kind, std::span<const Point2d> points);
 SurfaceUvs revolution_uvs(std::span<const Point2d> points);
 // `corners`: the (u,v) at the patch's (0,0), (1,0), (1,1), (0,1).
