@@ -304,18 +304,21 @@ TEST_F(Assimp, AnOrthographicCameraOfFbxIsTold) {
 
 // FBX's own programs write 2: the field of view is that of the height.
 TEST_F(Assimp, AnglesOfFbxCamerasAreOfTheHeightWhereTheirApertureModeSaysSo) {
+  double aspect = 0;
   const auto screen = [&](const std::string& more) {
     const std::string shape =
         "P: \"AspectWidth\", \"double\", \"Number\", \"\",300\n"
         "P: \"AspectHeight\", \"double\", \"Number\", \"\",200\n";
     const Scene scene = import_scene(folder_.write("a.fbx", fbx(1, "", "", shape + more))).scene;
+    aspect = static_cast<double>(scene.film.width) / scene.film.height;  // of whole pixels
     return std::get<PerspectiveCamera>(scene.camera).screen;
   };
   const double half = std::tan(20 * std::numbers::pi / 180);
   const std::string mode = "P: \"ApertureMode\", \"enum\", \"\", \"\",";
   EXPECT_NEAR(screen(mode + "1\n").x1, half, 1e-5);
   EXPECT_NEAR(screen(mode + "2\n").y1, half, 1e-5);
-  EXPECT_NEAR(screen(mode + "2\n").x1, 1.5 * half, 1e-3) << "but for whole pixels";
+  EXPECT_NEAR(screen(mode + "2\n").x1, aspect * half, 1e-5);
+  EXPECT_NEAR(aspect, 1.5, 1e-3);
 }
 
 TEST_F(Assimp, BrokenFilesAreRefused) {
