@@ -177,6 +177,9 @@ void forget_refusal() {
 }
 
 LentReserve::LentReserve() : before_(memory_refusal()), bytes_(is_guarding() ? reserve / 4 * 3 : 0) {
+  constexpr std::uint64_t least = 2 << 20;
+  if (const std::uint64_t enough = resident_bytes() + least; is_guarding() && enough > limit)
+    bytes_ = std::max(bytes_, enough - limit);
   forget_refusal();
   limit += bytes_;
 }
