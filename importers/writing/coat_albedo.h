@@ -9,8 +9,8 @@
 namespace vitrail {
 
 // What a surface without a coat's help has for its diffuse albedo: of the light that gets in, the share
-// ρ that comes out again (Mitsuba's linear plastic), or ρ of all light (the principled model, whose gloss is
-// added to it).
+// ρ that comes out again (Mitsuba's linear plastic, glTF's dielectric), or ρ of all light (the principled
+// model, whose gloss is added to it).
 enum class DiffuseAlbedo { of_what_gets_in, of_all };
 
 // The reflectance of a base below which light goes back and forth, as below pbrt's coateddiffuse and

@@ -66,7 +66,8 @@ SampledSpectrum reflected(const PrincipledThinBsdf& b, Vector3d out, Vector3d in
                   static_cast<float>(b.spec_tint);
     value = f * static_cast<float>(part.reflected * facets_value(reflecting_facets(b), out, in, h));
   }
-  const double f = diffuse(b.roughness, b.flatness, {out.z, in.z, half});
+  const double f = b.below ? 1 - fresnel_dielectric(std::max(0.0, half), b.eta)
+                           : diffuse(b.roughness, b.flatness, {out.z, in.z, half});
   value = value + b.base_color * static_cast<float>(part.diffuse_reflected * f * in.z / pi);
   if (b.sheen > 0)
     value = value + tint(b.base_color, b.luminance, b.sheen_tint) *

@@ -122,6 +122,9 @@ void MaterialWriter::put(const PrincipledMaterial& m) {
   base(m.base_color);
   roughness_and_metal(m.roughness, m.metallic);
   index(static_cast<double>(m.eta));
+  if (!m.below && m.metallic != FloatParameter{1.0f} && m.spec_trans != FloatParameter{1.0f})
+    notes_.approximated(
+        "principled material: glTF's diffuse part loses what is reflected, 4 % and more where it is rough");
   const auto is_zero = [](const FloatParameter& p) { return p == FloatParameter{0.0f}; };
   if (!is_zero(m.spec_trans)) transmit(number(m.spec_trans, "transmission"), !m.thin);
   if (!is_zero(m.clearcoat)) {
