@@ -61,6 +61,23 @@ VITRAIL_LANES D diffuse(D roughness, D flatness, D out, D in, D half) {
   return select<D>(flattened, round * (1.0 - flatness) + flat * flatness, round);
 }
 
+// Of a base below microfacets of that roughness, whose reflectance at normal incidence is f0: π·f/base, so
+// that of all light from a direction the base gets what the facets do not reflect, 1 − E (Kulla and Conty
+// 2017). E = f0·a + (1 − f0)·b·(1 − cosine)^p is a fit to GGX: within .005 for an index of 1.5 above
+// roughness .3 and up to 66°, within .022 elsewhere.
+template <class D>
+VITRAIL_LANES D below(D roughness, D f0, D out, D in) {
+  const D logarithm = quick_log(lanes::max(roughness, fill<D>(1e-3)));
+  // Powers of the roughness, of roughness/0.244 and of roughness/0.223.
+  const D facing = f0 * (1.0 - 0.662 * quick_exp<D>(logarithm * 3.035)),
+          grazing = (1.0 - f0) / (1.0 + quick_exp<D>((logarithm + 1.4106) * 2.347)),
+          p = 2.557 + 2.443 * quick_exp<D>(-quick_exp<D>((logarithm + 1.5006) * 2.671));
+  const auto kept = [&](D cosine) __attribute__((always_inline)) {
+    return 1.0 - facing - grazing * quick_exp<D>(p * quick_log(lanes::max(1.0 - cosine, fill<D>(1e-9))));
+  };
+  return kept(out) * kept(in) / (1.0 - facing - grazing * 2.0 / ((p + 1.0) * (p + 2.0)));
+}
+
 // GTR₁ (Burley 2012, Eq. 4): D(m) in sr⁻¹, and its sampling with pdf D(m)·m.z. 0 < alpha < 1.
 template <class D>
 VITRAIL_LANES D gtr1(D alpha, Vector<D> m) {

@@ -66,7 +66,7 @@ SampledSpectrum reflected(const PrincipledThinBsdf& b, Vector3d out, Vector3d in
                   static_cast<float>(b.spec_tint);
     value = f * static_cast<float>(part.reflected * facets_value(reflecting_facets(b), out, in, h));
   }
-  const double f = b.below ? 1 - fresnel_dielectric(std::max(0.0, half), b.eta)
+  const double f = b.below ? below(b.roughness, normal_reflectance(b.eta), out.z, in.z)
                            : diffuse(b.roughness, b.flatness, {out.z, in.z, half});
   value = value + b.base_color * static_cast<float>(part.diffuse_reflected * f * in.z / pi);
   if (b.sheen > 0)

