@@ -6,6 +6,7 @@
 
 #include "bundle/manifest.h"
 #include "bundle/texture_file.h"
+#include "bundle/triangle_number.h"
 #include "scene/shapes/curve.h"
 #include "scene/system/diagnostics.h"
 
@@ -42,7 +43,9 @@ void check(const Manifest& manifest, const Expected& expected, const MappedDomai
         reject(fmt::format("it holds triangle {}, which the scene does not have", id));
   for (const InstanceRef& ref : view.instances)
     if (!std::ranges::binary_search(expected.objects, ref.object) ||
-        ref.first_triangle + manifest.objects[ref.object].triangles > expected.triangles)
+        ref.first_triangle >= expected.triangles ||
+        (expected.triangles <= triangle_numbers &&
+         ref.first_triangle + manifest.objects[ref.object].triangles > expected.triangles))
       reject(fmt::format("it holds an instance of object {}, which the scene does not have", ref.object));
   for (std::size_t i = 0; i < view.instances.size(); ++i) {
     const InstanceRef& ref = view.instances[i];
