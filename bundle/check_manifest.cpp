@@ -217,12 +217,13 @@ void check_tables(const Checker& c, const Manifest& m) {
 }
 
 void check_lights(const Checker& c, const Manifest& m) {
+  const auto numbers = std::min<std::uint64_t>(m.triangles, triangle_numbers);
   for (const EmissiveTriangle& t : m.emissive_triangles)
-    c.require(t.triangle < m.triangles && t.area_light < m.area_lights.size(), "a light shines from nowhere");
+    c.require(t.triangle < numbers && t.area_light < m.area_lights.size(), "a light shines from nowhere");
   for (const EmissiveQuadric& q : m.emissive_quadrics) {
     c.require(!is_curve(q.quadric.quadric), "a curve shines");
     check_shape(c, q.quadric.quadric);
-    c.require(q.triangle < m.triangles && q.area_light < m.area_lights.size(), "a light shines from nowhere");
+    c.require(q.triangle < numbers && q.area_light < m.area_lights.size(), "a light shines from nowhere");
   }
   c.require(m.emissive_attributes.empty() ||
                 m.emissive_attributes.size() == m.emissive_triangles.size() * m.attributes,
