@@ -11,6 +11,7 @@
 #include "bundle/checksum.h"
 #include "bundle/manifest_json.h"
 #include "bundle/record_fields.h"
+#include "bundle/triangle_number.h"
 #include "scene/records/film_extent.h"
 #include "scene/records/nesting_limits.h"
 #include "scene/system/diagnostics.h"
