@@ -22,8 +22,8 @@ constexpr std::uint32_t triangle_number(std::uint64_t id) {
 
 // The number of triangle `number` of an object whose triangle 0 has the number `first`.
 [[gnu::always_inline]] constexpr std::uint32_t number_from(std::uint32_t first, std::uint32_t number) {
-  const std::uint32_t sum = first + number;
-  return sum < first || sum >= triangle_numbers ? sum - triangle_numbers : sum;
+  const std::uint32_t left = triangle_numbers - first;
+  return number < left ? first + number : number - left;
 }
 
 }  // namespace vitrail
