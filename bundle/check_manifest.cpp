@@ -101,7 +101,7 @@ void check_surfaces(const Checker& c, const Manifest& m, std::span<const Surface
 }
 
 void check_triangles(const Checker& c, const Manifest& m) {
-  c.require(m.triangles <= std::uint64_t{1} << 62, "it has too many triangles");
+  c.require(m.triangles <= most_triangles, "it has too many triangles");
   c.require(m.cut_triangles <= m.triangles, "more triangles are cut than there are");
   const std::size_t first = m.objects.empty() ? m.surfaces.size() : m.objects[0].first_surface;
   c.require(first <= m.surfaces.size(), "an object has surfaces that are not there");

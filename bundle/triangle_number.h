@@ -6,12 +6,16 @@
 // In a larger scene several triangles have one number. It is the same wherever the scene is cut, so that
 // films do not depend on the cuts. It decides two things: which triangle a ray starts on and does not hit
 // again, and which of two triangles at one and the same distance counts. Of the first, one hit in 2³² is
-// passed wrongly. The scene's own triangles, an object's own, and all that emit have numbers of their own.
+// passed wrongly. No two of the scene's own triangles have one number, nor two of an object's own, nor two
+// that emit.
 #pragma once
 
 #include <cstdint>
 
 namespace vitrail {
+
+// The most triangles that a scene has, with all instances.
+inline constexpr std::uint64_t most_triangles = std::uint64_t{1} << 62;
 
 // A prime: copies of an object of any size get numbers that differ.
 inline constexpr std::uint32_t triangle_numbers = 4294967291u;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "bundle/instance.h"
+#include "bundle/triangle_number.h"
 #include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
@@ -16,7 +17,6 @@ namespace {
 
 constexpr int max_depth = max_instance_depth - 1;  // of prototypes: the quadrics in them are instances, too
 static_assert(max_depth >= 32 / 4 && max_depth >= 64 / 8);
-constexpr std::uint64_t most_triangles = std::uint64_t{1} << 62;
 
 // Nested instances are more than can be counted.
 std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {

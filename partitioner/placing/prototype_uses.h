@@ -28,7 +28,7 @@ class PrototypeUses {
 
  private:
   bool is_deep(std::size_t prototype) const;
-  // Of 2⁰ to 2⁴, 2⁴ to 2⁸ … 2²⁸ to 2³² triangles; in scenes of more, of 2⁰ to 2⁸ … 2⁵⁶ to 2⁶⁴.
+  // Returns 0 for 2⁰ to 2⁴ triangles, 1 for 2⁴ to 2⁸ …; in scenes of 2³² or more 0 for 2⁰ to 2⁸ …
   int magnitude(std::size_t prototype) const;
 
   std::size_t scene_;  // index
