@@ -6,6 +6,7 @@
 
 #include "bundle/manifest.h"
 #include "bundle/texture_file.h"
+#include "bundle/triangle_number.h"
 #include "scene/shapes/curve.h"
 #include "scene/system/diagnostics.h"
 
@@ -35,14 +36,16 @@ void check(const Manifest& manifest, const Expected& expected, const MappedDomai
     reject("it does not hold the normals or (u,v) that the scene has");
   if (view.attributes.size() != view.clusters.size() * manifest.attributes)
     reject("it does not hold the mesh attributes that the scene has");
+  const auto numbers = std::min<std::uint64_t>(expected.triangles, triangle_numbers);
   const std::uint64_t first = expected.surfaces.empty() ? no_triangle : expected.surfaces[0].first_triangle;
   for (const Cluster& cluster : view.clusters)
     for (const std::uint32_t id : cluster.id)
-      if (id != no_triangle && (id >= expected.triangles || id < first))
+      if (id != no_triangle && (id >= numbers || id < first))
         reject(fmt::format("it holds triangle {}, which the scene does not have", id));
   for (const InstanceRef& ref : view.instances)
-    if (!std::ranges::binary_search(expected.objects, ref.object) ||
-        ref.first_triangle + manifest.objects[ref.object].triangles > expected.triangles)
+    if (!std::ranges::binary_search(expected.objects, ref.object) || ref.first_triangle >= numbers ||
+        (expected.triangles <= triangle_numbers &&
+         ref.first_triangle + manifest.objects[ref.object].triangles > expected.triangles))
       reject(fmt::format("it holds an instance of object {}, which the scene does not have", ref.object));
   for (std::size_t i = 0; i < view.instances.size(); ++i) {
     const InstanceRef& ref = view.instances[i];

@@ -11,6 +11,7 @@
 #include "bundle/checksum.h"
 #include "bundle/manifest_json.h"
 #include "bundle/record_fields.h"
+#include "bundle/triangle_number.h"
 #include "scene/records/film_extent.h"
 #include "scene/records/nesting_limits.h"
 #include "scene/system/diagnostics.h"
@@ -100,7 +101,7 @@ void check_surfaces(const Checker& c, const Manifest& m, std::span<const Surface
 }
 
 void check_triangles(const Checker& c, const Manifest& m) {
-  c.require(m.triangles < no_triangle, "it has too many triangles");
+  c.require(m.triangles <= most_triangles, "it has too many triangles");
   c.require(m.cut_triangles <= m.triangles, "more triangles are cut than there are");
   const std::size_t first = m.objects.empty() ? m.surfaces.size() : m.objects[0].first_surface;
   c.require(first <= m.surfaces.size(), "an object has surfaces that are not there");
@@ -217,12 +218,13 @@ void check_tables(const Checker& c, const Manifest& m) {
 }
 
 void check_lights(const Checker& c, const Manifest& m) {
+  const auto numbers = std::min<std::uint64_t>(m.triangles, triangle_numbers);
   for (const EmissiveTriangle& t : m.emissive_triangles)
-    c.require(t.triangle < m.triangles && t.area_light < m.area_lights.size(), "a light shines from nowhere");
+    c.require(t.triangle < numbers && t.area_light < m.area_lights.size(), "a light shines from nowhere");
   for (const EmissiveQuadric& q : m.emissive_quadrics) {
     c.require(!is_curve(q.quadric.quadric), "a curve shines");
     check_shape(c, q.quadric.quadric);
-    c.require(q.triangle < m.triangles && q.area_light < m.area_lights.size(), "a light shines from nowhere");
+    c.require(q.triangle < numbers && q.area_light < m.area_lights.size(), "a light shines from nowhere");
   }
   c.require(m.emissive_attributes.empty() ||
                 m.emissive_attributes.size() == m.emissive_triangles.size() * m.attributes,

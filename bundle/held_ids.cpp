@@ -5,31 +5,46 @@
 
 #include <algorithm>
 
+#include "bundle/triangle_number.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {
 
 namespace {
 
-// The ids of instances, ascending, each of which is held with all parts of its prototype.
-std::vector<IdRange> ids_of(const Manifest& m, std::uint64_t triangles, std::vector<HeldInstance> instances) {
+// Calls visit(first, object) for each of the instances once, which is held with all parts of its prototype.
+void for_each_whole(const Manifest& m, std::vector<HeldInstance> instances, const auto& visit) {
   std::ranges::sort(instances);
   instances.erase(std::unique(instances.begin(), instances.end()), instances.end());
-  std::vector<IdRange> ranges;
-  std::uint64_t end = 0;
   for (std::size_t i = 0; i < instances.size();) {
-    const auto [first, object] = instances[i];
+    const auto [place, first, object] = instances[i];
     if (object >= m.objects.size()) throw Error("it has instances of objects that are not there");
-    if (first < end || first + m.objects[object].triangles > triangles)
-      throw Error("its instances share triangles, or have some that it does not have");
     if (object > 0 && end_of_prototype(m, object - 1) > object)
       throw Error(fmt::format("it has an instance of object {} without the parts before it", object));
     for (std::uint32_t part = object; part < end_of_prototype(m, object); ++part, ++i)
-      if (i == instances.size() || instances[i] != HeldInstance{first, part})
+      if (i == instances.size() || instances[i] != HeldInstance{place, first, part})
         throw Error(
             fmt::format("it has an instance of object {}, but not of its other part {}", object, part));
-    ranges.push_back({first, m.objects[object].triangles});
-    end = first + m.objects[object].triangles;
+    visit(first, m.objects[object]);
+  }
+}
+
+// The ids of instances, ascending.
+std::vector<IdRange> ids_of(const Manifest& m, std::uint64_t triangles, std::vector<HeldInstance> instances) {
+  constexpr const char* wrong = "its instances share triangles, or have some that it does not have";
+  std::vector<IdRange> ranges;
+  std::uint64_t sum = 0;
+  for_each_whole(m, std::move(instances), [&](std::uint32_t first, const ObjectInfo& object) {
+    sum += object.triangles;
+    if (sum > triangles) throw Error(wrong);
+    if (triangles <= triangle_numbers) ranges.push_back({first, object.triangles});
+  });
+  if (triangles > triangle_numbers) return {{triangles - sum, sum}};
+  std::ranges::sort(ranges, {}, &IdRange::first);
+  std::uint64_t end = 0;
+  for (const IdRange& range : ranges) {
+    if (range.first < end || range.first + range.count > triangles) throw Error(wrong);
+    end = range.first + range.count;
   }
   return ranges;
 }

@@ -13,6 +13,7 @@
 namespace vitrail {
 
 struct HeldInstance {
+  std::uint64_t place = 0;  // a hash of where it stands
   std::uint32_t first_triangle = 0, object = 0;
   auto operator<=>(const HeldInstance&) const = default;
 };
@@ -20,7 +21,8 @@ struct HeldInstance {
 class HeldIds {
  public:
   HeldIds() = default;  // counts nothing
-  // Ids are [0, triangles), of which those of the `instances` stand in other files.
+  // Ids are [0, triangles), of which those of the `instances` stand in other files. Where there are more than
+  // numbers (triangle_number.h), they are the last, and of instances their sum is looked at.
   HeldIds(std::string name, const Manifest& manifest, std::uint64_t triangles, std::uint64_t cut_triangles,
           std::vector<HeldInstance> instances);
 

@@ -9,8 +9,10 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <span>
 #include <thread>
 
+#include "bundle/checksum.h"
 #include "bundle/expected_files.h"
 #include "bundle/held_ids.h"
 #include "bundle/kept_glazing.h"
@@ -162,7 +164,11 @@ class Verifier {
   // Files that are damaged are found later.
   std::vector<HeldInstance> instances_in(const Stored& stored) const try {
     std::vector<HeldInstance> held;
-    for (const InstanceRef& ref : read_instances(stored)) held.push_back({ref.first_triangle, ref.object});
+    for (const InstanceRef& ref : read_instances(stored)) {
+      Hasher hasher;
+      hasher.add(std::as_bytes(std::span(ref.to_parent.m)));
+      held.push_back({hasher.digest(), ref.first_triangle, ref.object});
+    }
     return held;
   } catch (const std::exception&) {
     return {};

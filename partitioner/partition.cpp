@@ -357,7 +357,14 @@ class Partitioner {
       ranges.push_back({use.first_triangle, world_.objects[use.object].assembly.triangles});
     for (const QuadricRun& run : world_.runs) ranges.push_back({run.first_triangle, run.places->size()});
     std::ranges::sort(ranges, {}, &IdRange::first);
-    return ranges;
+    // One that continues the one before is one with it, as those of most scenes do.
+    std::vector<IdRange> joined;
+    for (const IdRange& range : ranges)
+      if (!joined.empty() && joined.back().first + joined.back().count == range.first)
+        joined.back().count += range.count;
+      else
+        joined.push_back(range);
+    return joined;
   }
 
   const Scene& scene_;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdlib>
 
+#include "farm/files/signals.h"
 #include "farm/run/stopped_ranks.h"
 #include "farm/transport/doing.h"
 #include "scene/system/say.h"
@@ -77,6 +78,10 @@ bool Watchdog::stands_still(double since_last_s) {
     return true;
   }
   if (main_still_s_ < patience_s_) return false;
+  if (stop_signal() != 0) {  // as others do that end the job: who stood still has been named
+    say_given_up(fmt::format("told to end, it waits inside MPI or the system ({})", doing()));
+    return true;
+  }
   say_given_up(
       fmt::format("{} has not gone on for {:.3g} s (--patience {}): it waits inside MPI or the system{}",
                   doing(), main_still_s_, patience_s_, stopped_here()));

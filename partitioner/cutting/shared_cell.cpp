@@ -12,10 +12,12 @@ namespace vitrail {
 namespace {
 
 // Cells of so few boxes are not cut, and none is cut more often: 4096 cells at most.
-constexpr std::size_t few_boxes = 4;
+constexpr std::size_t few_boxes = 2;
 constexpr int most_cuts = 12;
 // A cut that makes more than so many of a box is not worth it.
 constexpr double most_copies = 1.6;
+// Of a cell's side: a gap beside what a domain has in it that is worth a plane.
+constexpr float least_gap = 0.4f;
 
 struct Plan {
   int axis = -1;  // −1: no cut is worth it
@@ -24,13 +26,14 @@ struct Plan {
 
 class Builder {
  public:
-  explicit Builder(std::uint32_t none) : none_(none) {}
+  Builder(const Bounds3f& whole, std::uint32_t none) : whole_(whole), none_(none) {}
 
   std::uint32_t add(const Bounds3f& cell, std::span<const SharedBox> boxes, int levels, int cuts) {
     const std::vector<std::uint32_t> domains = domains_of(boxes);
     if (domains.empty()) return KdNode::leaf_bit | none_;
     const Plan plan = levels > levels_of(domains.size()) && cuts > 0 ? plan_for(cell, boxes) : Plan{};
-    if (domains.size() == 1 || plan.axis < 0) return add_domains(domains);
+    if (plan.axis < 0 || domains.size() == 1)
+      return add_domains(cell, domains, boxes, levels - levels_of(domains.size()));
     std::vector<SharedBox> below, above;
     for (const SharedBox& b : boxes) {
       if (b.box.lower[plan.axis] <= plan.split) below.push_back(b);
@@ -92,14 +95,53 @@ class Builder {
     return {};
   }
 
-  std::uint32_t add_domains(std::span<const std::uint32_t> domains) {
-    if (domains.size() == 1) return KdNode::leaf_bit | domains[0];
+  std::uint32_t add_domains(const Bounds3f& cell, std::span<const std::uint32_t> domains,
+                            std::span<const SharedBox> boxes, int levels) {
+    if (domains.size() == 1) {
+      const Bounds3f room = room_of(cell);
+      Bounds3f own;
+      for (const SharedBox& b : boxes)
+        if (b.domain == domains[0]) extend(own, common(b.box, room));
+      return add_trimmed(room, domains[0], own, levels);
+    }
     const std::size_t half = (domains.size() + 1) / 2;
     return add_node(
-        nodes_, {0, KdNode::no_axis}, [&] { return add_domains(domains.first(half)); },
-        [&] { return add_domains(domains.subspan(half)); });
+        nodes_, {0, KdNode::no_axis}, [&] { return add_domains(cell, domains.first(half), boxes, levels); },
+        [&] { return add_domains(cell, domains.subspan(half), boxes, levels); });
   }
 
+  // A small cell with what is beyond the whole one, where rays are that leave the scene.
+  Bounds3f room_of(Bounds3f cell) const {
+    for (int a = 0; a < 3; ++a) {
+      const float side = whole_.upper[a] - whole_.lower[a];
+      if (cell.lower[a] == whole_.lower[a]) cell.lower[a] -= side;
+      if (cell.upper[a] == whole_.upper[a]) cell.upper[a] += side;
+    }
+    return cell;
+  }
+
+  // Planes part the cell from what the domain has in it, the widest gap first.
+  std::uint32_t add_trimmed(const Bounds3f& cell, std::uint32_t domain, const Bounds3f& own, int levels) {
+    int axis = -1;
+    bool is_below = false;
+    float widest = least_gap;
+    for (int a = 0; a < 3 && levels > 0; ++a) {
+      const float side = cell.upper[a] - cell.lower[a], below = own.lower[a] - cell.lower[a],
+                  above = cell.upper[a] - own.upper[a];
+      if (const float gap = std::max(below, above); gap > widest * side)
+        widest = gap / side, axis = a, is_below = below > above;
+    }
+    if (axis < 0) return KdNode::leaf_bit | domain;
+    Bounds3f rest = cell;
+    const float split = is_below ? own.lower[axis] : own.upper[axis];
+    (is_below ? rest.lower : rest.upper)[axis] = split;
+    const auto nothing = [&] { return KdNode::leaf_bit | none_; };
+    const auto go_on = [&] { return add_trimmed(rest, domain, own, levels - 1); };
+    const KdNode node{split, static_cast<std::uint32_t>(axis)};
+    return is_below ? add_node(nodes_, node, nothing, go_on) : add_node(nodes_, node, go_on, nothing);
+  }
+
+  Bounds3f whole_;
   std::uint32_t none_;
   std::vector<KdNode> nodes_;
 };
@@ -108,7 +150,7 @@ class Builder {
 
 std::vector<KdNode> tree_of_shared(const Bounds3f& cell, std::span<const SharedBox> boxes, std::uint32_t none,
                                    int most_depth) {
-  Builder builder(none);
+  Builder builder(cell, none);
   builder.add(cell, boxes, most_depth, most_cuts);
   return builder.take();
 }

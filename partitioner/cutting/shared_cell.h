@@ -18,7 +18,8 @@ struct SharedBox {
 
 // Returns a kd-tree of small cells, so that a ray comes first to the domains that have something where it
 // enters. A leaf is leaf_bit | domain, as often as the domain is met, and leaf_bit | `none` where there is
-// nothing. It has `most_depth` levels at most, and none where one box or one domain is all.
+// nothing: planes beside what a domain has in a small cell part it from the rest. It has `most_depth` levels
+// at most, and none where one box or one domain is all.
 std::vector<KdNode> tree_of_shared(const Bounds3f& cell, std::span<const SharedBox> boxes, std::uint32_t none,
                                    int most_depth);
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/placing/objects.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "bundle/triangle_number.h"
 #include "partitioner/placing/object_bounds.h"
 
 namespace vitrail {
@@ -66,6 +69,9 @@ std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(
 }
 
 void flatten(ScenePlan& plan) {
+  if (plan.scene.triangles > triangle_numbers)
+    throw Error(fmt::format("it has {} triangles with all instances; --flatten copies up to {}",
+                            plan.scene.triangles, triangle_numbers));
   // Those that stay whatever is copied, and of what is within those that move all.
   std::vector<bool> stays(plan.objects.size()), within(plan.objects.size());
   for (std::size_t i = plan.objects.size(); i-- > 0;) {

@@ -65,6 +65,7 @@ struct ScenePlan {
 std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(const Placement&)>& select);
 
 // The plan without instances: copies of meshes, and a use of the scene for each quadric and all that moves.
+// Throws Error for more triangles than there are numbers (bundle/triangle_number.h).
 void flatten(ScenePlan& plan);
 
 }  // namespace vitrail

@@ -13,6 +13,7 @@
 
 #include "bundle/binary_records.h"
 #include "bundle/checksum.h"
+#include "bundle/triangle_number.h"
 #include "scene/records/texture_inputs.h"
 #include "scene/shapes/deferred_mesh.h"
 
@@ -63,7 +64,7 @@ void take_emissive(const PlacedTriangles& placed, std::uint64_t at, std::size_t 
     EmissiveTriangle& e = out.triangles[first + i];
     std::copy(t.begin(), t.end(), e.p);
     if (!placed.uvs.empty()) std::copy(placed.uvs[at + i].begin(), placed.uvs[at + i].end(), e.uv);
-    e.triangle = static_cast<std::uint32_t>(first_id + i);
+    e.triangle = triangle_number(first_id + i);
     e.area_light = area_light;
     for (std::size_t slot = 0; slot < slots; ++slot)
       out.attributes[(first + i) * slots + slot] = placed.attributes[slot][at + i];
@@ -86,6 +87,18 @@ void close_up(Emissive& all) {
   all.triangles.resize(kept);
   all.attributes.resize(kept * slots);
   all.opacities.resize(all.opacities.empty() ? 0 : kept);
+}
+
+// A light that a ray hits is found by its number.
+void require_own_numbers(const Emissive& all) {
+  std::vector<std::uint32_t> numbers;
+  for (const EmissiveTriangle& e : all.triangles) numbers.push_back(e.triangle);
+  for (const EmissiveQuadric& e : all.quadrics) numbers.push_back(e.triangle);
+  std::ranges::sort(numbers);
+  if (std::ranges::adjacent_find(numbers) != numbers.end())
+    throw Error(
+        "two triangles that emit have one number, as happens in scenes of very many: another order of the "
+        "scene's instances parts them");
 }
 
 std::uint32_t surface_of(std::span<const Surface> surfaces, const Placement& p) {
@@ -213,7 +226,7 @@ void SceneTally::add_shining(const ShiningPlacement& shining, std::size_t first_
   if (p.mesh->quadric) {
     emissive_.quadrics.push_back({{*p.mesh->quadric, p.flip},
                                   p.standing.value().to_bundle,
-                                  static_cast<std::uint32_t>(p.first_triangle),
+                                  triangle_number(p.first_triangle),
                                   shining.area_light,
                                   shining.opacity});
     return;
@@ -239,6 +252,7 @@ void SceneTally::finish(Manifest& m) {
     throw Error(
         fmt::format("the scene reaches {:g} from its centre; the most is {:g}", m.scale, greatest_scale));
   close_up(emissive_);
+  if (m.triangles > triangle_numbers) require_own_numbers(emissive_);
   m.emissive_triangles = std::move(emissive_.triangles);
   m.emissive_attributes = std::move(emissive_.attributes);
   m.emissive_opacities = std::move(emissive_.opacities);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
+#include "bundle/triangle_number.h"
 #include "partitioner/placing/frame.h"
 #include "partitioner/placing/object_bounds.h"
 #include "partitioner/placing/prototype_uses.h"
@@ -232,7 +234,18 @@ class Planner {
     }
   }
 
+  // Of so many that a ray cannot have their ids (bundle/triangle_number.h) its own come first.
+  void number_own_first(Assembly& a) const {
+    if (a.triangles <= triangle_numbers) return;
+    std::uint64_t next = 0;
+    for (Placement& p : a.placements) p.first_triangle = std::exchange(next, next + triangles_of(*p.mesh));
+    for (ObjectUse& use : a.uses)
+      use.first_triangle = std::exchange(next, next + plan_.objects[use.object].triangles);
+    for (QuadricRun& run : a.runs) run.first_triangle = std::exchange(next, next + run.places->size());
+  }
+
   void finish(Assembly& a, bool is_scene) {
+    number_own_first(a);
     Bounds3d box, own;
     for (const Placement& p : a.placements) extend(own, world_bounds(p));
     if (!own.empty()) extend(box, own);

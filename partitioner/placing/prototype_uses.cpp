@@ -7,18 +7,16 @@
 #include <bit>
 #include <limits>
 
-#include "bundle/domain_file.h"
 #include "bundle/instance.h"
+#include "bundle/triangle_number.h"
 #include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
 
 namespace {
 
-// Of 2⁰ to 2⁴, 2⁴ to 2⁸ … 2²⁸ to 2³² triangles.
-int magnitude(std::uint64_t triangles) { return (static_cast<int>(std::bit_width(triangles)) - 1) / 4; }
 constexpr int max_depth = max_instance_depth - 1;  // of prototypes: the quadrics in them are instances, too
-static_assert(max_depth >= 32 / 4);
+static_assert(max_depth >= 32 / 4 && max_depth >= 64 / 8);
 
 // Nested instances are more than can be counted.
 std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
@@ -45,11 +43,11 @@ PrototypeUses::PrototypeUses(const Scene& scene)
     }
     triangles_.push_back(sum);
   }
-  if (triangles_[scene_] >= no_triangle)
+  if (triangles_[scene_] > most_triangles)
     throw Error(
         fmt::format("the scene has {}{} triangles with all instances; the most is {}",
                     triangles_[scene_] == std::numeric_limits<std::uint64_t>::max() ? "at least " : "",
-                    triangles_[scene_], no_triangle - 1));
+                    triangles_[scene_], most_triangles));
   for (std::size_t i = scene_ + 1; i-- > 0;)
     if (i == scene_ || above_[i] > 0)
       for (const Instance& instance : instances_in(i)) {
@@ -63,10 +61,13 @@ PrototypeUses::PrototypeUses(const Scene& scene)
 
 bool PrototypeUses::is_deep(std::size_t i) const { return above_[i] + below_[i] > max_depth; }
 
+int PrototypeUses::magnitude(std::size_t i) const {
+  return (static_cast<int>(std::bit_width(triangles_[i])) - 1) / (triangles_[scene_] >> 32 == 0 ? 4 : 8);
+}
+
 bool PrototypeUses::may_keep(std::size_t outer, std::size_t inner) const {
   if (triangles_[inner] == 0) return false;
-  return outer == scene_ || !is_deep(outer) || !is_deep(inner) ||
-         magnitude(triangles_[inner]) < magnitude(triangles_[outer]);
+  return outer == scene_ || !is_deep(outer) || !is_deep(inner) || magnitude(inner) < magnitude(outer);
 }
 
 }  // namespace vitrail

@@ -12,7 +12,7 @@ namespace vitrail {
 // of instances there are. The scene counts as one more prototype, the last.
 class PrototypeUses {
  public:
-  // Throws Error where a prototype holds itself, and for 2³² − 1 triangles or more with all instances.
+  // Throws Error where a prototype holds itself, and for more than 2⁶² triangles with all instances.
   explicit PrototypeUses(const Scene& scene);
 
   // With all that is in it.
@@ -22,12 +22,14 @@ class PrototypeUses {
 
   // Whether an instance of `inner` in `outer` may be kept. On chains of more instances than a ray can follow
   // (of prototypes one less than max_instance_depth) it may where `inner` is of a lower magnitude in
-  // triangles; as a scene has fewer than 2³² of them, that leaves chains short enough, and copies at most 16
-  // times what an object holds.
+  // triangles. That leaves chains short enough, and copies at most 16 times what an object holds; 256 times
+  // in scenes of 2³² triangles or more.
   bool may_keep(std::size_t outer, std::size_t inner) const;
 
  private:
   bool is_deep(std::size_t prototype) const;
+  // Returns 0 for 2⁰ to 2⁴ triangles, 1 for 2⁴ to 2⁸ …; in scenes of 2³² or more 0 for 2⁰ to 2⁸ …
+  int magnitude(std::size_t prototype) const;
 
   std::size_t scene_;  // index
   std::vector<std::uint64_t> triangles_, uses_;

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "bundle/interiors.h"
+#include "bundle/triangle_number.h"
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/appearance/requirements.h"
 #include "partitioner/placing/decimals.h"
@@ -119,6 +120,13 @@ void move_records(const Scene& scene, Appearance& appearance, Manifest& m) {
     m.settings.max_depth = unlimited_depth;
 }
 
+// Files hold the ids of triangles that are no instance's in 32 bits.
+void require_numbers(const Assembly& a) {
+  for (const Placement& p : a.placements)
+    if (p.first_triangle + triangles_of(*p.mesh) > triangle_numbers)
+      throw Error(fmt::format("more than {} triangles are no instances'", triangle_numbers));
+}
+
 }  // namespace
 
 World world_of(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options) {
@@ -150,6 +158,8 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
     const Surface surface = surface_of(p, appearance);
     world.shining.push_back({p, static_cast<std::uint32_t>(surface.area_light), surface.opacity});
   }
+  require_numbers(plan.scene);
+  for (const Assembly& object : plan.objects) require_numbers(object);
   VertexDoubts doubts(appearance);
   const ShapeNames names(scene);
   make_surfaces(appearance, plan.scene.placements, doubts, names, world);

@@ -56,8 +56,9 @@ struct World {
 // Composes all transforms in double. `offset`, to be taken from the world's coordinates, is where frame.h
 // finds the origin, a point of floats. Ids run in scene order: the shapes that are no instances of an object,
 // the others, then each instance's shapes. Materials and area lights that no triangle uses are left out.
-// Throws Error for shapes that floats cannot hold, and for 2³² − 1 triangles or more. Images are baked into
-// the directory `bundle`, unless it is empty. The scene outlives the world.
+// Throws Error for shapes that floats cannot hold, and for more triangles that are no instances' than there
+// are numbers (bundle/triangle_number.h). Images are baked into the directory `bundle`, unless it is empty.
+// The scene outlives the world.
 World world_of(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options = {});
 
 }  // namespace vitrail

@@ -14,6 +14,7 @@
 #include <tuple>
 
 #include "bundle/checksum.h"
+#include "bundle/triangle_number.h"
 #include "partitioner/hierarchy/build_bvh.h"
 #include "partitioner/least_memory.h"
 #include "partitioner/memory_plan.h"
@@ -66,7 +67,7 @@ struct Files {
 };
 
 InstanceRef reference(const ObjectUse& use, std::uint32_t object, const Bounds3f& box) {
-  InstanceRef ref{use.to_parent, {}, {}, object, static_cast<std::uint32_t>(use.first_triangle)};
+  InstanceRef ref{use.to_parent, {}, {}, object, triangle_number(use.first_triangle)};
   set_box(ref, box);
   return ref;
 }

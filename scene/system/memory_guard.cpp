@@ -177,8 +177,10 @@ void forget_refusal() {
 }
 
 LentReserve::LentReserve() : before_(memory_refusal()), bytes_(is_guarding() ? reserve / 4 * 3 : 0) {
-  constexpr std::uint64_t least = 2 << 20;
-  if (const std::uint64_t enough = resident_bytes() + least; is_guarding() && enough > limit)
+  constexpr std::uint64_t least = 2 << 20, least_budget = 15 << 20;
+  if (const std::uint64_t enough =
+          std::min(resident_bytes() + least, std::max(limit + reserve, least_budget));
+      is_guarding() && enough > limit)
     bytes_ = std::max(bytes_, enough - limit);
   forget_refusal();
   limit += bytes_;

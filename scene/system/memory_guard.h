@@ -69,9 +69,10 @@ struct MemoryRefusal {
 MemoryRefusal memory_refusal();
 // The same work is tried in another way: as if nothing had been refused. Called while no other thread works.
 void forget_refusal();
-// Within its life most of the reserve (below) may be taken, too, as if nothing had been refused: at least 2
-// MiB beyond what is resident, for how much of a program is varies with the system's cache of files. After it
-// the refusal before is the reason again. It serves what is done last, while no other thread works.
+// Within its life most of the reserve (below) may be taken, too, as if nothing had been refused: 2 MiB beyond
+// what is resident where the budget has them or is below 15 MiB, for how much of a program is resident varies
+// with the system's cache of files. After it the refusal before is the reason again. It serves what is done
+// last, while no other thread works.
 class LentReserve {
  public:
   LentReserve();

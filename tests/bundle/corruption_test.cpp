@@ -7,6 +7,7 @@
 
 #include "bundle/loaded_domain.h"
 #include "bundle/texture_file.h"
+#include "bundle/triangle_number.h"
 #include "bundle/verify.h"
 #include "scene/system/diagnostics.h"
 #include "tests/bundle/sample_bundle.h"
@@ -142,10 +143,18 @@ TEST(CorruptionOfBundle, TriangleThatTheSceneDoesNotHave) {
   const auto file = domain_path(directory.path(), 0);
   DomainContent content = test::sample_domain();
   content.clusters[1].id[2] = 11;
-  m.domains[0].bytes = write_domain_file(file, content);
-  const MappedDomain mapped(file);
-  m.domains[0].hash = mapped.hash();
-  EXPECT_THROW(check_domain(m, 0, mapped, file), Error);
+  const auto check = [&] {
+    m.domains[0].bytes = write_domain_file(file, content);
+    const MappedDomain mapped(file);
+    m.domains[0].hash = mapped.hash();
+    check_domain(m, 0, mapped, file);
+  };
+  EXPECT_THROW(check(), Error);
+  // However many there are, there are only so many numbers.
+  m.triangles = 1ull << 40;
+  EXPECT_NO_THROW(check());
+  content.clusters[1].id[2] = triangle_numbers;
+  EXPECT_THROW(check(), Error);
 }
 
 // Files that are whole, but do not fit the manifest.

@@ -275,7 +275,7 @@ TEST_F(ManifestFile, WrongContentIsFound) {
         m.kd_nodes[0] = {3, KdNode::no_axis, 1, leaf | 2};
       },
       [](Manifest& m) { m.domains.clear(); },
-      [](Manifest& m) { m.triangles = 1ull << 32; },
+      [](Manifest& m) { m.triangles = (1ull << 62) + 1; },
       [](Manifest& m) { m.cut_triangles = 12; },
       [](Manifest& m) { m.surfaces[0].first_triangle = 1; },
       [](Manifest& m) { m.surfaces[2].first_triangle = 4; },

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "farm/files/signals.h"
 #include "scene/system/underway.h"
 
 namespace vitrail::watchdog_test {
@@ -34,6 +35,18 @@ TEST(Watchdog, EndsAProcessThatWaitsInsideMpi) {
     }
   };
   EXPECT_EXIT(hang(), ExitedWithCode(4), "starting has not gone on for .* waits inside MPI");
+}
+
+// The rank that stood still is gone by then, and another has named it.
+TEST(Watchdog, BlamesNobodyOnceItIsToldToEnd) {
+  const auto hang = [] {
+    Watchdog watchdog(.4);
+    watchdog.expect_reports();
+    ask_to_stop();
+    for (;;) {
+    }
+  };
+  EXPECT_EXIT(hang(), ExitedWithCode(4), "told to end, it waits inside MPI or the system \\(starting\\)");
 }
 
 TEST(Watchdog, WaitsForWhoGoesOn) {

@@ -117,7 +117,7 @@ Chain extended(const Query& query, const Chain& chain, std::uint32_t index) {
   Chain next{
       object,
       through_instance(chain.instances.empty() ? nullptr : &chain.to_bundle, ref, *object, query.ray.time_s),
-      chain.first_triangle + ref.first_triangle, chain.instances};
+      number_from(chain.first_triangle, ref.first_triangle), chain.instances};
   next.instances.push_back(index);
   return next;
 }
@@ -126,7 +126,7 @@ Cluster placed(const Cluster& local, const Chain& chain) {
   Cluster there;
   const bool mirrored = mirrors(chain.to_bundle);
   for (std::size_t lane = 0; lane < cluster_width; ++lane) {
-    there.id[lane] = local.id[lane] + chain.first_triangle;
+    there.id[lane] = number_from(chain.first_triangle, local.id[lane]);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& from = local.vertex[source_corner(mirrored, k)];
       const Point3f p = vitrail::placed(chain.to_bundle, {from[0][lane], from[1][lane], from[2][lane]});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bundle/triangle_number.h"
 #include "scene/geometry/motion.h"
 #include "tracer/intersect/exact_test.h"
 #include "tracer/quadrics/quadric_surface.h"
@@ -91,7 +92,7 @@ void extend_chain(const InstanceRay& outer, std::uint32_t index, double time_s, 
   show(object, inner);
   inner.to_bundle = through_instance(matrix_of(outer), ref, object, time_s);
   inner.mirrored = mirrors(inner.to_bundle);
-  inner.first_triangle = outer.first_triangle + ref.first_triangle;
+  inner.first_triangle = number_from(outer.first_triangle, ref.first_triangle);
   inner.depth = outer.depth + 1;
   std::copy_n(outer.chain, outer.depth, inner.chain);
   inner.chain[outer.depth] = index;
@@ -122,7 +123,7 @@ namespace {
 QuadricHits hits_of(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index) {
   const InstanceRef& ref = outer.instances[index];
   const DomainView& object = *outer.domain->objects[ref.object];
-  const bool starts_there = outer.first_triangle + ref.first_triangle == ray.exclude;
+  const bool starts_there = number_from(outer.first_triangle, ref.first_triangle) == ray.exclude;
   return quadric_hits(ray, through_instance(matrix_of(outer), ref, object, ray.time_s),
                       object.quadric->quadric, starts_there);
 }
@@ -139,7 +140,7 @@ double seen_t_of(const RayConstants& ray, const InstanceRay& outer, std::uint32_
 bool closest_in_quadric(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, Hit& hit) {
   const QuadricHits hits = hits_of(ray, outer, index);
   if (hits.count == 0 || outer.depth == max_instance_depth) return false;
-  const std::uint32_t id = outer.first_triangle + outer.instances[index].first_triangle;
+  const std::uint32_t id = number_from(outer.first_triangle, outer.instances[index].first_triangle);
   const Point3d local = hits.at[0].local;
   if (!(hits.at[0].t <= hit.t)) return false;
   const double t = seen_t_of(ray, outer, index, hits.at[0]);

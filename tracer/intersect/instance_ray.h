@@ -6,6 +6,7 @@
 
 #include "bundle/instance.h"
 #include "bundle/oriented_quadric.h"
+#include "bundle/triangle_number.h"
 #include "tracer/quadrics/quadric_hits.h"
 #include "tracer/rays/ray.h"
 

@@ -18,7 +18,8 @@ inline void place_cluster(const Cluster& local, const InstanceRay& at, Cluster& 
       *reinterpret_cast<EightFloats*>(out.vertex[k][axis]) = __builtin_convertvector(sum, EightFloats) + 0.0f;
     }
   }
-  for (int lane = 0; lane < cluster_width; ++lane) out.id[lane] = local.id[lane] + at.first_triangle;
+  for (int lane = 0; lane < cluster_width; ++lane)
+    out.id[lane] = number_from(at.first_triangle, local.id[lane]);
 }
 
 // The limit on s in an object that a limit on ζ means, rounded up.

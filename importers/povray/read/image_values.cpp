@@ -8,6 +8,7 @@
 
 #include "images/image_files.h"
 #include "importers/povray/read/reader.h"
+#include "importers/povray/read/whole.h"
 #include "scene/spectra/color.h"
 
 namespace vitrail::pov {
@@ -92,16 +93,14 @@ Numbers ImageValues::looked_up(Point2d at, bool as_light) const {
   const auto one = [&](int column, int row) {
     return as_light ? decoded(pixel(column, row)) : pixel(column, row);
   };
-  if (map_.interpolate == 0)
-    return one(std::min(static_cast<int>(x), image_.width - 1),
-               std::min(static_cast<int>(y), image_.height - 1));
+  if (map_.interpolate == 0) return one(whole(x, 0, image_.width - 1), whole(y, 0, image_.height - 1));
   const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
   const double right_share = x - 0.5 - left, low_share = y - 0.5 - top;
   Numbers sum = Finish::grey(0);
   for (int k = 0; k < 4; ++k) {
     const int i = k & 1, j = k >> 1;
     const double weight = (i ? right_share : 1 - right_share) * (j ? low_share : 1 - low_share);
-    const Numbers c = one(static_cast<int>(left) + i, static_cast<int>(top) + j);
+    const Numbers c = one(whole(left, -1, image_.width) + i, whole(top, -1, image_.height) + j);
     for (std::size_t n = 0; n < 5; ++n) sum.v[n] += weight * c.v[n];
   }
   return sum;

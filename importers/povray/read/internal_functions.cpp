@@ -10,6 +10,7 @@
 
 #include "importers/povray/read/function.h"
 #include "importers/povray/read/noise.h"
+#include "importers/povray/read/whole.h"
 
 namespace vitrail::pov {
 
@@ -115,7 +116,7 @@ constexpr InternalFormula cylinder(int number, F) {
 double noise_of(const double* a) { return noise(a[0], a[1], a[2]); }
 double ridged_mf(const double* a) {  // P3 offset, P4 gain
   double sum = 0, weight = 1, frequency = 1;
-  const int octaves = std::clamp(static_cast<int>(a[5]), 1, 32);
+  const int octaves = whole(a[5], 1, 32);
   for (int i = 0; i < octaves; ++i, frequency *= a[4]) {
     double signal = a[6] - std::abs(2 * noise(a[0] * frequency, a[1] * frequency, a[2] * frequency) - 1);
     signal *= signal * weight;
@@ -126,7 +127,7 @@ double ridged_mf(const double* a) {  // P3 offset, P4 gain
 }
 double hetero_mf(const double* a) {  // P3 offset, P4 T
   double sum = 2 * noise(a[0], a[1], a[2]) - 1 + a[6], frequency = a[4];
-  const int octaves = std::clamp(static_cast<int>(a[5]), 1, 32);
+  const int octaves = whole(a[5], 1, 32);
   for (int i = 1; i < octaves; ++i, frequency *= a[4])
     sum += sum * std::pow(frequency, -a[3]) *
            (2 * noise(a[0] * frequency, a[1] * frequency, a[2] * frequency) - 1 + a[6]);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "importers/povray/read/whole.h"
+
 namespace vitrail::pov {
 
 namespace {
@@ -31,8 +33,7 @@ double noise(double x, double y, double z) {
   constexpr double far = 1e9;
   const double fx = std::floor(std::clamp(x, -far, far)), fy = std::floor(std::clamp(y, -far, far)),
                fz = std::floor(std::clamp(z, -far, far));
-  const auto ix = static_cast<std::int64_t>(fx), iy = static_cast<std::int64_t>(fy),
-             iz = static_cast<std::int64_t>(fz);
+  const std::int64_t ix = whole(fx), iy = whole(fy), iz = whole(fz);
   x -= fx, y -= fy, z -= fz;
   const double u = fade(x), v = fade(y), w = fade(z);
   double sum = 0;

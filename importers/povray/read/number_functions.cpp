@@ -13,6 +13,7 @@
 #include "importers/povray/read/number_words.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/transforms.h"
+#include "importers/povray/read/whole.h"
 #include "scene/models/lattice_noise.h"
 
 namespace vitrail::pov {
@@ -144,8 +145,7 @@ std::optional<Numbers> Reader::function_of(const Token& word) {
       notes.approximated(noise_elsewhere, location(word.place));
       const double omega = argument(), octaves = argument();
       const Vector3d p = first_three(vector_argument().promoted(3));
-      result = numbers_of(
-          vector_turbulence(Point3d{} + p, {static_cast<int>(std::clamp(octaves, 1.0, 10.0)), a.x, omega}));
+      result = numbers_of(vector_turbulence(Point3d{} + p, {whole(octaves, 1, 10), a.x, omega}));
     }
   }
   if (!result) return result;
@@ -161,7 +161,7 @@ std::optional<Numbers> Reader::query_of(const Token& word) {
   std::optional<Numbers> result;
   switch (name) {
     case Word::seed_:
-      random_.push_back(static_cast<std::uint32_t>(static_cast<std::int64_t>(argument(true))));
+      random_.push_back(static_cast<std::uint32_t>(whole(argument(true))));
       result = Numbers(static_cast<double>(random_.size() - 1));
       break;
     case Word::rand_: {

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <numbers>
 
+#include "importers/povray/read/whole.h"
+
 namespace vitrail::pov {
 
 namespace {
-
-std::int64_t whole(double x) { return static_cast<std::int64_t>(std::clamp(x, -9e18, 9e18)); }
 
 constexpr double degree = std::numbers::pi / 180;
 

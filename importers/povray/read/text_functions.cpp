@@ -10,6 +10,7 @@
 #include "importers/povray/read/numbers_text.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/spline.h"
+#include "importers/povray/read/whole.h"
 
 namespace vitrail::pov {
 
@@ -130,8 +131,7 @@ std::optional<std::string> Reader::text_function(Word word) {
     case Word::str_: {
       const double value = argument(true);
       const double width = argument(), digits = argument();
-      result = formatted(value, static_cast<int>(std::clamp(width, -1e6, 1e6)),
-                         static_cast<int>(std::clamp(digits, -1e6, 1e6)));
+      result = formatted(value, whole(width, -1000000, 1000000), whole(digits, -1000000, 1000000));
       break;
     }
     case Word::strlwr_:
@@ -150,15 +150,15 @@ std::optional<std::string> Reader::text_function(Word word) {
       break;
     }
     case Word::vstr_: {
-      const int terms = std::clamp(static_cast<int>(argument(true)), 1, 5);
+      const int terms = whole(argument(true), 1, 5);
       const Numbers value = vector_argument().promoted(terms);
       expect(',', "between arguments");
       const std::string between = text("a text");
       const double width = argument(), digits = argument();
       for (int i = 0; i < terms; ++i)
-        result += (i ? between : "") + formatted(value.v[static_cast<std::size_t>(i)],
-                                                 static_cast<int>(std::clamp(width, -1e6, 1e6)),
-                                                 static_cast<int>(std::clamp(digits, -1e6, 1e6)));
+        result +=
+            (i ? between : "") + formatted(value.v[static_cast<std::size_t>(i)],
+                                           whole(width, -1000000, 1000000), whole(digits, -1000000, 1000000));
       break;
     }
     default:

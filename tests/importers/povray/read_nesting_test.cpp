@@ -33,6 +33,14 @@ std::string times(int count, const std::string& text) {
   return all;
 }
 
+// Casts of such numbers are undefined.
+TEST_F(ReadNesting, WholeNumbersBeyondThoseThatThereAre) {
+  for (const char* same : {"rand(seed(1e111)) = rand(seed(9e18))", "rand(seed(acosh(0))) = rand(seed(0))",
+                           "strlen(vstr(1e30, <1,2,3,4,5>, \" \", 0, 0)) = 9", "bitwise_or(acosh(0), 4) = 4",
+                           "strlen(str(1, acosh(0), 0)) = 1"})
+    expect_refused(fmt::format("#if ({}) #error \"the same\" #end", same), "the same");
+}
+
 // The argument of a directive runs over the end of the loop that it stands in, and meets itself.
 TEST_F(ReadNesting, ArgumentsBeyondTheirLoop) {
   for (const char* directive : {"#declare", "#local", "#undef", "#debug", "#include", "#default", "#version",

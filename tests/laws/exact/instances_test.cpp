@@ -7,6 +7,7 @@
 #include <atomic>
 #include <random>
 
+#include "bundle/triangle_number.h"
 #include "tests/laws/exact/awkward_rays.h"
 
 namespace vitrail::test::instances_test {
@@ -76,14 +77,20 @@ Kept keep(const Parts& parts, std::size_t part, const std::vector<Kept>& before,
   return kept;
 }
 
+// The ids of the scene's instances begin `gap` behind those of its own triangles.
 struct Both {
-  explicit Both(const Parts& parts) {
+  Both(const Parts& parts, std::uint32_t gap) {
     test::Triangles triangles;
     flatten(parts, parts.size() - 1, nullptr, triangles);
     all = std::move(triangles);
     flat = cluster(all);
+    for (Cluster& c : flat.clusters)
+      for (std::uint32_t& id : c.id)
+        if (id != no_triangle && id >= parts.back().triangles.size()) id = number_from(gap, id);
     for (std::size_t i = 0; i < parts.size(); ++i)
       kept.push_back(keep(parts, i, kept, i + 1 == parts.size()));
+    for (InstanceRef& ref : kept.back().content.instances)
+      ref.first_triangle = number_from(gap, ref.first_triangle);
     for (Kept& k : kept) {
       k.view = view_of(k.content);
       views.push_back(&k.view);
@@ -109,14 +116,14 @@ bool leads_to_its_triangle(const Both& scene, const Hit& hit) {
   std::uint32_t first = 0;
   const DomainView* at = &scene.domain;
   for (std::uint32_t i = 0; i < hit.depth; ++i) {
-    first += at->instances[hit.chain[i]].first_triangle;
+    first = number_from(first, at->instances[hit.chain[i]].first_triangle);
     at = scene.domain.objects[at->instances[hit.chain[i]].object];
   }
-  return first + at->clusters[hit.cluster].id[hit.lane] == hit.triangle;
+  return number_from(first, at->clusters[hit.cluster].id[hit.lane]) == hit.triangle;
 }
 
-void expect_equal(const Parts& parts, std::size_t ray_count, bool reference = true) {
-  const Both scene(parts);
+void expect_equal(const Parts& parts, std::size_t ray_count, bool reference = true, std::uint32_t gap = 0) {
+  const Both scene(parts, gap);
   const DomainView flat = view_of(scene.flat);
   const KdNode planes[] = {{0, 0}, {0.1f * greatest_coordinate(scene.all), 1}, {0, 2}};
   const std::vector<Ray> rays = awkward_rays(scene.all, planes, ray_count);
@@ -245,6 +252,16 @@ TEST(Instances, CoincidingOnesAreDecidedById) {
   const std::vector<Part::Use> uses = parts[3].uses;
   parts[3].uses.insert(parts[3].uses.end(), uses.rbegin(), uses.rend());
   expect_equal(parts, 20'000, false);
+}
+
+// As in scenes of more triangles than numbers: after half of these they are 0, 1, 2 …
+TEST(Instances, WhereNumbersBeginAnew) {
+  Parts parts = forest(1, 12);
+  const std::vector<Part::Use> uses = parts[3].uses;
+  parts[3].uses.insert(parts[3].uses.end(), uses.rbegin(), uses.rend());
+  const auto half = static_cast<std::uint32_t>(count(parts, 3) / 2);
+  for (const std::uint32_t step : {half, half + 17, half / 3})
+    expect_equal(parts, 20'000, true, triangle_numbers - step);
 }
 
 }  // namespace

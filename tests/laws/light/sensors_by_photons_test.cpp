@@ -13,6 +13,7 @@
 #include "tests/laws/light/media_scenes.h"
 #include "tests/support/render.h"
 #include "tracer/bsdf/fresnel.h"
+#include "tracer/bsdf/local.h"
 #include "tracer/photons/progressive.h"
 
 namespace vitrail::test::sensors_by_photons_test {

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <random>
+#include <utility>
 
 #include "bundle/loaded_domain.h"
+#include "bundle/triangle_number.h"
 #include "bundle/verify.h"
 #include "farm/scheduler/residency.h"
 #include "partitioner/partition.h"
@@ -233,6 +236,73 @@ TEST(KeptInstances, OutOfCore) {
   const nlohmann::json kept = films.render(directory / "kept.vit", 1, 2);
   ASSERT_FALSE(reference.is_null() || kept.is_null());
   EXPECT_EQ(kept["film_hash"], reference["film_hash"]);
+}
+
+// A unit square of n · m quads.
+Id<TriangleMesh> add_grid(Scene& scene, int n, int m) {
+  std::vector<std::array<Point3f, 4>> quads;
+  const auto at = [&](int i, int j) {
+    return Point3f{static_cast<float>(i) / static_cast<float>(n) - 0.5f,
+                   static_cast<float>(j) / static_cast<float>(m) - 0.5f, 0};
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < m; ++j) quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+  return add_quads(scene, quads);
+}
+
+// With instances below the floor, in up to three levels, of a square of 2·side² triangles: so many that,
+// where side is 46, numbers begin anew within the first of the forest's lamps.
+Scene on_sand(Scene scene, int side) {
+  constexpr std::uint64_t before_lamp =
+      322 + 1696 + 16;  // what has no instance, three instances, half a lamp
+  Prototype next;
+  next.shapes = {{add_grid(scene, side, side), Id<Material>{1}}};
+  std::vector<Instance> sand;
+  std::uint64_t left = triangle_numbers - before_lamp, triangles = 2 * 46 * 46 * 1'000'000ull;
+  std::array<std::uint64_t, 4> counts;  // of level 3, 2, 1, 0
+  for (std::uint64_t& count : counts) {
+    count = left / triangles;
+    left -= count * triangles;
+    triangles /= 100;
+  }
+  for (std::size_t level = 0; level < 4; ++level) {
+    scene.prototypes.push_back(std::exchange(next, {}));
+    const Id<Prototype> it{static_cast<std::uint32_t>(scene.prototypes.size() - 1)};
+    for (std::uint64_t i = 0; i < counts[3 - level]; ++i)
+      sand.push_back({it, translate({0, 0, -9.5 - 0.01 * static_cast<double>(i)}) * scale({30, 30, 1})});
+    for (int i = 0; i < 100; ++i)
+      next.instances.push_back(
+          {it, translate({i % 10 * 0.1 - 0.45, i / 10 * 0.1 - 0.45, 0}) * scale({0.1, 0.1, 1})});
+  }
+  scene.instances.insert(scene.instances.begin(), sand.begin(), sand.end());
+  scene.shapes.push_back({add_grid(scene, static_cast<int>(left / 2), 1),
+                          Id<Material>{1},
+                          {},
+                          1.0f,
+                          translate({0, 0, -9.5}) * scale({30, 30, 1})});
+  return scene;
+}
+
+// What is seen is the same, the numbers of its triangles are not (laws/exact/instances_test.cpp has the
+// hits).
+TEST(KeptInstances, OfMoreTrianglesThanNumbers) {
+  const Scene few = on_sand(forest({}), 8), many = on_sand(forest({}), 46);
+  const Films films_of_few(few), films(many);
+  const auto small = films_of_few.bundle("small.vit", {.domains = 1});
+  ASSERT_LT(read_manifest(small).triangles, triangle_numbers);
+  const nlohmann::json reference = films_of_few.render(small, 1, 2);
+  for (const PartitionOptions& options :
+       {PartitionOptions{.domains = 1}, {.domains = 3, .domain_bytes = 100'000}}) {
+    const auto large = films.bundle("large.vit", options);
+    const Manifest m = read_manifest(large);
+    EXPECT_GT(m.triangles, triangle_numbers);
+    const auto anew = std::ranges::find(m.emissive_triangles, 0u, &EmissiveTriangle::triangle);
+    ASSERT_TRUE(anew > m.emissive_triangles.begin() && anew < m.emissive_triangles.end());
+    EXPECT_EQ((anew - 1)->triangle, triangle_numbers - 1);
+    for (const int ranks : {1, 2})
+      EXPECT_EQ(films.render(large, ranks, 2)["film_hash"], reference["film_hash"])
+          << options.domains << " domains, " << ranks << " ranks";
+  }
 }
 
 void expect_the_flattened_lights(const Scene& scene) {
