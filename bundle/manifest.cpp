@@ -138,9 +138,9 @@ bool has_newer_grids(const Medium& medium) {
 
 }  // namespace
 
-Features features_of(const Manifest& m) {
-  Features f;
-  const auto require = [&](bool needed, std::uint32_t bit) { f.required |= needed ? bit : 0; };
+ManifestFeatures features_of(const Manifest& m) {
+  ManifestFeatures f;
+  const auto require = [&](bool needed, std::uint64_t bit) { f.required |= needed ? bit : 0; };
   require(m.requirements.shading_normals, required_feature::normals);
   require(m.requirements.uv, required_feature::uvs);
   require(m.attributes > 0, required_feature::attributes);
@@ -221,6 +221,12 @@ Features features_of(const Manifest& m) {
   require(std::ranges::any_of(m.domains, [](const DomainInfo& d) { return d.pack.has_value(); }),
           required_feature::packs);
   require(clip_of(m.camera) != ClipRange{}, required_feature::clips);
+  require(std::ranges::any_of(m.materials,
+                              [](const Material& material) {
+                                const auto* of = std::get_if<PrincipledMaterial>(&material.model);
+                                return of && of->below;
+                              }),
+          required_feature::bases);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }
@@ -268,7 +274,7 @@ void write_manifest(const std::filesystem::path& bundle, const Manifest& manifes
   const std::uint64_t lights = write_records(bundle / "lights.bin", lights_magic,
                                              [&](const ByteSink& sink) { encode_lights(manifest, sink); });
 
-  const Features features = features_of(manifest);
+  const ManifestFeatures features = features_of(manifest);
   Json json{{"format", "vitrail bundle"}, {"version", manifest_version}};
   json["features"] = {{"required", required_names(features.required)},
                       {"optional", optional_names(features.optional)}};

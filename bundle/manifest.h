@@ -213,7 +213,7 @@ std::span<const Surface> surfaces_of(const Manifest& m, const ObjectInfo& object
 std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain);
 
 // What the bundle has; its files have no more.
-Features features_of(const Manifest& m);
+ManifestFeatures features_of(const Manifest& m);
 
 // Writes manifest.json, materials.bin and lights.bin. Throws MachineError.
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest);

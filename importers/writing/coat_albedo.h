@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "scene/records/material.h"
 #include "scene/spectra/spectrum.h"
 
 namespace vitrail {
@@ -19,6 +20,9 @@ enum class DiffuseAlbedo { of_what_gets_in, of_all };
 double base_below_coat(double albedo, double eta, DiffuseAlbedo of);
 // The same at every wavelength, or of its colour.
 Spectrum base_below_coat(const Spectrum& albedo, double eta, DiffuseAlbedo of);
+
+// Whether some of it may be diffuse.
+bool has_base(const PrincipledMaterial& m);
 
 // Returns the albedo with each of its values changed so, at every wavelength, or of its colour.
 Spectrum changed_albedo(const Spectrum& albedo, const std::function<double(double)>& change);

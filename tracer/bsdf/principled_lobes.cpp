@@ -32,8 +32,8 @@ double diffuse(double roughness, double flatness, DiffuseCosines c) {
   return lanes::principled::diffuse(roughness, flatness, c.out, c.in, c.half);
 }
 
-double below(double roughness, double normal_reflectance, double out, double in) {
-  return lanes::principled::below(roughness, normal_reflectance, out, in);
+double below(double roughness, double eta, double out, double in) {
+  return lanes::principled::below(roughness, eta, out, in);
 }
 
 }  // namespace vitrail::principled

@@ -150,10 +150,8 @@ TEST_F(WriteMitsuba, ApproximatedModels) {
   EXPECT_THAT(diagnostics_, approximates("nonlinear plastic"));
   EXPECT_EQ(type(CoatedConductorMaterial{}), "conductor");
   EXPECT_THAT(diagnostics_, approximates("without its coating"));
-  EXPECT_EQ(type(PrincipledMaterial{.below = true}), "roughplastic");
-  EXPECT_THAT(diagnostics_, approximates("glTF's dielectric"));
-  EXPECT_EQ(type(PrincipledMaterial{.metallic = 0.5f, .below = true}), "principled");
-  EXPECT_THAT(diagnostics_, approximates("the diffuse part of glTF's model"));
+  EXPECT_EQ(type(PrincipledMaterial{.below = true}), "principled");
+  EXPECT_THAT(diagnostics_, approximates("the base of glTF's model"));
   EXPECT_EQ(type(DiffuseTransmissionMaterial{}), "principledthin");
   EXPECT_THAT(diagnostics_, approximates("diffuse transmission"));
   EXPECT_EQ(type(SubsurfaceMaterial{SubsurfaceMaterial::Named{"Skin3"}}), "dielectric");

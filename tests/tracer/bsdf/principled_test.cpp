@@ -56,7 +56,7 @@ TEST(Principled, AgreesWithMitsuba) {
 // What comes of a sky of 1, in a direction.
 template <class Model>
 double albedo(const Model& model, double degrees) {
-  constexpr int n = 300;
+  constexpr int n = 200;
   const double theta = degrees * pi / 180;
   const Vector3d out{std::sin(theta), 0, std::cos(theta)};
   double sum = 0;
@@ -78,24 +78,38 @@ TEST(Principled, BelowIsTheDielectricOfGltfAsCyclesHasIt) {
                          Row{0.7, {.5146, .5173, .5222, .5334}}, Row{1, {.5069, .5093, .5124, .5192}}})
     for (int i = 0; i < 4; ++i) {
       const PrincipledBsdf bsdf{.base_color = filled(0.5f), .roughness = row.roughness, .below = true};
-      EXPECT_NEAR(albedo(bsdf, degrees[i]), row.at[i], 0.015 * row.at[i])
+      EXPECT_NEAR(albedo(bsdf, degrees[i]), row.at[i], 0.01 * row.at[i])
           << "roughness " << row.roughness << ", " << degrees[i] << " degrees";
     }
 }
 
-// Without metal a white base under any index and roughness gives back what it gets.
+// Without metal a white base gives back what it gets, less the little that is lost between facets.
 TEST(Principled, BelowReflectsAllThatThereIs) {
-  for (const double eta : {1.3, 1.5, 1.8})
+  for (const double eta : {1.05, 1.3, 1.5, 1.8})
     for (const double roughness : {0.3, 0.6, 1.0})
-      for (const double degrees : {0.0, 40.0, 70.0}) {
+      for (const double degrees : {0.0, 40.0, 60.0, 75.0}) {
         const PrincipledBsdf bsdf{.base_color = filled(1), .eta = eta, .roughness = roughness, .below = true};
-        EXPECT_NEAR(albedo(bsdf, degrees), 1, 0.025) << eta << ' ' << roughness << ' ' << degrees;
+        const double reflected = albedo(bsdf, degrees);
+        EXPECT_LT(reflected, 1.01) << eta << ' ' << roughness << ' ' << degrees;
+        EXPECT_GT(reflected, 0.94) << eta << ' ' << roughness << ' ' << degrees;
       }
 }
 
+TEST(Principled, BelowNoGlossIsLamberts) {
+  for (const double roughness : {0.0, 0.3, 1.0})
+    for (const double degrees : {0.0, 60.0, 85.0}) {
+      const PrincipledBsdf bsdf{.base_color = filled(0.5f), .eta = 1, .roughness = roughness, .below = true};
+      EXPECT_NEAR(albedo(bsdf, degrees), 0.5, 1e-6) << roughness << ' ' << degrees;
+    }
+}
+
+// A sheet's gloss is there whatever its base lets through.
 TEST(Principled, BelowASheetToo) {
-  const PrincipledThinBsdf sheet{.base_color = filled(1), .roughness = 1, .below = true};
-  EXPECT_NEAR(albedo(sheet, 0), 1, 0.025);
+  for (const double roughness : {0.3, 1.0})
+    for (const double degrees : {0.0, 60.0}) {
+      const PrincipledThinBsdf sheet{.base_color = filled(1), .roughness = roughness, .below = true};
+      EXPECT_NEAR(albedo(sheet, degrees), 1, 0.025) << roughness << ' ' << degrees;
+    }
 }
 
 }  // namespace
