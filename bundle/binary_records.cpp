@@ -69,6 +69,11 @@ void lights(Reader& io, Manifest& m) {
   if (!io.stream.at_end()) list(io, m.emissive_opacities);
   if (!io.stream.at_end()) list(io, m.emissive_quadrics);
 }
+void domains(auto& io, auto& m) {
+  list<kd_node_bytes>(io, m.kd_nodes);
+  list<least_domain_bytes>(io, m.domains);
+  list<least_object_bytes>(io, m.objects);
+}
 
 }  // namespace records
 
@@ -84,6 +89,12 @@ void encode_lights(const Manifest& manifest, const ByteSink& sink) {
   io.stream.flush();
 }
 
+void encode_domains(const Manifest& manifest, const ByteSink& sink) {
+  records::Writer io{ByteWriter(sink)};
+  records::domains(io, manifest);
+  io.stream.flush();
+}
+
 void decode_materials(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest) {
   records::Reader io{{std::move(payload), file}};
   records::materials(io, manifest);
@@ -93,6 +104,12 @@ void decode_materials(std::vector<std::byte> payload, const std::filesystem::pat
 void decode_lights(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest) {
   records::Reader io{{std::move(payload), file}};
   records::lights(io, manifest);
+  io.stream.expect_end();
+}
+
+void decode_domains(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest) {
+  records::Reader io{{std::move(payload), file}};
+  records::domains(io, manifest);
   io.stream.expect_end();
 }
 

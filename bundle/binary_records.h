@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The binary records of a bundle: materials.bin (surfaces, materials, textures, media) and lights.bin (area
-// lights, the triangles that emit, other lights). See docs/reference/bundle-format.md.
+// The binary records of a bundle: materials.bin (surfaces, materials, textures, media), lights.bin (area
+// lights, the triangles that emit, other lights) and domains.bin (the kd-tree, domains, objects). See
+// docs/reference/bundle-format.md.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +14,18 @@
 
 namespace vitrail {
 
-// The payload of either file.
+// The payload of each file.
 void encode_materials(const Manifest& manifest, const ByteSink& sink);
 void encode_lights(const Manifest& manifest, const ByteSink& sink);
+void encode_domains(const Manifest& manifest, const ByteSink& sink);
 
 // The inverse: fill the manifest's records from the payload of `file`. Whatever cannot be decoded throws
 // Error.
 void decode_materials(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest);
 void decode_lights(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest);
+void decode_domains(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest);
 
-// Of the payload of either file, as its header has it: read_manifest has compared it.
+// Of the payload of any of the files, as its header has it: read_manifest has compared it.
 std::uint64_t checksum_of_records(const std::filesystem::path& file);
 
 // Throws Error (with `file`) unless every index in the manifest is in range, every number finite and the

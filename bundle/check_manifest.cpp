@@ -51,7 +51,10 @@ struct FieldChecker {
 
 namespace {
 
-bool finite(Vector3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+template <class V>
+bool finite(const V& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 void check_film(const Checker& c, const FilmSettings& f) {
   c.require(f.width > 0 && f.height > 0, "the film has no pixels");
@@ -149,6 +152,9 @@ void check_objects(const Checker& c, const Manifest& m) {
                 std::isfinite(m.shutter.close_s),
             "the shutter closes before it has opened");
   for (const DomainInfo& d : m.domains) {
+    const Bounds3f& box = d.tight_bounds;
+    c.require(box == Bounds3f{} || (!box.empty() && finite(box.lower) && finite(box.upper)),
+              "a domain's bounds end before they begin, or nowhere");
     c.require(std::ranges::is_sorted(d.objects), "the objects of a domain are out of order");
     for (const std::uint32_t object : d.objects) {
       c.require(object < m.objects.size(), "a domain needs an object that is not there");
@@ -171,6 +177,7 @@ void check_records(const Checker& c, const Manifest& m) {
   records::list(io, m.emissive_triangles), records::list(io, m.emissive_attributes);
   records::list(io, m.emissive_quadrics);
   for (const Surface& s : m.surfaces) records::fields(io, s.opacity);
+  for (const ObjectInfo& o : m.objects) records::fields(io, o);
   records::list(io, m.emissive_opacities);
   records::fields(io, m.camera);
 }

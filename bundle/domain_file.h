@@ -153,11 +153,13 @@ struct Stored {
 class MappedDomain {
  public:
   // Maps the file and verifies header, sizes, checksums of the traced sections and every reference in them.
+  // The references of a file with the hash `checked` are known to be good and are not looked at again.
   // Anything wrong throws Error with the file's name; a file that cannot be opened throws MachineError.
   explicit MappedDomain(const std::filesystem::path& file) : MappedDomain(Stored{file}) {}
-  explicit MappedDomain(const Stored& stored);
+  explicit MappedDomain(const Stored& stored, std::optional<std::uint64_t> checked = std::nullopt);
   // Of a file that is open already.
-  MappedDomain(const RegularFile& open, const Stored& stored);
+  MappedDomain(const RegularFile& open, const Stored& stored,
+               std::optional<std::uint64_t> checked = std::nullopt);
   ~MappedDomain();
   MappedDomain(const MappedDomain&) = delete;
   MappedDomain& operator=(const MappedDomain&) = delete;

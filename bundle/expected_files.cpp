@@ -28,12 +28,20 @@ std::uint32_t files_up_to(const fs::path& file) {
   return stem.size() == 6 && error == std::errc{} && end == stem.data() + 6 ? number + 1 : 0;
 }
 
-// What the manifest lists; empty where it is no JSON.
-nlohmann::json listed(const nlohmann::json& manifest, const std::string& folder) {
-  const std::string key = folder == "textures" ? "texture_files" : folder;
-  if (!manifest.is_object() || !manifest.contains(key) || !manifest[key].is_array())
-    return nlohmann::json::array();
-  return manifest[key];
+// How many textures the manifest lists; none where it is no JSON.
+std::uint32_t textures_listed(const fs::path& bundle) {
+  std::ifstream in = open_regular(bundle / "manifest.json");
+  const auto manifest = nlohmann::json::parse(in, nullptr, false);
+  const bool lists =
+      manifest.is_object() && manifest.contains("texture_files") && manifest["texture_files"].is_array();
+  return lists ? static_cast<std::uint32_t>(manifest["texture_files"].size()) : 0;
+}
+
+// Without domains where their records are damaged.
+Manifest domains_listed(const fs::path& bundle) try {
+  return read_domains(bundle);
+} catch (const std::exception&) {
+  return {};
 }
 
 // 0 where the file is damaged, which is found later.
@@ -53,10 +61,10 @@ std::set<fs::path> expected_files(const fs::path& bundle, const std::set<fs::pat
   const auto at_least = [&](const std::string& folder, std::uint32_t count) {
     counts[folder] = std::max(counts[folder], count);
   };
-  std::ifstream in = open_regular(bundle / "manifest.json");
-  const auto manifest = nlohmann::json::parse(in, nullptr, false);
-  for (const char* folder : folders)
-    at_least(folder, static_cast<std::uint32_t>(listed(manifest, folder).size()));
+  const Manifest listed = domains_listed(bundle);
+  at_least("domains", static_cast<std::uint32_t>(listed.domains.size()));
+  at_least("objects", static_cast<std::uint32_t>(listed.objects.size()));
+  at_least("textures", textures_listed(bundle));
   for (const fs::path& file : present) {
     if (file.extension() != ".dom" && file.extension() != ".tex") continue;
     files.insert(file);
@@ -67,12 +75,10 @@ std::set<fs::path> expected_files(const fs::path& bundle, const std::set<fs::pat
     for (std::uint32_t i = 0; i < counts[folder]; ++i)
       files.insert(bundle / folder /
                    fmt::format("{:06}.{}", i, std::string(folder) == "textures" ? "tex" : "dom"));
-  const auto domains = listed(manifest, "domains");
-  for (std::uint32_t i = 0; i < domains.size(); ++i)
-    if (domains[i].is_object() && domains[i].contains("pack")) files.erase(domain_path(bundle, i));
-  const auto objects = listed(manifest, "objects");
-  for (std::uint32_t i = 0; i < objects.size(); ++i)
-    if (objects[i].is_object() && objects[i].contains("quadric")) files.erase(object_path(bundle, i));
+  for (std::uint32_t i = 0; i < listed.domains.size(); ++i)
+    if (listed.domains[i].pack) files.erase(domain_path(bundle, i));
+  for (std::uint32_t i = 0; i < listed.objects.size(); ++i)
+    if (listed.objects[i].quadric) files.erase(object_path(bundle, i));
   return files;
 }
 

@@ -5,6 +5,14 @@
 
 namespace vitrail {
 
+namespace {
+
+std::optional<std::uint64_t> checked_hash(std::uint64_t hash, bool loaded) {
+  return loaded ? std::optional(hash) : std::nullopt;
+}
+
+}  // namespace
+
 LoadedDomain::LoadedDomain(const Manifest& manifest, std::uint32_t domain, SharedDomain mapped,
                            const std::function<SharedDomain(std::uint32_t)>& object)
     : mapped_(std::move(mapped)), view_(mapped_->view()) {
@@ -39,22 +47,25 @@ std::uint64_t bytes_loaded(const Manifest& manifest, std::uint32_t domain) {
 }
 
 SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain,
-                        OpenPacks* packs) {
+                        OpenPacks* packs, bool loaded) {
   const Stored stored = stored_domain(manifest, bundle, domain);
   const std::filesystem::path file = stored.name();
   const Underway underway("reading", file);
+  const std::optional<std::uint64_t> checked = checked_hash(manifest.domains[domain].hash, loaded);
   auto mapped = stored.bytes && packs
-                    ? std::make_shared<const MappedDomain>(*packs->open(stored.file), stored)
-                    : std::make_shared<const MappedDomain>(stored);
-  check_domain(manifest, domain, *mapped, file);
+                    ? std::make_shared<const MappedDomain>(*packs->open(stored.file), stored, checked)
+                    : std::make_shared<const MappedDomain>(stored, checked);
+  if (mapped->hash() != checked) check_domain(manifest, domain, *mapped, file);
   return mapped;
 }
 
-SharedDomain map_object(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t object) {
+SharedDomain map_object(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t object,
+                        bool loaded) {
   const std::filesystem::path file = object_path(bundle, object);
   const Underway underway("reading", file);
-  auto mapped = std::make_shared<const MappedDomain>(file);
-  check_object(manifest, object, *mapped, file);
+  const std::optional<std::uint64_t> checked = checked_hash(manifest.objects[object].hash, loaded);
+  auto mapped = std::make_shared<const MappedDomain>(Stored{file}, checked);
+  if (mapped->hash() != checked) check_object(manifest, object, *mapped, file);
   return mapped;
 }
 

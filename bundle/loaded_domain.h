@@ -36,11 +36,12 @@ class LoadedDomain {
 // up to the greatest.
 std::uint64_t bytes_loaded(const Manifest& manifest, std::uint32_t domain);
 
-// Maps and checks a file of a bundle. A domain in a pack is mapped from one that stays open in
-// `packs`, if given.
+// Maps and checks a file of a bundle. Of one that was `loaded` before only the checksums are compared, which
+// say that it is the same. A domain in a pack is mapped from one that stays open in `packs`, if given.
 SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain,
-                        OpenPacks* packs = nullptr);
-SharedDomain map_object(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t object);
+                        OpenPacks* packs = nullptr, bool loaded = false);
+SharedDomain map_object(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t object,
+                        bool loaded = false);
 
 // A domain with objects of its own.
 std::unique_ptr<const LoadedDomain> load_domain(const Manifest& manifest, const std::filesystem::path& bundle,

@@ -24,9 +24,9 @@ namespace vitrail {
 
 namespace {
 
-constexpr int manifest_version = 6;
+constexpr int manifest_version = 7;
 
-// The two binary files: 32 bytes of header, then the payload.
+// The binary files: 32 bytes of header, then the payload.
 
 struct RecordsHeader {
   std::array<char, 8> magic;
@@ -37,23 +37,32 @@ struct RecordsHeader {
 };
 static_assert(sizeof(RecordsHeader) == 32);
 
-constexpr std::array<char, 8> materials_magic{'V', 'I', 'T', 'R', 'M', 'A', 'T', '\n'};
-constexpr std::array<char, 8> lights_magic{'V', 'I', 'T', 'R', 'L', 'I', 'T', '\n'};
+struct RecordsFile {
+  const char* checksum;  // its key in the manifest
+  std::array<char, 8> magic;
+  void (*encode)(const Manifest&, const ByteSink&);
+  void (*decode)(std::vector<std::byte>, const std::filesystem::path&, Manifest&);
+};
+// In the order of records_file_names.
+constexpr std::array<RecordsFile, records_file_names.size()> records_files{{
+    {"materials_checksum", {'V', 'I', 'T', 'R', 'M', 'A', 'T', '\n'}, encode_materials, decode_materials},
+    {"lights_checksum", {'V', 'I', 'T', 'R', 'L', 'I', 'T', '\n'}, encode_lights, decode_lights},
+    {"domains_checksum", {'V', 'I', 'T', 'R', 'D', 'O', 'S', '\n'}, encode_domains, decode_domains},
+}};
 
 // Goes through the records twice: the header, which comes first, has their size and checksum. Gives the
 // latter.
-template <class Encode>
-std::uint64_t write_records(const std::filesystem::path& file, std::array<char, 8> magic, Encode encode) {
-  RecordsHeader header{magic};
+std::uint64_t write_records(const std::filesystem::path& file, const RecordsFile& kind, const Manifest& m) {
+  RecordsHeader header{kind.magic};
   Hasher hasher;
-  encode([&](std::span<const std::byte> bytes) {
+  kind.encode(m, [&](std::span<const std::byte> bytes) {
     hasher.add(bytes);
     header.payload_bytes += bytes.size();
   });
   header.payload_checksum = hasher.digest();
   write_file(file, [&](const ByteSink& write) {
     write(std::as_bytes(std::span(&header, 1)));
-    encode(write);
+    kind.encode(m, write);
   });
   return header.payload_checksum;
 }
@@ -254,7 +263,15 @@ std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain) {
 }
 
 void check_records_file(const std::filesystem::path& file) {
-  read_records(file, file.filename() == "lights.bin" ? lights_magic : materials_magic, "");
+  const auto kind = std::ranges::find(records_file_names, file.filename());
+  read_records(file, records_files.at(static_cast<std::size_t>(kind - records_file_names.begin())).magic, "");
+}
+
+Manifest read_domains(const std::filesystem::path& bundle) {
+  const std::filesystem::path file = bundle / records_file_names.back();
+  Manifest m;
+  decode_domains(read_records(file, records_files.back().magic, ""), file, m);
+  return m;
 }
 
 std::uint64_t checksum_of_records(const std::filesystem::path& file) {
@@ -268,18 +285,13 @@ std::uint64_t checksum_of_records(const std::filesystem::path& file) {
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest) {
   const std::filesystem::path file = bundle / "manifest.json";
   check_manifest(manifest, file);
-  const std::uint64_t materials =
-      write_records(bundle / "materials.bin", materials_magic,
-                    [&](const ByteSink& sink) { encode_materials(manifest, sink); });
-  const std::uint64_t lights = write_records(bundle / "lights.bin", lights_magic,
-                                             [&](const ByteSink& sink) { encode_lights(manifest, sink); });
-
   const ManifestFeatures features = features_of(manifest);
   Json json{{"format", "vitrail bundle"}, {"version", manifest_version}};
   json["features"] = {{"required", required_names(features.required)},
                       {"optional", optional_names(features.optional)}};
-  json["materials_checksum"] = fmt::format("{:016x}", materials);
-  json["lights_checksum"] = fmt::format("{:016x}", lights);
+  for (std::size_t i = 0; i < records_files.size(); ++i)
+    json[records_files[i].checksum] =
+        fmt::format("{:016x}", write_records(bundle / records_file_names[i], records_files[i], manifest));
   json.update(manifest_to_json(manifest));
   if (Json names = names_to_json(manifest); !names.empty()) json["names"] = std::move(names);
   write_checked_json(file, json);
@@ -292,10 +304,11 @@ Manifest read_manifest(const std::filesystem::path& bundle) {
     const Json json = read_checked_json(file, "the manifest");
     check_version(json, file);
     Manifest manifest = manifest_from_json(json);
-    const std::filesystem::path materials = bundle / "materials.bin", lights = bundle / "lights.bin";
-    decode_materials(read_records(materials, materials_magic, json.at("materials_checksum")), materials,
-                     manifest);
-    decode_lights(read_records(lights, lights_magic, json.at("lights_checksum")), lights, manifest);
+    for (std::size_t i = 0; i < records_files.size(); ++i) {
+      const std::filesystem::path records = bundle / records_file_names[i];
+      const RecordsFile& kind = records_files[i];
+      kind.decode(read_records(records, kind.magic, json.at(kind.checksum)), records, manifest);
+    }
     if (json.contains("names")) take_names(json.at("names"), manifest);
     check_manifest(manifest, file);
     return manifest;

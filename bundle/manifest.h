@@ -3,6 +3,7 @@
 // surfaces, materials and lights, the camera. Coordinates are the bundle's: the world's minus `offset`.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -215,11 +216,17 @@ std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain);
 // What the bundle has; its files have no more.
 ManifestFeatures features_of(const Manifest& m);
 
-// Writes manifest.json, materials.bin and lights.bin. Throws MachineError.
+// The files beside manifest.json that have its binary records.
+inline constexpr std::array records_file_names{"materials.bin", "lights.bin", "domains.bin"};
+
+// Writes manifest.json and the files of records. Throws MachineError.
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest);
 
 // Reads and checks everything but the domain files. Throws Error (bad content, with the file's name).
 Manifest read_manifest(const std::filesystem::path& bundle);
+
+// Reads the kd-tree, domains and objects alone, unchecked. Throws Error where domains.bin is damaged.
+Manifest read_domains(const std::filesystem::path& bundle);
 
 // Throw Error where a file is not the one that the manifest speaks of, or holds triangles it does not have.
 void check_domain(const Manifest& manifest, std::uint32_t domain, const MappedDomain& mapped,
@@ -228,7 +235,7 @@ void check_object(const Manifest& manifest, std::uint32_t object, const MappedDo
                   const std::filesystem::path& file);
 void check_texture(const TextureFileEntry& expected, const TextureFile& texture,
                    const std::filesystem::path& file);
-// Whether materials.bin or lights.bin is whole by itself.
+// Throws Error where a file of records is not whole by itself.
 void check_records_file(const std::filesystem::path& file);
 
 }  // namespace vitrail

@@ -32,12 +32,6 @@ Bounds3f box_from(const Json& j) {
   return b;
 }
 
-std::vector<std::uint32_t> ids_from(const Json& j) {
-  std::vector<std::uint32_t> ids;
-  for (std::size_t i = 0; i < j.size(); ++i) ids.push_back(number<std::uint32_t>(j, i));
-  return ids;
-}
-
 // 64-bit hashes are hexadecimal strings: many JSON readers keep 53 bits of a number.
 Json hash(std::uint64_t h) { return fmt::format("{:016x}", h); }
 
@@ -53,8 +47,6 @@ constexpr std::array camera_kinds{"perspective", "orthographic", "spherical", "s
 constexpr std::array sphere_kinds{"equal area", "latitude longitude"};
 constexpr std::array wide_kinds{"latitude longitude", "fisheye",          "ultra wide",
                                 "panoramic",          "upright cylinder", "lying cylinder"};
-constexpr std::array quadric_kinds{"sphere", "cylinder", "disk", "cone", "paraboloid", "curve"};
-constexpr std::array quadric_uvs{"pbrt", "mitsuba"};
 constexpr std::array filter_kinds{"box", "triangle", "gaussian", "mitchell", "sinc"};
 
 template <std::size_t n>
@@ -238,120 +230,6 @@ TextureFileEntry texture_file_from_json(const Json& j) {
           j.contains("read_bytes") ? number<std::uint64_t>(j, "read_bytes") : 0};
 }
 
-// A node by its names; one below a node without an axis, of which there may be many, as [axis, split, below,
-// above], where a domain is −1 − its number.
-Json kd_node_to_json(const KdNode& n, bool in_shared_cell) {
-  const auto child = [&](std::uint32_t c) -> Json {
-    const bool leaf = c & KdNode::leaf_bit;
-    if (in_shared_cell) return leaf ? -1 - static_cast<std::int64_t>(c & ~KdNode::leaf_bit) : std::int64_t{c};
-    return leaf ? Json{{"domain", c & ~KdNode::leaf_bit}} : Json{{"node", c}};
-  };
-  if (in_shared_cell) return Json::array({n.axis, n.split, child(n.below), child(n.above)});
-  return {{"axis", n.axis}, {"split", n.split}, {"below", child(n.below)}, {"above", child(n.above)}};
-}
-
-Json kd_nodes_to_json(std::span<const KdNode> nodes) {
-  Json list = Json::array();
-  std::vector<bool> shared(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    list.push_back(kd_node_to_json(nodes[i], shared[i]));
-    for (const std::uint32_t child : {nodes[i].below, nodes[i].above})
-      if (!(child & KdNode::leaf_bit)) shared[child] = shared[i] || nodes[i].axis == KdNode::no_axis;
-  }
-  return list;
-}
-
-KdNode kd_node_from_json(const Json& j) {
-  const auto reference = [](std::uint64_t index, bool leaf) {
-    if (index >= KdNode::leaf_bit) throw Error("a node of the kd-tree has a child out of range");
-    return static_cast<std::uint32_t>(index) | (leaf ? KdNode::leaf_bit : 0u);
-  };
-  if (j.is_array()) {
-    const auto child = [&](std::size_t at) {
-      const auto index = number<std::int64_t>(j, at);
-      return index < 0 ? reference(static_cast<std::uint64_t>(-1 - index), true)
-                       : reference(static_cast<std::uint64_t>(index), false);
-    };
-    return {number<float>(j, 1), number<std::uint32_t>(j, 0), child(2), child(3)};
-  }
-  const auto child = [&](const char* side) {
-    const Json& c = j.at(side);
-    const bool leaf = c.contains("domain");
-    return reference(number<std::uint64_t>(c, leaf ? "domain" : "node"), leaf);
-  };
-  return {number<float>(j, "split"), number<std::uint32_t>(j, "axis"), child("below"), child("above")};
-}
-
-Json domain_to_json(const DomainInfo& d) {
-  Json j{{"triangles", d.triangles},
-         {"pieces", d.pieces},
-         {"bytes", d.bytes},
-         {"hash", hash(d.hash)},
-         {"tight_bounds", box(d.tight_bounds)}};
-  for (const std::uint64_t slice : d.occupancy.slice) j["occupancy"].push_back(hash(slice));
-  if (d.instances > 0) j.update({{"instances", d.instances}, {"objects", d.objects}});
-  if (d.pack) j["pack"] = {d.pack->pack, d.pack->offset};
-  return j;
-}
-
-DomainInfo domain_from_json(const Json& j) {
-  DomainInfo d{number<std::uint64_t>(j, "triangles"), number<std::uint64_t>(j, "pieces"),
-               number<std::uint64_t>(j, "bytes"), hash_from(j.at("hash")), box_from(j.at("tight_bounds"))};
-  for (std::size_t z = 0; z < d.occupancy.slice.size(); ++z)
-    d.occupancy.slice[z] = hash_from(j.at("occupancy").at(z));
-  if (j.contains("pack")) d.pack = {number<std::uint32_t>(j["pack"], 0), number<std::uint64_t>(j["pack"], 1)};
-  if (!j.contains("instances")) return d;
-  d.instances = number<std::uint64_t>(j, "instances");
-  d.objects = ids_from(j.at("objects"));
-  return d;
-}
-
-Json quadric_to_json(const OrientedQuadric& q) {
-  return {{"kind", quadric_kinds.at(static_cast<std::size_t>(q.quadric.kind))},
-          {"uv", quadric_uvs.at(static_cast<std::size_t>(q.quadric.uv))},
-          {"low", q.quadric.low},
-          {"high", q.quadric.high},
-          {"phi_max_rad", q.quadric.phi_max_rad},
-          {"inside_out", q.inside_out}};
-}
-
-OrientedQuadric quadric_from_json(const Json& j) {
-  return {{.kind = static_cast<QuadricKind>(kind_index(j, quadric_kinds)),
-           .uv = static_cast<QuadricUv>(kind_index(j, quadric_uvs, "uv")),
-           .low = number<double>(j, "low"),
-           .high = number<double>(j, "high"),
-           .phi_max_rad = number<double>(j, "phi_max_rad")},
-          j.at("inside_out").get<bool>()};
-}
-
-Json object_to_json(const ObjectInfo& o) {
-  Json j{
-      {"triangles", o.triangles}, {"hash", hash(o.hash)}, {"surfaces", {o.first_surface, o.surface_count}}};
-  if (o.quadric)
-    j["quadric"] = quadric_to_json(*o.quadric);
-  else
-    j.update({{"bytes", o.bytes}, {"objects", o.objects}});
-  if (o.motion.moves()) j["motion"] = motion_to_json(o.motion);
-  if (o.continues) j["continues"] = true;
-  return j;
-}
-
-ObjectInfo object_from_json(const Json& j) {
-  ObjectInfo o{.triangles = number<std::uint64_t>(j, "triangles"),
-               .hash = hash_from(j.at("hash")),
-               .first_surface = number<std::uint32_t>(j.at("surfaces"), 0),
-               .surface_count = number<std::uint32_t>(j.at("surfaces"), 1)};
-  if (j.contains("quadric")) {
-    o.quadric = quadric_from_json(j["quadric"]);
-    return o;
-  }
-  o.bytes = number<std::uint64_t>(j, "bytes");
-  o.objects = ids_from(j.at("objects"));
-  o.motion = motion_from_json(j, "motion");
-  o.continues = j.value("continues", false);
-  return o;
-}
-
 }  // namespace
 
 Json camera_to_json(const Camera& camera) {
@@ -459,11 +337,6 @@ Json manifest_to_json(const Manifest& m) {
   if (m.settings.rgb == RgbMethod::matrix_r) j["settings"]["rgb"] = "matrix-r";
   if (m.settings.hides_emitters) j["settings"]["hides_emitters"] = true;
   if (m.settings.photons) j["settings"]["photons"] = photons_to_json(*m.settings.photons);
-  j["kd_nodes"] = kd_nodes_to_json(m.kd_nodes);
-  j["domains"] = Json::array();
-  for (const DomainInfo& d : m.domains) j["domains"].push_back(domain_to_json(d));
-  if (!m.objects.empty()) j["objects"] = Json::array();
-  for (const ObjectInfo& o : m.objects) j["objects"].push_back(object_to_json(o));
   return j;
 }
 
@@ -494,10 +367,6 @@ Manifest manifest_from_json(const Json& j) {
                 s.value("hides_emitters", false),
                 s.value("rgb", "jakob-hanika") == "matrix-r" ? RgbMethod::matrix_r : RgbMethod::jakob_hanika};
   if (s.contains("photons")) m.settings.photons = photons_from_json(s["photons"]);
-  for (const Json& n : j.at("kd_nodes")) m.kd_nodes.push_back(kd_node_from_json(n));
-  for (const Json& d : j.at("domains")) m.domains.push_back(domain_from_json(d));
-  if (j.contains("objects"))
-    for (const Json& o : j["objects"]) m.objects.push_back(object_from_json(o));
   return m;
 }
 

@@ -150,9 +150,12 @@ std::filesystem::path Stored::name() const {
   return part += fmt::format(" at byte {}", offset);
 }
 
-MappedDomain::MappedDomain(const Stored& stored) : MappedDomain(RegularFile(stored.file), stored) {}
+MappedDomain::MappedDomain(const Stored& stored, std::optional<std::uint64_t> checked)
+    : MappedDomain(RegularFile(stored.file), stored, checked) {}
 
-MappedDomain::MappedDomain(const RegularFile& open, const Stored& stored) : file_(stored.name()) {
+MappedDomain::MappedDomain(const RegularFile& open, const Stored& stored,
+                           std::optional<std::uint64_t> checked)
+    : file_(stored.name()) {
   const std::span<const std::byte> bytes = map(open, stored);
   data_ = bytes.data();
   bytes_ = bytes.size();
@@ -167,7 +170,7 @@ MappedDomain::MappedDomain(const RegularFile& open, const Stored& stored) : file
              elements<InstanceRef>(data_, layout::instances),
              elements<BvhNode>(data_, layout::instance_nodes),
              {}};
-    check_structure(view_, file_);
+    if (checked != hash()) check_structure(view_, file_);
     view_.reach = reach_of(view_);
   } catch (...) {
     unmap(data_, bytes_);

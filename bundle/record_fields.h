@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fields of the records of materials.bin and lights.bin for whoever goes through them: a writer, a
-// reader, a checker. They are those of scene/records/fields.h, but where bundles leave some out. `io` is
-// called with every number, and with every Id; its type is of this namespace, so that all overloads are
-// found. Names, origins and the colours that sigmoids were fitted to are for writing scenes: they stay
+// The fields of the records of materials.bin, lights.bin and domains.bin for whoever goes through them: a
+// writer, a reader, a checker. They are those of scene/records/fields.h, but where bundles leave some out.
+// `io` is called with every number, and with every Id; its type is of this namespace, so that all overloads
+// are found. Names, origins and the colours that sigmoids were fitted to are for writing scenes: they stay
 // behind.
 #pragma once
 
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -129,11 +130,11 @@ void fields(auto& io, const std::array<T, n>& values) {
   for (const T& value : values) fields(io, value);
 }
 
-// A list is its length in 8 bytes, then its records.
-template <class List>
+// A list is its length in 8 bytes, then its records, of at least so many bytes each.
+template <std::size_t least_bytes = 1, class List>
 void list(auto& io, List& records) {
   if constexpr (reads<decltype(io)>)
-    records.resize(io.stream.get_count(1));
+    records.resize(io.stream.get_count(least_bytes));
   else
     io(static_cast<std::uint64_t>(records.size()));
   for (auto& record : records) fields(io, record);
@@ -388,7 +389,7 @@ void fields(auto& io, Is<Quadric> auto& q) {
   fields(io, q.kind), fields(io, q.uv), io(q.low), io(q.high), io(q.phi_max_rad);
 }
 void fields(auto& io, Is<EmissiveQuadric> auto& q) {
-  fields(io, q.quadric.quadric), fields(io, q.quadric.inside_out);
+  fields(io, q.quadric);
   for (auto& row : q.to_bundle.m)
     for (auto& x : row) io(x);
   io(q.triangle), io(q.area_light), fields(io, q.opacity);
@@ -425,6 +426,35 @@ void fields(auto& io, Is<LensSurface> auto& s) {
 void fields(auto& io, Is<ExitPupil> auto& p) { fields(io, p.rectangle), io(p.weight); }
 void fields(auto& io, Is<RealisticCamera> auto& c) {
   fields(io, c.camera_to_world), io(c.film_diagonal), list(io, c.surfaces), list(io, c.pupils);
+}
+
+// ---- Domains and objects
+
+inline constexpr std::size_t kd_node_bytes = 16, least_domain_bytes = 137, least_object_bytes = 50;
+
+void fields(auto& io, Is<KdNode> auto& n) { io(n.split), io(n.axis), io(n.below), io(n.above); }
+void fields(auto& io, Is<PackPlace> auto& p) { io(p.pack), io(p.offset); }
+void fields(auto& io, Is<DomainInfo> auto& d) {
+  io(d.triangles), io(d.pieces), io(d.bytes), io(d.hash);
+  fields(io, d.tight_bounds), fields(io, d.occupancy.slice);
+  io(d.instances), list(io, d.objects), fields(io, d.pack);
+}
+void fields(auto& io, Is<OrientedQuadric> auto& q) { fields(io, q.quadric), fields(io, q.inside_out); }
+void fields(auto& io, Is<Keyframe> auto& k) { io(k.time_s), fields(io, k.transform); }
+void fields(auto& io, Is<Motion> auto& m) {
+  if constexpr (reads<decltype(io)>) {
+    std::vector<Keyframe> keys;
+    list(io, keys);
+    if (keys.empty()) return;
+    if (!can_move(keys)) io.stream.fail("an object moves as nothing can");
+    m = Motion(std::move(keys));
+  } else {
+    list(io, m.keys());
+  }
+}
+void fields(auto& io, Is<ObjectInfo> auto& o) {
+  io(o.triangles), io(o.bytes), io(o.hash), io(o.first_surface), io(o.surface_count);
+  list(io, o.objects), fields(io, o.quadric), fields(io, o.motion), fields(io, o.continues);
 }
 
 // ---- Building blocks, defined

@@ -111,7 +111,8 @@ class Verifier {
   }
 
   void read_records() {
-    const std::array files{bundle_ / "manifest.json", bundle_ / "materials.bin", bundle_ / "lights.bin"};
+    std::vector<fs::path> files{bundle_ / "manifest.json"};
+    for (const char* name : records_file_names) files.push_back(bundle_ / name);
     fs::path blamed = files[0];
     try {
       manifest_ = read_manifest(bundle_);

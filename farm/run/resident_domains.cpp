@@ -10,6 +10,7 @@ ResidentDomains::ResidentDomains(const Manifest& manifest, std::filesystem::path
       bundle_(std::move(bundle)),
       touched_(manifest.domains.size()),
       objects_(manifest.objects.size()),
+      objects_touched_(manifest.objects.size()),
       released_(std::make_shared<std::atomic<std::uint64_t>>(0)) {
   ResidentTable empty;
   empty.domains.resize(manifest.domains.size());
@@ -20,7 +21,8 @@ ResidentDomains::ResidentDomains(const Manifest& manifest, std::filesystem::path
 std::optional<Reservation> ResidentDomains::begin(LoadStep step) {
   std::optional<Reservation> reservation;
   if (step.load) {
-    reservation.emplace(Reservation{std::move(*step.load), {}});
+    const bool again = touched_[step.load->domain];
+    reservation.emplace(Reservation{std::move(*step.load), {}, again});
     const std::vector<std::uint32_t>& missing = reservation->load.missing;
     for (const std::uint32_t object : manifest_.domains[reservation->load.domain].objects)
       if (!manifest_.objects[object].quadric && !std::ranges::binary_search(missing, object))
@@ -49,13 +51,16 @@ SharedDomain ResidentDomains::counted(SharedDomain mapped, std::uint64_t bytes) 
 std::shared_ptr<const LoadedDomain> ResidentDomains::load(const Reservation& reservation) {
   const auto object = [&](std::uint32_t number) {
     if (const auto held = reservation.held.find(number); held != reservation.held.end()) return held->second;
-    SharedDomain mapped = counted(map_object(manifest_, bundle_, number), manifest_.objects[number].bytes);
+    std::uint8_t& touched = objects_touched_[number];
+    SharedDomain mapped =
+        counted(map_object(manifest_, bundle_, number, touched != 0), manifest_.objects[number].bytes);
+    touched = 1;
     objects_[number] = mapped;
     return mapped;
   };
   const std::uint32_t domain = reservation.load.domain;
-  SharedDomain mapped =
-      counted(map_domain(manifest_, bundle_, domain, &packs_), bytes_loaded(manifest_, domain));
+  SharedDomain mapped = counted(map_domain(manifest_, bundle_, domain, &packs_, reservation.again),
+                                bytes_loaded(manifest_, domain));
   return std::make_shared<const LoadedDomain>(manifest_, domain, std::move(mapped), object);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <span>
@@ -23,6 +24,7 @@ struct ResidentTable {
 struct Reservation {
   LoadStep::Load load;
   std::map<std::uint32_t, SharedDomain> held;  // by number
+  bool again = false;                          // the domain was loaded before
 };
 
 // Not synchronised, except `load`: the rank's mutex guards it. No two loads under way bring the same object.
@@ -50,6 +52,7 @@ class ResidentDomains {
   OpenPacks packs_;
   std::vector<bool> touched_;
   std::vector<std::weak_ptr<const MappedDomain>> objects_;  // by number
+  std::vector<std::uint8_t> objects_touched_;               // by number, likewise
   std::shared_ptr<std::atomic<std::uint64_t>> released_;    // bytes
   std::shared_ptr<const ResidentTable> table_;
 };

@@ -97,7 +97,7 @@ TEST_P(Corruption, CutShortOrGrown) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, Corruption,
-                         ::testing::Values("manifest.json", "materials.bin", "lights.bin",
+                         ::testing::Values("manifest.json", "materials.bin", "lights.bin", "domains.bin",
                                            "domains/000000.dom", "domains/000002.dom", "objects/000001.dom",
                                            "textures/000000.tex"));
 
@@ -113,8 +113,8 @@ TEST(CorruptionOfBundle, ExchangedFilesAreFound) {
   test::write(changed, other);
   write_texture_file(other / "textures/000000.tex", {TexelFormat::number, 3, 3, 1},
                      [](auto...) { return TexelWords{}; });
-  for (const char* file :
-       {"materials.bin", "lights.bin", "domains/000001.dom", "objects/000000.dom", "textures/000000.tex"}) {
+  for (const char* file : {"materials.bin", "lights.bin", "domains.bin", "domains/000001.dom",
+                           "objects/000000.dom", "textures/000000.tex"}) {
     test::write(sample, bundle);
     std::filesystem::copy_file(other / file, bundle / file,
                                std::filesystem::copy_options::overwrite_existing);
@@ -173,6 +173,38 @@ TEST(CorruptionOfBundle, InstancesThatTheSceneDoesNotHave) {
   rejects(other);  // beyond the scene's triangles
   other.instances[0] = test::sample_instance(2, 0);
   rejects(other);  // no such object
+}
+
+// Its references are not looked at again, its bytes are.
+TEST(CorruptionOfBundle, WhatWasLoadedBeforeIsComparedAgain) {
+  const test::TemporaryDirectory directory;
+  test::SampleBundle sample = test::whole_bundle();
+  test::write(sample, directory.path());
+  const Manifest m = sample.manifest;
+  const auto domain = domain_path(directory.path(), 1), object = object_path(directory.path(), 0);
+  const auto load = [&] {
+    map_domain(m, directory.path(), 1, nullptr, true);
+    map_object(m, directory.path(), 0, true);
+  };
+  EXPECT_NO_THROW(load());
+  for (const auto& file : {domain, object}) {
+    const std::string whole = test::read_text(file);
+    std::string changed = whole;
+    changed[whole.size() / 2] ^= 1;
+    test::write_text(file, changed);
+    EXPECT_THROW(load(), Error);
+    DomainContent other = file == domain ? sample.domains[1] : sample.objects[0];
+    other.clusters[0].id[0] = 1u << 30;  // which the scene does not have
+    write_domain_file(file, other);
+    EXPECT_THROW(load(), Error);
+    test::write_text(file, whole);
+  }
+  Manifest of_other = m;
+  DomainContent other = sample.domains[1];
+  other.clusters[0].id[0] = 1u << 30;
+  of_other.domains[1].bytes = write_domain_file(domain, other, &of_other.domains[1].hash);
+  EXPECT_THROW(map_domain(of_other, directory.path(), 1), Error);
+  EXPECT_NO_THROW(map_domain(of_other, directory.path(), 1, nullptr, true));
 }
 
 TEST(CorruptionOfBundle, LoadedDomainsHaveTheirObjects) {

@@ -56,7 +56,7 @@ TEST_F(Verify, CountsAWholeBundle) {
   double read = 0;
   const VerifyResult r = verify_bundle(bundle, {2, [&](double fraction) { read = fraction; }});
   EXPECT_TRUE(r.problems.empty() && r.warnings.empty()) << problems();
-  EXPECT_EQ(r.files, 9u);
+  EXPECT_EQ(r.files, 10u);
   EXPECT_EQ(r.bytes, bytes);
   EXPECT_EQ(read, 1);
   ASSERT_TRUE(r.census);
@@ -81,17 +81,19 @@ TEST_F(Verify, NamesEveryDamagedFile) {
 }
 
 TEST_F(Verify, GoesOnWithoutAManifest) {
-  for (const char* file : {"manifest.json", "lights.bin", "domains/000001.dom", "textures/000000.tex"})
+  for (const char* file :
+       {"manifest.json", "lights.bin", "domains.bin", "domains/000001.dom", "textures/000000.tex"})
     damage(file);
   for (const char* file :
-       {"manifest.json: ", "lights.bin: ", "domains/000001.dom: ", "textures/000000.tex: "})
+       {"manifest.json: ", "lights.bin: ", "domains.bin: ", "domains/000001.dom: ", "textures/000000.tex: "})
     EXPECT_THAT(problems(), HasSubstr(file));
   std::filesystem::remove(bundle / "manifest.json");
   EXPECT_THAT(problems(), HasSubstr("domains/000001.dom: "));
   EXPECT_THROW(verify_bundle(directory / "none.vit"), Error);
 }
 
-// Numbers have no gaps; a manifest with a wrong checksum still has its lists; instances refer to objects.
+// A manifest with a wrong checksum still lists textures, domains.bin domains; without either numbers have no
+// gaps and instances refer to objects.
 TEST_F(Verify, MissesFilesWithoutAManifest) {
   const auto missing = [&] {
     std::vector<std::string> files;
@@ -106,10 +108,12 @@ TEST_F(Verify, MissesFilesWithoutAManifest) {
   test::write_text(bundle / "manifest.json", text + " ");
   EXPECT_THAT(missing(), ElementsAre("domains/000000.dom", "domains/000002.dom", "textures/000000.tex"));
   test::write_text(bundle / "manifest.json", text.substr(0, text.size() / 2));
+  EXPECT_THAT(missing(), ElementsAre("domains/000000.dom", "domains/000002.dom"));
+  damage("domains.bin");
   EXPECT_THAT(missing(), ElementsAre("domains/000000.dom"));
   std::filesystem::remove(bundle / "objects/000001.dom");
   EXPECT_THAT(missing(), ElementsAre("domains/000000.dom", "objects/000001.dom"));
-  for (const char* other : {"[1]", R"({"domains": {"a": 1}, "objects": 7})", "{\"domains\": [", ""}) {
+  for (const char* other : {"[1]", R"({"texture_files": {"a": 1}})", "{\"texture_files\": [", ""}) {
     test::write_text(bundle / "manifest.json", other);
     EXPECT_THAT(missing(), ElementsAre("domains/000000.dom", "objects/000001.dom")) << other;
   }

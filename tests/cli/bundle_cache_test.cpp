@@ -206,7 +206,7 @@ TEST_F(BundleCacheCli, MakesDamagedEntriesAnew) {
   damage("domains/000000.dom", flip);
   damage("domains/000000.dom", halve);
   damage("domains/000000.dom", remove);
-  for (const char* file : {"kept.json", "manifest.json", "materials.bin", "lights.bin"}) {
+  for (const char* file : {"kept.json", "manifest.json", "materials.bin", "lights.bin", "domains.bin"}) {
     damage(file, flip);
     damage(file, halve);
     damage(file, remove);

@@ -39,7 +39,7 @@ class VerifyProgram : public ::testing::Test {
 TEST_F(VerifyProgram, WholeBundle) {
   const CommandResult result = verify();
   EXPECT_EQ(result.status, 0) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("box.vit: whole; 7 files"));
+  EXPECT_THAT(result.output, HasSubstr("box.vit: whole; 8 files"));
   EXPECT_EQ(verify("--quiet --threads 1").output, "");
   std::ofstream(bundle / "notes.txt") << "made on Monday";
   EXPECT_EQ(verify().status, 0);
@@ -60,7 +60,7 @@ TEST_F(VerifyProgram, DamagedBundle) {
   const auto report = nlohmann::json::parse(json.output);
   EXPECT_EQ(report["whole"], false);
   EXPECT_EQ(report["problems"].size(), 3u);
-  EXPECT_EQ(report["files"], 7);
+  EXPECT_EQ(report["files"], 8);
   EXPECT_GT(report["bytes_per_s"], 0);
 }
 

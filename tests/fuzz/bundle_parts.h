@@ -12,7 +12,7 @@
 
 namespace vitrail::fuzz {
 
-enum Part : std::size_t { manifest, materials, lights, domain, image, part_count };
+enum Part : std::size_t { manifest, materials, lights, domains, domain, image, part_count };
 using BundleParts = std::array<std::string, part_count>;
 inline constexpr std::size_t records_header_bytes = 32;  // before what the records hold (bundle/manifest.cpp)
 

@@ -46,7 +46,8 @@ void add_bundles(const std::function<void(const std::string&)>& add) {
         return read_text(directory / name).substr(fuzz::records_header_bytes);
       };
       add(fuzz::pack({read_text(directory / "manifest.json"), records("materials.bin"), records("lights.bin"),
-                      read_text(domain_path(directory.path(), 0)), read_text(directory / image_name)}));
+                      records("domains.bin"), read_text(domain_path(directory.path(), 0)),
+                      read_text(directory / image_name)}));
     } catch (const std::exception&) {
     }
   };

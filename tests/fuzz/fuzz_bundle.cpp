@@ -2,6 +2,7 @@
 // A bundle whose checksums are put right: read, made ready and rendered, as far as a reader takes it.
 #include <fmt/format.h>
 
+#include "bundle/binary_records.h"
 #include "bundle/checked_json.h"
 #include "bundle/loaded_domain.h"
 #include "tests/bundle/sample_bundle.h"
@@ -53,11 +54,24 @@ std::vector<std::byte> bytes_of(const std::string& text) {
 
 std::string hexadecimal(std::uint64_t number) { return fmt::format("{:016x}", number); }
 
-void enter(Json& entry, std::uint64_t bytes, std::uint64_t hash) {
-  if (entry.is_object()) entry["bytes"] = bytes, entry["hash"] = hexadecimal(hash);
+// The records of domains with what the files beside them really have.
+std::string repaired(const std::string& payload, const std::vector<std::byte>& domain, std::uint64_t hash) {
+  Manifest m;
+  decode_domains(bytes_of(payload), "domains.bin", m);
+  const Manifest& whole = sample().manifest;
+  for (std::size_t i = 0; i < std::min(m.domains.size(), whole.domains.size()); ++i)
+    m.domains[i].bytes = whole.domains[i].bytes, m.domains[i].hash = whole.domains[i].hash;
+  if (!m.domains.empty()) m.domains[0].bytes = domain.size(), m.domains[0].hash = hash;
+  for (std::size_t i = 0; i < std::min(m.objects.size(), whole.objects.size()); ++i)
+    m.objects[i].bytes = whole.objects[i].bytes, m.objects[i].hash = whole.objects[i].hash;
+  std::string text;
+  encode_domains(m, [&](std::span<const std::byte> bytes) {
+    text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  });
+  return text;
 }
 
-// Throws what the JSON library does where the manifest is not as it should be.
+// Throws what the JSON library does where the manifest is not as it should be, Error where records are not.
 void write_bundle(const fuzz::BundleParts& parts) {
   Json json = Json::parse(parts[fuzz::manifest]);
   json.erase("checksum");
@@ -66,15 +80,11 @@ void write_bundle(const fuzz::BundleParts& parts) {
   json["lights_checksum"] =
       hexadecimal(write_records("sample.vit/lights.bin", "VITRLIT\n", parts[fuzz::lights]));
   std::vector<std::byte> domain = bytes_of(parts[fuzz::domain]), image = bytes_of(parts[fuzz::image]);
-  const Manifest& m = sample().manifest;
-  for (std::size_t i = 1; i < std::min(m.domains.size(), json.at("domains").size()); ++i)
-    enter(json["domains"][i], m.domains[i].bytes, m.domains[i].hash);
   const std::uint64_t domain_hash = fuzz::repair_domain(domain), image_hash = fuzz::repair_texture(image);
-  enter(json["domains"][0], domain.size(), domain_hash);
-  if (json.contains("objects"))
-    for (std::size_t i = 0; i < std::min(m.objects.size(), json["objects"].size()); ++i)
-      enter(json["objects"][i], m.objects[i].bytes, m.objects[i].hash);
-  if (!json.at("texture_files").empty()) enter(json["texture_files"][0], image.size(), image_hash);
+  json["domains_checksum"] = hexadecimal(write_records("sample.vit/domains.bin", "VITRDOS\n",
+                                                       repaired(parts[fuzz::domains], domain, domain_hash)));
+  if (Json& images = json.at("texture_files"); !images.empty() && images[0].is_object())
+    images[0]["bytes"] = image.size(), images[0]["hash"] = hexadecimal(image_hash);
   write_bytes("sample.vit/domains/000000.dom", domain);
   write_bytes("sample.vit/textures/000000.tex", image);
   write_checked_json(sample().bundle / "manifest.json", json);
@@ -118,6 +128,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     write_bundle(parts);
   } catch (const nlohmann::json::exception&) {
+    return 0;
+  } catch (const Error&) {
     return 0;
   }
   return fuzz::run([&] { render(read_manifest(sample().bundle)); });
