@@ -17,7 +17,7 @@ struct Features {
   std::uint32_t required = 0, optional = 0;
   bool operator==(const Features&) const = default;
 };
-// Of the manifest, which has names in place of bits: more than headers have room for.
+// A manifest names its features, and may have more than the bits of headers have room for.
 struct ManifestFeatures {
   std::uint64_t required = 0;
   std::uint32_t optional = 0;

@@ -21,7 +21,7 @@ double base_below_coat(double albedo, double eta, DiffuseAlbedo of);
 // The same at every wavelength, or of its colour.
 Spectrum base_below_coat(const Spectrum& albedo, double eta, DiffuseAlbedo of);
 
-// Whether some of it may be diffuse.
+// Returns whether some of it may be diffuse.
 bool has_base(const PrincipledMaterial& m);
 
 // Returns the albedo with each of its values changed so, at every wavelength, or of its colour.
