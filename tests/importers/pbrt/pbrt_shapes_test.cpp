@@ -441,6 +441,21 @@ TEST(PbrtShapes, AHyperboloidIsWhatALineSweeps) {
   }
 }
 
+// pbrt-v3 knows hyperboloids with their waist at z = 0 alone: of a line that is nearest to the axis elsewhere
+// it shows the one through p2 and 2p2 − p1.
+TEST(PbrtShapes, TheWaistOfAHyperboloidIsWhereZIs0) {
+  const TriangleMesh mesh =
+      import_v3("Shape \"hyperboloid\" \"point p1\" [3 1.2 1] \"point p2\" [.65 -.5 -1]").scene.meshes.at(0);
+  const double end = .65 * .65 + .5 * .5, other = 1.7 * 1.7 + 2.2 * 2.2;  // at z = −1 and −3
+  const double a = 8 / (9 * end - other), c = a * end - 1;
+  EXPECT_NEAR(a * other - c * 9, 1, 1e-12);
+  for (const Point3f& position : mesh.positions) {
+    const Point3d p = cast<double>(position);
+    const double squared = std::max(0.0, (1 + c * p.z * p.z) / a);
+    EXPECT_NEAR(p.x * p.x + p.y * p.y, squared, 1e-5);
+  }
+}
+
 TEST(PbrtShapes, WithoutPointsAreLeftOut) {
   const ImportedScene imported =
       import_v4("Shape \"trianglemesh\" \"integer indices\" [] \"point3 P\" []\n" + triangle);
