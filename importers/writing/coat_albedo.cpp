@@ -20,6 +20,10 @@ Spectrum base_below_coat(const Spectrum& albedo, double eta, DiffuseAlbedo of) {
   return changed_albedo(albedo, [&](double value) { return base_below_coat(value, eta, of); });
 }
 
+bool has_base(const PrincipledMaterial& m) {
+  return m.metallic != FloatParameter{1.0f} && m.spec_trans != FloatParameter{1.0f};
+}
+
 Spectrum changed_albedo(const Spectrum& albedo, const std::function<double(double)>& change) {
   if (const auto* constant = std::get_if<ConstantSpectrum>(&albedo))
     return ConstantSpectrum{static_cast<float>(change(static_cast<double>(constant->value)))};

@@ -4,13 +4,14 @@
 
 #include <functional>
 
+#include "scene/records/material.h"
 #include "scene/spectra/spectrum.h"
 
 namespace vitrail {
 
 // What a surface without a coat's help has for its diffuse albedo: of the light that gets in, the share
-// ρ that comes out again (Mitsuba's linear plastic), or ρ of all light (the principled model, whose gloss is
-// added to it).
+// ρ that comes out again (Mitsuba's linear plastic, glTF's dielectric), or ρ of all light (the principled
+// model, whose gloss is added to it).
 enum class DiffuseAlbedo { of_what_gets_in, of_all };
 
 // The reflectance of a base below which light goes back and forth, as below pbrt's coateddiffuse and
@@ -19,6 +20,9 @@ enum class DiffuseAlbedo { of_what_gets_in, of_all };
 double base_below_coat(double albedo, double eta, DiffuseAlbedo of);
 // The same at every wavelength, or of its colour.
 Spectrum base_below_coat(const Spectrum& albedo, double eta, DiffuseAlbedo of);
+
+// Whether some of it may be diffuse.
+bool has_base(const PrincipledMaterial& m);
 
 // Returns the albedo with each of its values changed so, at every wavelength, or of its colour.
 Spectrum changed_albedo(const Spectrum& albedo, const std::function<double(double)>& change);

@@ -100,7 +100,7 @@ auto visit_fields(Is<DiffuseTransmissionMaterial> auto& m, auto&& f) {
 }
 auto visit_fields(Is<PrincipledMaterial> auto& m, auto&& f) {
   return f(m.base_color, m.roughness, m.anisotropic, m.metallic, m.spec_trans, m.spec_tint, m.sheen,
-           m.sheen_tint, m.flatness, m.clearcoat, m.clearcoat_gloss, m.diff_trans, m.eta, m.thin);
+           m.sheen_tint, m.flatness, m.clearcoat, m.clearcoat_gloss, m.diff_trans, m.eta, m.thin, m.below);
 }
 auto visit_fields(Is<SubsurfaceMaterial::Coefficients> auto& c, auto&& f) { return f(c.sigma_a, c.sigma_s); }
 auto visit_fields(Is<SubsurfaceMaterial::Effective> auto& e, auto&& f) {

@@ -130,13 +130,14 @@ struct DiffuseTransmissionMaterial {
 };
 
 // Disney's (Burley 2012, 2015) as Mitsuba has it. `thin`: a sheet, with `diff_trans` and without an interior.
+// `below`: as in glTF, what is diffuse is Lambert's, of the light that the surface above it does not reflect.
 struct PrincipledMaterial {
   SpectrumParameter base_color = ConstantSpectrum{0.5f};
   FloatParameter roughness = 0.5f, anisotropic = 0.0f, metallic = 0.0f, spec_trans = 0.0f, spec_tint = 0.0f,
                  sheen = 0.0f, sheen_tint = 0.0f, flatness = 0.0f, clearcoat = 0.0f, clearcoat_gloss = 0.0f,
                  diff_trans = 0.0f;
   float eta = 1.5f;
-  bool thin = false;
+  bool thin = false, below = false;
   bool operator==(const PrincipledMaterial&) const = default;
 };
 

@@ -64,6 +64,8 @@ TEST(CoatAlbedo, WhatPbrtGets) {
   EXPECT_NEAR(reflectance(plastic), 0.4, 1e-6) << "it goes back and forth already";
   PrincipledMaterial principled{.base_color = ConstantSpectrum{0.4f}, .roughness = 0.1f};
   EXPECT_NEAR(reflectance(principled), base_below_coat(0.4, 1.5, DiffuseAlbedo::of_all), 1e-5);
+  principled.below = true;
+  EXPECT_NEAR(reflectance(principled), base_below_coat(0.4, 1.5, DiffuseAlbedo::of_what_gets_in), 1e-5);
 }
 
 // pbrt's marble: a curve of nine points, six segments of it, along which a sine goes; its colours are 1.5

@@ -33,18 +33,19 @@ double written_over_own(const PrincipledMaterial& model, double angle_rad) {
   return albedo(again) / albedo(own);
 }
 
-void expect_as_bright(float color, float roughness, float metallic) {
+void expect_as_bright(float color, float roughness, float metallic, bool below = false) {
   const PrincipledMaterial model{
-      .base_color = ConstantSpectrum{color}, .roughness = roughness, .metallic = metallic};
+      .base_color = ConstantSpectrum{color}, .roughness = roughness, .metallic = metallic, .below = below};
   for (const double angle : {0.0, 1.0})
-    EXPECT_NEAR(written_over_own(model, angle), 1, 0.05)
-        << fmt::format("colour {}, roughness {}, metallic {}, {} rad", color, roughness, metallic, angle);
+    EXPECT_NEAR(written_over_own(model, angle), 1, 0.05) << fmt::format(
+        "colour {}, roughness {}, metallic {}, below {}, {} rad", color, roughness, metallic, below, angle);
 }
 
 TEST(PrincipledMaterials, KeepTheirLightInPbrt) {
   for (const float color : {0.2f, 0.5f, 0.8f})
     for (const float roughness : {0.5f, 1.0f}) expect_as_bright(color, roughness, 0);
   expect_as_bright(0.5f, 0.3f, 0);
+  for (const float roughness : {0.5f, 1.0f}) expect_as_bright(0.5f, roughness, 0, true);
 }
 
 // Of colours that metals have: pbrt's metal of .2 is 15 % brighter at 1 rad.

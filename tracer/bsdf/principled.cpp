@@ -21,6 +21,7 @@ lanes::Principled<double> in_one_lane(const PrincipledBsdf& b) {
           .flatness = b.flatness,
           .clearcoat = b.clearcoat,
           .clearcoat_gloss = b.clearcoat_gloss,
+          .below = b.below,
           .microfacets = lanes::fill(principled::microfacets(b.roughness, b.anisotropic))};
 }
 

@@ -7,6 +7,8 @@
 //   (metallic) and of the tinted reflectance at normal incidence;
 //   0.25·clearcoat: GTR₁ of width lerp(0.1, 0.001, gloss), Schlick's F₀ = 0.04;
 //   (1 − metallic)·spec_trans·√base_color: GGX refraction.
+// With `below` what is diffuse is Lambert's, of what the GGX reflection leaves (principled::below), as in
+// glTF.
 // Not reciprocal: the refraction by more than 1/η² (Fresnel factors of Schlick's kind depend on the side),
 // and the reflection behind, which has no metal. What reflects at the front is reciprocal.
 #pragma once
@@ -25,6 +27,7 @@ struct PrincipledBsdf {
   double eta = 1.5;
   double roughness = 0.5, anisotropic = 0, metallic = 0, spec_trans = 0, spec_tint = 0, sheen = 0,
          sheen_tint = 0, flatness = 0, clearcoat = 0, clearcoat_gloss = 0;
+  bool below = false;
 };
 
 // A sheet, the same from either side. diff_trans in [0, 2]: twice the part of the diffuse light that goes
@@ -35,6 +38,7 @@ struct PrincipledThinBsdf {
   double eta = 1.5;
   double roughness = 0.5, anisotropic = 0, spec_trans = 0, spec_tint = 0, sheen = 0, sheen_tint = 0,
          flatness = 0, diff_trans = 0;
+  bool below = false;
 };
 
 BsdfValue eval(const PrincipledBsdf& bsdf, Vector3d out, Vector3d in);

@@ -14,6 +14,7 @@ struct Principled {
   Four<FloatsLike<D>> base_color;
   D luminance, eta, roughness, metallic, spec_trans, spec_tint, sheen, sheen_tint, flatness, clearcoat,
       clearcoat_gloss;
+  Mask<D> below;
   Microfacets<D> microfacets;
 };
 
@@ -159,7 +160,9 @@ VITRAIL_LANES Four<FloatsLike<D>> reflected(const Principled<D>& b, const Pair<D
   const D part = diffuse_part(b);
   const Mask<D> diffuses = p.front & (part > 0);
   if (!any(diffuses)) return value;
-  const D f = diffuse<D>(b.roughness, b.flatness, out_z, in_z, p.in_h);
+  D f = fill<D>(0);
+  if (!all(b.below)) f = diffuse<D>(b.roughness, b.flatness, out_z, in_z, p.in_h);
+  if (any(b.below)) f = select<D>(b.below, below<D>(b.roughness, p.eta, out_z, in_z), f);
   const F base = to_floats(select<D>(diffuses, part * f * in_z / pi, fill<D>(0)));
   for (int i = 0; i < 4; ++i) value[i] = value[i] + b.base_color[i] * base;
   if (!any(diffuses & (b.sheen > 0))) return value;

@@ -32,4 +32,8 @@ double diffuse(double roughness, double flatness, DiffuseCosines c) {
   return lanes::principled::diffuse(roughness, flatness, c.out, c.in, c.half);
 }
 
+double below(double roughness, double eta, double out, double in) {
+  return lanes::principled::below(roughness, eta, out, in);
+}
+
 }  // namespace vitrail::principled

@@ -29,4 +29,8 @@ struct DiffuseCosines {
 };
 double diffuse(double roughness, double flatness, DiffuseCosines cosines);
 
+// π·f/base_color of a base below such microfacets, behind which the index is eta ≥ 1: it gets what they do
+// not reflect (Kulla and Conty 2017). Cosines > 0.
+double below(double roughness, double eta, double out, double in);
+
 }  // namespace vitrail::principled

@@ -27,7 +27,7 @@ struct Parts {
 
 Parts parts(const PrincipledThinBsdf& b) {
   const double diffuse = 1 - b.spec_trans, through = b.diff_trans / 2;
-  return {b.spec_trans, b.spec_trans, diffuse * (1 - through), diffuse * through};
+  return {b.below ? 1 : b.spec_trans, b.spec_trans, diffuse * (1 - through), diffuse * through};
 }
 
 Parts lobe_weights(const PrincipledThinBsdf& b, double cosine) {
@@ -66,7 +66,8 @@ SampledSpectrum reflected(const PrincipledThinBsdf& b, Vector3d out, Vector3d in
                   static_cast<float>(b.spec_tint);
     value = f * static_cast<float>(part.reflected * facets_value(reflecting_facets(b), out, in, h));
   }
-  const double f = diffuse(b.roughness, b.flatness, {out.z, in.z, half});
+  const double f = b.below ? below(b.roughness, b.eta, out.z, in.z)
+                           : diffuse(b.roughness, b.flatness, {out.z, in.z, half});
   value = value + b.base_color * static_cast<float>(part.diffuse_reflected * f * in.z / pi);
   if (b.sheen > 0)
     value = value + tint(b.base_color, b.luminance, b.sheen_tint) *
@@ -77,6 +78,7 @@ SampledSpectrum reflected(const PrincipledThinBsdf& b, Vector3d out, Vector3d in
 SampledSpectrum transmitted(const PrincipledThinBsdf& b, Vector3d out, Vector3d in) {
   const Parts part = parts(b);
   double value = part.diffuse_transmitted * -in.z / pi;
+  if (b.below && value > 0) value *= below(b.roughness, b.eta, out.z, -in.z);
   const Vector3d h = folded_half(out, in);
   const double half = std::min(1.0, dot(out, h));
   if (part.transmitted > 0 && dot(in, h) < 0)  // Mitsuba's: a facet is crossed from one side to the other

@@ -181,7 +181,7 @@ Bsdf BsdfMaker::operator()(const PrincipledMaterial& m) const {
     return PrincipledThinBsdf{color,          luminance_of(m),  static_cast<double>(m.eta),
                               n(m.roughness), n(m.anisotropic), n(m.spec_trans),
                               n(m.spec_tint), n(m.sheen),       n(m.sheen_tint),
-                              n(m.flatness),  n(m.diff_trans)};
+                              n(m.flatness),  n(m.diff_trans),  m.below};
   return PrincipledBsdf{color,
                         luminance_of(m),
                         static_cast<double>(m.eta),
@@ -194,7 +194,8 @@ Bsdf BsdfMaker::operator()(const PrincipledMaterial& m) const {
                         n(m.sheen_tint),
                         n(m.flatness),
                         n(m.clearcoat),
-                        n(m.clearcoat_gloss)};
+                        n(m.clearcoat_gloss),
+                        m.below};
 }
 
 SampledSpectrum BsdfMaker::absorption(const HairMaterial& m) const {

@@ -78,7 +78,7 @@ MaterialModel MaterialBuilder::glass(bool solid) {
 
 MaterialModel MaterialBuilder::principled() {
   const auto& pbr = m_.pbrMetallicRoughness;
-  PrincipledMaterial material;
+  PrincipledMaterial material{.below = true};
   material.base_color = base_color();
   const auto* map = &pbr.metallicRoughnessTexture;
   material.roughness = number(map, held("roughnessFactor", pbr.roughnessFactor, 0, 1), ImageNumber::green);

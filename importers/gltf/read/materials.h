@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // glTF's materials. What each becomes:
-//   metallic-roughness            principled (Burley's diffuse, GGX of width roughness²): glTF leaves the
-//   model open KHR_materials_specular of 0   Lambert's, where nothing is metal or coated
+//   metallic-roughness            principled, GGX of width roughness² over Lambert's diffuse part, which gets
+//                                 what is not reflected (docs/why/converting.md)
+//   KHR_materials_specular of 0   Lambert's, where nothing is metal or coated
 //   KHR_materials_transmission    a sheet (thin dielectric, or thin principled); with KHR_materials_volume's
 //                                 thickness a solid (dielectric, or principled) with a medium that absorbs
 //                                 inside

@@ -6,6 +6,7 @@
 
 #include "importers/gltf/write/values.h"
 #include "importers/gltf/write/write_materials.h"
+#include "importers/writing/coat_albedo.h"
 #include "importers/writing/export_colors.h"
 #include "scene/models/normal_map.h"
 
@@ -122,6 +123,8 @@ void MaterialWriter::put(const PrincipledMaterial& m) {
   base(m.base_color);
   roughness_and_metal(m.roughness, m.metallic);
   index(static_cast<double>(m.eta));
+  if (!m.below && has_base(m))
+    notes_.approximated("principled material: in glTF its base is 3 to 7 % darker, 20 % at grazing angles");
   const auto is_zero = [](const FloatParameter& p) { return p == FloatParameter{0.0f}; };
   if (!is_zero(m.spec_trans)) transmit(number(m.spec_trans, "transmission"), !m.thin);
   if (!is_zero(m.clearcoat)) {

@@ -114,7 +114,7 @@ class MaterialWriter {
       return metal_part(m);
     }
     p_.approximated("the principled model becomes a coat over a base of the same albedo");
-    base_below(m.base_color, m.eta, DiffuseAlbedo::of_all);
+    base_below(m.base_color, m.eta, m.below ? DiffuseAlbedo::of_what_gets_in : DiffuseAlbedo::of_all);
     p_.number("eta", m.eta).integer("maxdepth", as_often_as_wanted);
     roughness(surface);
     return "coateddiffuse";
@@ -467,8 +467,9 @@ void write_principled(Writer& w, std::size_t index, const PrincipledMaterial& m)
                normal = (eta - 1) / (eta + 1) * (eta - 1) / (eta + 1);
   constexpr double least = 0.1, most = 0.5;
   const double share = std::clamp(1 - MaterialWriter(whole, index).brightest(m), least, most);
+  const double gets_in = m.below ? 1 - normal : 1;
   const std::string diffuse =
-      part("-diffuse", [&](MaterialWriter& writer) { return writer.diffuse_part(m, 1 / (1 - share)); });
+      part("-diffuse", [&](MaterialWriter& writer) { return writer.diffuse_part(m, gets_in / (1 - share)); });
   const std::string gloss = part(
       "-gloss", [&](MaterialWriter& writer) { return writer.gloss_part(m, std::min(normal / share, 1.0)); });
   const std::string plain = has_metal ? Writer::add_name(w.materials, name + "-plain") : name;

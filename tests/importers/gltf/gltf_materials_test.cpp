@@ -24,6 +24,7 @@ TEST(GltfMaterials, MetallicRoughnessIsPrincipled) {
   EXPECT_EQ(m.metallic, FloatParameter{0.75f});
   EXPECT_EQ(m.roughness, FloatParameter{0.5f});
   EXPECT_EQ(m.eta, 1.25f);
+  EXPECT_TRUE(m.below);
   EXPECT_EQ(std::get<SigmoidSpectrum>(std::get<Spectrum>(m.base_color)).rgb,
             (std::array<float, 3>{1, 0.5f, 0.25f}));
 }

@@ -150,6 +150,8 @@ TEST_F(WriteMitsuba, ApproximatedModels) {
   EXPECT_THAT(diagnostics_, approximates("nonlinear plastic"));
   EXPECT_EQ(type(CoatedConductorMaterial{}), "conductor");
   EXPECT_THAT(diagnostics_, approximates("without its coating"));
+  EXPECT_EQ(type(PrincipledMaterial{.below = true}), "principled");
+  EXPECT_THAT(diagnostics_, approximates("the base of glTF's model"));
   EXPECT_EQ(type(DiffuseTransmissionMaterial{}), "principledthin");
   EXPECT_THAT(diagnostics_, approximates("diffuse transmission"));
   EXPECT_EQ(type(SubsurfaceMaterial{SubsurfaceMaterial::Named{"Skin3"}}), "dielectric");

@@ -10,8 +10,8 @@
 namespace vitrail::test::picture_revision_test {
 namespace {
 
-constexpr std::uint32_t known_revision = 17;
-constexpr const char* known_pictures = "448eee9ecbbbc869";
+constexpr std::uint32_t known_revision = 18;
+constexpr const char* known_pictures = "1c3cb27d5f757be6";
 
 std::array<Point3f, 4> tile(float x, float z) {
   return {{{x, 0, z}, {x + 1, 0, z}, {x + 1, 1, z + 0.2f}, {x, 1, z + 0.2f}}};
@@ -51,6 +51,7 @@ Scene everything() {
                                           PlasticMaterial{},
                                           CoatedDiffuseMaterial{},
                                           principled,
+                                          PrincipledMaterial{.below = true},
                                           DiffuseTransmissionMaterial{},
                                           CoatedConductorMaterial{}};
   float x = -5;

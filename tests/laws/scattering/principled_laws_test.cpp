@@ -41,6 +41,21 @@ TEST(PrincipledLaws, OpaqueOnesObeyThem) {
   }
 }
 
+TEST(PrincipledLaws, BasesBelowGlossConserveEnergy) {
+  for (const double roughness : {0.0, 0.3, 1.0}) {
+    expect_all(PrincipledBsdf{.base_color = filled(1), .roughness = roughness, .metallic = .3, .below = true},
+               false, 1, {.energy = 0.02, .samples = 10000},
+               fmt::format("below gloss, roughness {}", roughness));
+    expect_all(PrincipledThinBsdf{.base_color = filled(1),
+                                  .roughness = roughness,
+                                  .spec_trans = .4,
+                                  .diff_trans = .6,
+                                  .below = true},
+               true, 1, {.energy = 0.02, .reciprocal = false, .samples = 10000},
+               fmt::format("sheet below gloss, roughness {}", roughness));
+  }
+}
+
 TEST(PrincipledLaws, MetalsConserveEnergy) {
   for (const double roughness : {0.001, 0.2, 1.0})
     expect_all(PrincipledBsdf{.base_color = filled(1), .roughness = roughness, .metallic = 1}, false, 1,

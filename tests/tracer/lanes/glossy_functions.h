@@ -85,8 +85,8 @@ LANE_FUNCTION(plastic, 25, 30) {
   };
   put(smooth), put(rough);
 }
-// The base colour, its luminance, eta, the other numbers, two directions, three numbers.
-LANE_FUNCTION(principled, 25, 15) {
+// The base colour, its luminance, eta, the other numbers, two directions, three numbers, whether it is below.
+LANE_FUNCTION(principled, 26, 15) {
   using D = lanes::Doubles<W>;
   const D roughness = in.d(6), anisotropic = in.d(15);
   const lanes::Principled<D> bsdf{.base_color = four_of(in, 0),
@@ -101,6 +101,7 @@ LANE_FUNCTION(principled, 25, 15) {
                                   .flatness = in.d(12),
                                   .clearcoat = in.d(13),
                                   .clearcoat_gloss = in.d(14),
+                                  .below = in.d(25) != 0,
                                   .microfacets = lanes::gather_microfacets<D>([&](int j) {
                                     return vitrail::principled::microfacets(lanes::lane(roughness, j),
                                                                             lanes::lane(anisotropic, j));

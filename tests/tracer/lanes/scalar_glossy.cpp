@@ -75,7 +75,7 @@ std::vector<ScalarFunction> glossy_functions() {
   const Argument amount = number(0, 1, {0, 1, 0.5});
   add(principled, {amount, number(0.4, 2.5, {1, 1.5})});
   add(principled, std::vector<Argument>(10, amount));
-  add(principled, {direction(), direction(), unit_number(), unit_number(), unit_number()});
+  add(principled, {direction(), direction(), unit_number(), unit_number(), unit_number(), word(2)});
   add(finish, reflectances());
   add(finish, {number(0.1, 3, {1, 2}), amount, number(1, 200, {40}), amount, magnitude(-10, 0, {0.05}),
                direction(), direction(), unit_number(), unit_number(), unit_number()});
@@ -161,7 +161,8 @@ std::vector<ScalarFunction> glossy_functions() {
                                    .sheen_tint = in[11],
                                    .flatness = in[12],
                                    .clearcoat = in[13],
-                                   .clearcoat_gloss = in[14]};
+                                   .clearcoat_gloss = in[14],
+                                   .below = in[25] != 0};
          Results results{out};
          put(eval(bsdf, vector_of(in + 16), vector_of(in + 19)), results);
          put(sample(bsdf, vector_of(in + 16), static_cast<float>(in[22]), numbers_of(in + 23)), results);

@@ -194,6 +194,7 @@ std::vector<Case> cases() {
       {"plastic", block(plastic(0))},
       {"rough plastic", block(plastic(0.2f))},
       {"principled", block(principled(0.3f))},
+      {"principled as glTF has it", block(material(PrincipledMaterial{.metallic = 0.3f, .below = true}))},
       {"glass", block(material(DielectricMaterial{ConstantSpectrum{1.5f}}))},
       {"glass that disperses", block(material(DielectricMaterial{bk7()}))},
       {"frosted glass", block(material([] {

@@ -136,6 +136,7 @@ struct ReadPrincipled {
             .flatness = number(&B::flatness),
             .clearcoat = number(&B::clearcoat),
             .clearcoat_gloss = number(&B::clearcoat_gloss),
+            .below = gather_mask<D>(VITRAIL_EACH(g.bsdf[j]->principled.below)),
             .microfacets = microfacets_of(g)};
   }
 };
