@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scene/geometry/unit_circle.h"
 #include "scene/system/diagnostics.h"
@@ -135,11 +136,11 @@ namespace {
 struct Waisted {
   double a = 0, c = 0;
   Waisted(const Vector3d& p1, const Vector3d& p2) {
-    const Vector3d end = p2.z == 0 ? p1 : p2, other = end * 2.0 - (p2.z == 0 ? p2 : p1);
+    const Vector3d other = p2 * 2.0 - p1;
     const auto squared = [](const Vector3d& p) { return p.x * p.x + p.y * p.y; };
-    const double z2 = end.z * end.z, other_z2 = other.z * other.z;
-    a = (z2 - other_z2) / (squared(other) * z2 - squared(end) * other_z2);
-    c = (a * squared(end) - 1) / z2;
+    const double z2 = p2.z * p2.z, other_z2 = other.z * other.z;
+    a = (z2 - other_z2) / (squared(other) * z2 - squared(p2) * other_z2);
+    c = (a * squared(p2) - 1) / z2;
   }
   // By which a point of the line is farther from the axis; 1 where there is no such surface.
   double scale(const Vector3d& p) const {
@@ -150,8 +151,9 @@ struct Waisted {
 
 }  // namespace
 
-TriangleMesh hyperboloid(const Vector3d& p1, const Vector3d& p2, double phimax_rad) {
+TriangleMesh hyperboloid(Vector3d p1, Vector3d p2, double phimax_rad) {
   constexpr int of_turn = 256, rows = 64;
+  if (p2.z == 0) std::swap(p1, p2);
   const Waisted waisted(p1, p2);
   const int columns = std::max(1, static_cast<int>(std::ceil(of_turn * phimax_rad / (2 * pi))));
   TriangleMesh mesh;
