@@ -110,7 +110,7 @@ const std::vector<Heading> of_year{
     {"What to measure",
      "bundle=BUNDLE weather=FILE sensors=FILE up=AXIS north=AXIS ground=REFLECTANCE set=NAME.PROPERTY=VALUE "
      "state=NAME=SETTINGS rules=FILE use=HOURS target=LUX"},
-    {"How good", "patches paths=COUNT sun-paths=COUNT max-depth seed"},
+    {"How good", "patches paths=COUNT sun-paths=COUNT sun-blur=DEGREES max-depth seed"},
     {"How long", "checkpoint-every=SECONDS force"},
     {"On how many", "memory=SIZE threads patience=SECONDS"},
     {"What to write", "output=FOLDER table progress quiet"},

@@ -2,6 +2,7 @@
 // vitrail year: daylight over a year. Coefficients are traced once; the hours are a product with the weather.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <span>
@@ -46,6 +47,7 @@ struct Known {
   std::vector<Sensor> sensors;
   WeatherYear weather;
   SkyYear year;
+  NearSuns near;
   StateRules rules;
 };
 
@@ -61,19 +63,12 @@ Known read_all(const YearArguments& a) {
               .sensors = read_sensors(a.sensors),
               .weather = read_weather_year(a.weather),
               .year = {},
+              .near = {},
               .rules = {}};
   known.year = sky_year(known.weather, SkyPatches(a.division), a.ground);
+  known.near = near_suns(known.year.suns, a.sun_blur_deg);
   if (!a.rules.empty()) known.rules = read_state_rules(a.rules, names_of(states_of(a)), known.sensors.size());
   return known;
-}
-
-void say_what_is_known(const YearArguments& a, const Known& known) {
-  if (known.weather.missing > 0)
-    say("vitrail: {}: {} hours have no measurement (9999) and count as dark\n", a.weather.string(),
-        known.weather.missing);
-  if (a.quiet) return;
-  say("vitrail: {}: {} hours, {} with sun; {} sensors; {}\n", a.weather.string(), known.year.hours.size(),
-      known.year.suns.size(), known.sensors.size(), known.frame.words);
 }
 
 // Those that face up.
@@ -84,12 +79,23 @@ std::vector<bool> sensors_of_area(const Known& known) {
   return in_area;
 }
 
-StateCoefficients read_coefficients(const YearArguments& a, const std::string& state, bool has_suns) {
+void say_what_is_known(const YearArguments& a, const Known& known) {
+  if (known.weather.missing > 0)
+    say("vitrail: {}: {} hours have no measurement (9999) and count as dark\n", a.weather.string(),
+        known.weather.missing);
+  if (std::ranges::none_of(sensors_of_area(known), [](bool in) { return in; }))
+    say("vitrail: no sensor faces up, and there is no area for sDA, ASE and EN 17037\n");
+  if (a.quiet) return;
+  say("vitrail: {}: {} hours, {} with sun; {} sensors; {}\n", a.weather.string(), known.year.hours.size(),
+      known.year.suns.size(), known.sensors.size(), known.frame.words);
+}
+
+StateCoefficients read_coefficients(const YearArguments& a, const std::string& state, const NearSuns& near) {
   const auto read = [&](CoefficientKind kind) {
     return coefficients_of(read_film(film_of(a, state, kind), nullptr), kind == CoefficientKind::sky);
   };
-  StateCoefficients c{state, read(CoefficientKind::sky), {}, {}};
-  if (has_suns) c.suns = read(CoefficientKind::suns), c.beams = read(CoefficientKind::beams);
+  StateCoefficients c{state, read(CoefficientKind::sky), {}, {}, {}};
+  if (!near.of.empty()) set_suns(c, read(CoefficientKind::beams), read(CoefficientKind::reflected), near);
   return c;
 }
 
@@ -116,10 +122,10 @@ std::vector<std::size_t> states_of_hours(const Known& known, const std::vector<S
 }
 
 // On one rank: the films' product with the weather.
-void conclude(const YearArguments& a, Known& known) {
+void conclude(const YearArguments& a, const Known& known, bool is_whole) {
   std::vector<StateCoefficients> states;
   for (const YearState& state : states_of(a)) {
-    states.push_back(read_coefficients(a, state.name, !known.year.suns.empty()));
+    states.push_back(read_coefficients(a, state.name, known.near));
     write_coefficients(a, states.back());
   }
   YearReport report;
@@ -132,14 +138,18 @@ void conclude(const YearArguments& a, Known& known) {
   report.counted = counted_hours(known.year, a.figures);
   for (std::size_t s = 0; s < known.sensors.size(); ++s)
     report.sensor_years.push_back(
-        sensor_year(known.year, states, report.states, s, report.counted, a.figures));
-  report.year = std::move(known.year);
+        sensor_year(known.year, known.near, states, report.states, s, report.counted, a.figures));
+  report.year = known.year;
   report.area = area_figures(report.sensor_years, report.in_area);
   write_hours(a.output, report);
   write_figures(a.output, report);
   write_area(a.output, report);
   write_page(a.output, report);
-  show("{}", words_of_area(report));
+  if (is_whole)
+    show("{}", words_of_area(report));
+  else
+    say("vitrail: so far, by an eighth of the paths ({}):\n{}", (a.output / "index.html").string(),
+        words_of_area(report));
 }
 
 int year_job(Transport& transport, YearArguments& a) {
@@ -155,9 +165,18 @@ int year_job(Transport& transport, YearArguments& a) {
   now_doing("reading the weather");
   agree(transport, [&] { known = read_all(a); });
   if (first) say_what_is_known(a, known);
-  trace_coefficients(transport, a, known.frame, known.year.suns);
-  now_doing("multiplying by the weather");
-  agree_on_root(transport, [&] { conclude(a, known); });
+  // A page is there soon, and again with all paths.
+  std::uint64_t begins[] = {0};
+  agree_on_root(transport, [&] { begins[0] = !a.quiet && (a.force || !has_films(a)); });
+  transport.broadcast_from_root(begins);
+  std::vector<double> shares{1};
+  if (begins[0] != 0) shares.insert(shares.begin(), 0.125);
+  for (const double share : shares) {
+    trace_coefficients(transport, a, known.frame, known.year.suns, share);
+    a.force = false;
+    now_doing("multiplying by the weather");
+    agree_on_root(transport, [&] { conclude(a, known, share == 1); });
+  }
   return exit_done;
 }
 

@@ -50,6 +50,12 @@ void declare(CLI::App& app, YearArguments& a) {
       ->transform(plain_count)
       ->check(CLI::Range(std::uint32_t{2}, std::uint32_t{1} << 20))
       ->capture_default_str();
+  app.add_option(
+         "--sun-blur", a.sun_blur_deg,
+         "what surfaces reflect of a sun is the mean over suns that are nearer than this, in degrees; 0: of "
+         "each sun alone, with more --sun-paths")
+      ->check(CLI::Range(0.0, 30.0))
+      ->capture_default_str();
   app.add_option("--max-depth", a.max_depth, "most scattering events of a path; -1: no limit")
       ->check(CLI::Range(-1, 1'000'000))
       ->capture_default_str();

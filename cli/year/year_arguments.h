@@ -22,8 +22,8 @@ struct YearArguments {
   std::string up, north, memory, use = "8-18", progress = "auto";
   std::vector<std::string> states, settings;
   int division = 4, max_depth = -1;
-  std::uint32_t sky_paths = 16384, sun_paths = 64;
-  double ground = 0.2;
+  std::uint32_t sky_paths = 32768, sun_paths = 16;
+  double ground = 0.2, sun_blur_deg = 3;
   FigureSettings figures;
   JobResources resources;
   std::uint64_t seed = 0;

@@ -43,16 +43,29 @@ std::vector<Years> years_of(std::span<const float> mean, std::span<const float> 
   return all;
 }
 
-// Of one state, for one sensor.
+// Of one state, for one sensor. Patches that give nothing are left out.
 struct SensorState {
+  std::vector<std::uint32_t> patches;
   std::vector<Years> sky, suns;
-  std::span<const float> sky_errors, sun_errors, beams;
+  std::vector<float> sky_errors;
+  std::span<const float> sun_errors, beams;
 
-  SensorState(const StateCoefficients& c, std::size_t sensor, std::uint64_t seed)
-      : sky(years_of(c.sky.of(sensor), c.sky.errors_of(sensor), seed)), sky_errors(c.sky.errors_of(sensor)) {
+  SensorState(const StateCoefficients& c, const NearSuns& near, std::size_t sensor, std::uint64_t seed) {
+    const std::vector<Years> all = years_of(c.sky.of(sensor), c.sky.errors_of(sensor), seed);
+    for (std::size_t patch = 0; patch < all.size(); ++patch) {
+      const float error = c.sky.errors_of(sensor)[patch];
+      if (all[patch][0] == 0 && error == 0) continue;
+      patches.push_back(static_cast<std::uint32_t>(patch));
+      sky.push_back(all[patch]), sky_errors.push_back(error);
+    }
     if (c.suns.lights == 0) return;
-    suns = years_of(c.suns.of(sensor), c.suns.errors_of(sensor), mix(seed));
-    sun_errors = c.suns.errors_of(sensor), beams = c.beams.of(sensor);
+    beams = c.beams.of(sensor), sun_errors = c.suns.errors_of(sensor);
+    const std::vector<Years> reflected =
+        years_of(c.reflected.of(sensor), c.reflected.errors_of(sensor), mix(seed));
+    suns = years_of(beams, c.beams.errors_of(sensor), mix(mix(seed)));
+    for (std::size_t sun = 0; sun < near.of.size(); ++sun)
+      for (const NearSuns::Near& n : near.of[sun])
+        for (std::size_t r = 0; r < years; ++r) suns[sun][r] += n.weight * reflected[n.sun][r];
   }
 };
 
@@ -65,13 +78,14 @@ HourLux hour_lux(const SkyYear& year, const YearHour& hour, const SensorState& s
   HourLux result;
   if (!hour.sky) return result;
   const std::span<const float> sky = year.sky_of(hour);
-  double variance = 0;
-  for (std::size_t patch = 0; patch < sky.size(); ++patch) {
-    const Years& c = state.sky[patch];
-    for (std::size_t r = 0; r < years; ++r) result.lux[r] += sky[patch] * c[r];
-    const auto off = static_cast<double>(sky[patch] * state.sky_errors[patch]);
-    variance += off * off;
+  float sky_variance = 0;
+  for (std::size_t i = 0; i < state.patches.size(); ++i) {
+    const Years& c = state.sky[i];
+    const float luminance = sky[state.patches[i]], off = luminance * state.sky_errors[i];
+    for (std::size_t r = 0; r < years; ++r) result.lux[r] += luminance * c[r];
+    sky_variance += off * off;
   }
+  auto variance = static_cast<double>(sky_variance);
   if (hour.sun) {
     const auto lx = static_cast<float>(hour.direct_normal_lx);
     for (std::size_t r = 0; r < years; ++r) result.lux[r] += lx * state.suns[*hour.sun][r];
@@ -92,6 +106,40 @@ Estimate estimate_of(std::span<const double> values) {
 }
 
 }  // namespace
+
+NearSuns near_suns(const std::vector<Vector3d>& suns, double within_deg) {
+  NearSuns near;
+  const double within = within_deg * radian;
+  for (std::size_t i = 0; i < suns.size(); ++i) {
+    std::vector<NearSuns::Near>& of = near.of.emplace_back();
+    double sum = 0;
+    for (std::size_t j = 0; j < suns.size(); ++j) {
+      const double apart = j == i ? 0 : length(suns[j] - suns[i]);
+      if (j != i && apart >= within) continue;
+      const double weight = j == i ? 1 : 1 - apart / within;
+      of.push_back({static_cast<std::uint32_t>(j), static_cast<float>(weight)});
+      sum += weight;
+    }
+    for (NearSuns::Near& n : of) n.weight /= static_cast<float>(sum);
+  }
+  return near;
+}
+
+void set_suns(StateCoefficients& state, Coefficients beams, Coefficients reflected, const NearSuns& near) {
+  state.suns = beams;
+  for (std::size_t sensor = 0; sensor < beams.sensors; ++sensor)
+    for (std::size_t sun = 0; sun < beams.lights; ++sun) {
+      const float error = beams.errors_of(sensor)[sun];
+      float mean = beams.of(sensor)[sun], variance = error * error;
+      for (const NearSuns::Near& n : near.of[sun]) {
+        const float off = n.weight * reflected.errors_of(sensor)[n.sun];
+        mean += n.weight * reflected.of(sensor)[n.sun], variance += off * off;
+      }
+      const std::size_t place = sensor * beams.lights + sun;
+      state.suns.mean[place] = mean, state.suns.error[place] = std::sqrt(variance);
+    }
+  state.beams = std::move(beams), state.reflected = std::move(reflected);
+}
 
 std::vector<FigureKind> figure_kinds() {
   return {{"mean_lx", "mean illuminance in the hours of use, lx"},
@@ -124,12 +172,13 @@ CountedHours counted_hours(const SkyYear& year, const FigureSettings& settings) 
   return counted;
 }
 
-SensorYear sensor_year(const SkyYear& year, const std::vector<StateCoefficients>& coefficients,
+SensorYear sensor_year(const SkyYear& year, const NearSuns& near,
+                       const std::vector<StateCoefficients>& coefficients,
                        const std::vector<std::size_t>& states, std::size_t sensor,
                        const CountedHours& counted, const FigureSettings& settings) {
   std::vector<SensorState> of_states;
   for (const StateCoefficients& c : coefficients)
-    of_states.emplace_back(c, sensor, mix(sensor * coefficients.size() + of_states.size()));
+    of_states.emplace_back(c, near, sensor, mix(sensor * coefficients.size() + of_states.size()));
   SensorYear result;
   const auto figure = [&](Figure f) -> auto& { return result.figures[static_cast<std::size_t>(f)]; };
   const auto uses = static_cast<double>(std::ranges::count(counted.use, true)),

@@ -12,11 +12,25 @@
 
 namespace vitrail {
 
-// Of one state of the glass. `beams`: of the suns without anything that surfaces reflect.
+// Suns near each sun, with weights whose sum is 1: what surfaces reflect of a sun is the mean over them. That
+// is little less exact, as it changes slowly with the sun's place, and much less noisy.
+struct NearSuns {
+  struct Near {
+    std::uint32_t sun = 0;
+    float weight = 1;
+  };
+  std::vector<std::vector<Near>> of;  // each sun
+};
+// Weights fall from the sun itself to 0 at `within_deg`; 0: each sun is alone.
+NearSuns near_suns(const std::vector<Vector3d>& suns, double within_deg);
+
+// Of one state of the glass. `suns`: the sum of the beams, which no surface has reflected, and of what is
+// reflected, the mean over near suns.
 struct StateCoefficients {
   std::string name;
-  Coefficients sky, suns, beams;
+  Coefficients sky, suns, beams, reflected;
 };
+void set_suns(StateCoefficients& state, Coefficients beams, Coefficients reflected, const NearSuns& near);
 
 // What the figures count.
 struct FigureSettings {
@@ -54,7 +68,7 @@ inline constexpr std::size_t figure_count = static_cast<std::size_t>(Figure::cou
 
 // One sensor over the year. Errors come of `replicas` years, whose coefficients are off by as much as theirs
 // may be.
-inline constexpr std::size_t replicas = 16;
+inline constexpr std::size_t replicas = 15;
 struct SensorYear {
   std::vector<float> lux, error, beam;                                   // an hour each, lx
   std::array<std::array<double, 1 + replicas>, figure_count> figures{};  // the first is the estimate
@@ -69,7 +83,8 @@ struct CountedHours {
 CountedHours counted_hours(const SkyYear& year, const FigureSettings& settings);
 
 // `states`: of each hour, which of `coefficients` the glass is in.
-SensorYear sensor_year(const SkyYear& year, const std::vector<StateCoefficients>& coefficients,
+SensorYear sensor_year(const SkyYear& year, const NearSuns& near,
+                       const std::vector<StateCoefficients>& coefficients,
                        const std::vector<std::size_t>& states, std::size_t sensor,
                        const CountedHours& counted, const FigureSettings& settings);
 // The same without errors and figures: lx of each hour.

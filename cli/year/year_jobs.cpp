@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 
 #include "bundle/manifest.h"
@@ -12,6 +13,7 @@
 #include "cli/render/job_limits.h"
 #include "farm/files/signals.h"
 #include "farm/render.h"
+#include "farm/run/checkpoint.h"
 #include "farm/transport/agreement.h"
 #include "film/develop.h"
 #include "scene/daylight/given_sky.h"
@@ -23,14 +25,15 @@ namespace vitrail {
 
 namespace {
 
-constexpr CoefficientKind kinds[] = {CoefficientKind::sky, CoefficientKind::suns, CoefficientKind::beams};
+constexpr CoefficientKind kinds[] = {CoefficientKind::sky, CoefficientKind::reflected,
+                                     CoefficientKind::beams};
 
 constexpr const char* name_of(CoefficientKind kind) {
   switch (kind) {
     case CoefficientKind::sky:
       return "sky";
-    case CoefficientKind::suns:
-      return "sun";
+    case CoefficientKind::reflected:
+      return "reflected";
     case CoefficientKind::beams:
       return "beam";
   }
@@ -72,21 +75,19 @@ RenderOptions options_of(Transport& transport, const YearArguments& a, const Yea
   return o;
 }
 
-// In so many rows at least two samples each, so that their error is known.
-int samples_a_row(std::uint32_t paths, std::size_t rows) {
-  const std::size_t samples = (paths + rows - 1) / rows;
-  return static_cast<int>(std::max<std::size_t>(2, samples + samples % 2));
-}
+// An even number, so that the error is known.
+int even(double samples) { return std::max(2, 2 * static_cast<int>(std::ceil(samples / 2))); }
 
 void trace(Transport& transport, const YearArguments& a, RenderOptions o, const YearState& state,
-           CoefficientKind kind) {
+           CoefficientKind kind, double share) {
   o.outputs.film = film_of(a, state.name, kind);
-  // The sun alone differs between the samples of an hour at the edges of shadows.
-  constexpr int beam_samples = 16;
+  // The sun alone differs between the samples of an hour by their wavelengths, and at the edges of shadows.
+  constexpr int beam_samples = 64;
   const std::size_t rows = o.picture.daylight->count();
-  o.picture.samples_per_pixel = kind == CoefficientKind::sky    ? samples_a_row(a.sky_paths, rows)
-                                : kind == CoefficientKind::suns ? static_cast<int>(a.sun_paths)
-                                                                : beam_samples;
+  o.picture.samples_per_pixel =
+      even(share * (kind == CoefficientKind::sky         ? a.sky_paths / static_cast<double>(rows)
+                    : kind == CoefficientKind::reflected ? a.sun_paths
+                                                         : beam_samples));
   if (kind == CoefficientKind::beams) o.picture.max_depth = 0;
   if (transport.rank() == 0 && !a.quiet)
     say("vitrail: {}, state {}: {} {}\n", name_of(kind), state.name, rows,
@@ -103,6 +104,15 @@ void trace(Transport& transport, const YearArguments& a, RenderOptions o, const 
 
 std::filesystem::path film_of(const YearArguments& a, const std::string& state, CoefficientKind kind) {
   return a.output / fmt::format("{}.{}.film", state, name_of(kind));
+}
+
+bool has_films(const YearArguments& a) {
+  return std::ranges::any_of(states_of(a), [&](const YearState& state) {
+    return std::ranges::any_of(kinds, [&](CoefficientKind kind) {
+      const std::filesystem::path film = film_of(a, state.name, kind);
+      return std::filesystem::exists(film) || std::filesystem::exists(checkpoint_path(film));
+    });
+  });
 }
 
 SkyFrame sky_frame(const YearArguments& a, const Manifest& manifest) {
@@ -123,7 +133,7 @@ SkyFrame sky_frame(const YearArguments& a, const Manifest& manifest) {
 }
 
 void trace_coefficients(Transport& transport, const YearArguments& a, const SkyFrame& sky,
-                        const std::vector<Vector3d>& suns) {
+                        const std::vector<Vector3d>& suns, double share) {
   for (const YearState& state : states_of(a)) {
     RenderOptions o;
     agree(transport, [] {
@@ -137,9 +147,10 @@ void trace_coefficients(Transport& transport, const YearArguments& a, const SkyF
         rows.patches.emplace(a.division);
       else
         for (const Vector3d to_sun : suns) rows.suns.push_back(sky.frame.to_world(to_sun));
+      rows.reflected_alone = kind == CoefficientKind::reflected;
       if (!rows.any()) continue;
       o.picture.daylight = std::move(rows);
-      trace(transport, a, o, state, kind);
+      trace(transport, a, o, state, kind, share);
     }
   }
 }

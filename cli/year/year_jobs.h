@@ -8,9 +8,9 @@
 
 namespace vitrail {
 
-enum class CoefficientKind : std::uint8_t { sky, suns, beams };
+enum class CoefficientKind : std::uint8_t { sky, reflected, beams };
 
-// NAME.sky.film, NAME.sun.film and NAME.beam.film in the output's folder.
+// NAME.sky.film, NAME.reflected.film and NAME.beam.film in the output's folder.
 std::filesystem::path film_of(const YearArguments& arguments, const std::string& state, CoefficientKind kind);
 
 // How the sky stands over the bundle.
@@ -21,9 +21,12 @@ struct SkyFrame {
 // By --up and --north, else by the bundle's sky. Throws UsageError where they are along one axis.
 SkyFrame sky_frame(const YearArguments& arguments, const Manifest& manifest);
 
-// Traces on all ranks what is not there yet. `suns`: in the sky's frame. Throws Interrupted where a signal
-// ended it, with a checkpoint.
+// Whether some of those are there, or were begun.
+bool has_films(const YearArguments& arguments);
+
+// Traces on all ranks what is not there yet of a share, in (0, 1], of the paths. `suns`: in the sky's frame.
+// Throws Interrupted where a signal ended it, with a checkpoint.
 void trace_coefficients(Transport& transport, const YearArguments& arguments, const SkyFrame& sky,
-                        const std::vector<Vector3d>& suns);
+                        const std::vector<Vector3d>& suns, double share);
 
 }  // namespace vitrail

@@ -26,15 +26,16 @@ void write(const std::filesystem::path& file, const Buffer& buffer) {
 void write_hours_of(const std::filesystem::path& file, const YearReport& r, bool errors) {
   Buffer text;
   add(text,
-      "month,day,hour,sun_elevation_deg,direct_normal_lx,diffuse_horizontal_lx,global_horizontal_lx,state");
+      "month,day,hour,sun_elevation_deg,sun_azimuth_deg,direct_normal_lx,diffuse_horizontal_lx,global_"
+      "horizontal_lx,state");
   for (std::size_t s = 0; s < r.sensor_years.size(); ++s)
     add(text, ",sensor_{}_{}", s + 1, errors ? "error_lx" : "lx");
   add(text, "\n");
   for (std::size_t h = 0; h < r.year.hours.size(); ++h) {
     const YearHour& hour = r.year.hours[h];
-    add(text, "{},{},{},{:.2f},{:.1f},{:.1f},{:.1f},{}", hour.middle.month, hour.middle.day,
-        hour.clock_hour(), hour.elevation_deg, hour.direct_normal_lx, hour.diffuse_lx, hour.global_lx,
-        r.state_names[r.states[h]]);
+    add(text, "{},{},{},{:.3f},{:.3f},{:.1f},{:.1f},{:.1f},{}", hour.middle.month, hour.middle.day,
+        hour.clock_hour(), hour.elevation_deg, hour.azimuth_deg, hour.direct_normal_lx, hour.diffuse_lx,
+        hour.global_lx, r.state_names[r.states[h]]);
     for (const SensorYear& s : r.sensor_years) add(text, ",{:.1f}", errors ? s.error[h] : s.lux[h]);
     add(text, "\n");
   }

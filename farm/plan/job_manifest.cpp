@@ -92,7 +92,8 @@ void put_daylight(Manifest& m, const DaylightRows& rows) {
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(&m.scene_hash, 1)));
   const DirectionFrame& sky = rows.sky;
-  std::vector<Vector3d> told{sky.x, sky.y, sky.z, {rows.patches ? rows.patches->mf() + 0.0 : 0, 0, 0}};
+  std::vector<Vector3d> told{
+      sky.x, sky.y, sky.z, {rows.patches ? rows.patches->mf() + 0.0 : 0, rows.reflected_alone ? 1.0 : 0, 0}};
   told.insert(told.end(), rows.suns.begin(), rows.suns.end());
   hasher.add(std::as_bytes(std::span(told)));
   m.scene_hash = hasher.digest();

@@ -20,8 +20,13 @@ class PatchSkies {
   std::vector<double> luminances(const SkyDistribution& sky, Vector3d to_sun) const;
 
  private:
-  std::size_t points_a_patch_;
-  std::vector<Vector3d> points_;    // of patch 1, of patch 2 …
+  struct Point {
+    Vector3d direction;
+    std::size_t height = 0;  // index of its z
+  };
+  std::size_t points_a_patch_ = 0;
+  std::vector<Point> points_;  // of patch 1, of patch 2 …
+  std::vector<double> heights_;
   std::vector<double> horizontal_;  // lx of 1 cd/m² of each patch, on a horizontal plane
 };
 

@@ -134,11 +134,12 @@ class PerezState {
 
 }  // namespace
 
-double relative_luminance(const SkyDistribution& sky, double cosine, double sun_cosine) {
-  const double gradient = 1 + sky.a * portable_exp(sky.b / std::max(cosine, 0.01));
-  const double scattering =
-      sky.base + sky.c * portable_exp(sky.d * portable_acos(sun_cosine)) + sky.e * sun_cosine * sun_cosine;
-  return std::max(0.0, gradient * scattering);
+double gradient_of(const SkyDistribution& sky, double cosine) {
+  return 1 + sky.a * portable_exp(sky.b / std::max(cosine, 0.01));
+}
+
+double scattering_of(const SkyDistribution& sky, double sun_cosine) {
+  return sky.base + sky.c * portable_exp(sky.d * portable_acos(sun_cosine)) + sky.e * sun_cosine * sun_cosine;
 }
 
 MeasuredSky cie_sky(int type, const SunPosition& sun, const LocalTime& time) {

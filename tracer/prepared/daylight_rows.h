@@ -17,8 +17,9 @@ namespace vitrail {
 // stands elsewhere for each row, and all of a path's connections go to a point of that row's disc.
 struct DaylightRows {
   std::optional<SkyPatches> patches;
-  DirectionFrame sky;          // of the patches
-  std::vector<Vector3d> suns;  // unit, towards each, in the bundle's coordinates
+  DirectionFrame sky;            // of the patches
+  std::vector<Vector3d> suns;    // unit, towards each, in the bundle's coordinates
+  bool reflected_alone = false;  // of suns: without what comes to the sensor from them directly
 
   // Whether rows are lights at all.
   bool any() const { return patches || !suns.empty(); }

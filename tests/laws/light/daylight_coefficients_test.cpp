@@ -76,13 +76,13 @@ double sum(std::span<const float> values) {
 // ground.
 TEST_F(DaylightCoefficients, OfAnOpenSkyAreThePatchesThemselves) {
   const SkyPatches sky(1);
-  const Coefficients c = trace(open_field(), "0 0 0 0 0 1\n0 0 0 0 -1 0\n", patches(1), 256);
+  const Coefficients c = trace(open_field(), "0 0 0 0 0 1\n0 0 0 0 -1 0\n", patches(1), 2048);
   ASSERT_EQ(c.sensors, 2u);
   ASSERT_EQ(c.lights, 146u);
   EXPECT_EQ(c.of(0)[0], 0);
   EXPECT_NEAR(sum(c.of(0)), pi, 1e-4);
   EXPECT_NEAR(sum(c.of(1)), pi, 1e-4);
-  EXPECT_NEAR(c.of(1)[0], pi / 2, 1e-3);
+  EXPECT_NEAR(c.of(1)[0], pi / 2, 3e-3);
   for (std::size_t p = 1; p < c.lights; ++p) {
     double up = 0, south = 0;
     constexpr int side = 32;
@@ -91,9 +91,9 @@ TEST_F(DaylightCoefficients, OfAnOpenSkyAreThePatchesThemselves) {
       up += d.z * sky.solid_angle(p) / (side * side);
       south += std::max(0.0, -d.y) * sky.solid_angle(p) / (side * side);
     }
-    EXPECT_NEAR(c.of(0)[p], up, 0.02 * up) << p;
-    EXPECT_NEAR(c.of(1)[p], south, 0.03 * south + 1e-4) << p;
-    EXPECT_LT(c.errors_of(0)[p], 0.03 * up) << p;
+    EXPECT_NEAR(c.of(0)[p], up, 0.03 * up + 1e-4) << p;
+    EXPECT_NEAR(c.of(1)[p], south, 0.03 * south + 2e-4) << p;
+    EXPECT_LT(c.errors_of(0)[p], 0.03 * up + 1e-4) << p;
   }
 }
 
@@ -103,7 +103,7 @@ TEST_F(DaylightCoefficients, FollowTheFrameOfTheSky) {
   rows.sky.x = {0, 0, -1}, rows.sky.y = {1, 0, 0}, rows.sky.z = {0, 1, 0};  // up is y, north is x
   const Coefficients c = trace(open_field(), "0 0 0 0 1 0\n0 0 0 1 0 0\n", std::move(rows), 256);
   EXPECT_EQ(c.of(0)[0], 0);
-  EXPECT_NEAR(c.of(1)[0], pi / 2, 1e-3);
+  EXPECT_NEAR(c.of(1)[0], pi / 2, 0.01);
   EXPECT_NEAR(c.of(1)[1] / SkyPatches(1).solid_angle(1), std::cos(6 * radian), 0.05);  // to the north
   EXPECT_EQ(c.of(1)[16], 0);                                                           // to the south
 }
@@ -114,7 +114,7 @@ TEST_F(DaylightCoefficients, OfSunsAreCosines) {
   for (int hour = 0; hour < 4000; ++hour)
     rows.suns.push_back(direction_of({1.0 + hour % 88, 360.0 * hour / 4000}));
   const std::vector<Vector3d> suns = rows.suns;
-  const Coefficients c = trace(open_field(), "0 0 0 0 0 1\n0 0 0 0 -1 0\n", std::move(rows), 4);
+  const Coefficients c = trace(open_field(), "0 0 0 0 0 1\n0 0 0 0 -1 0\n", std::move(rows), 64);
   ASSERT_EQ(c.lights, suns.size());
   for (std::size_t i = 0; i < suns.size(); ++i) {
     EXPECT_NEAR(c.of(0)[i], suns[i].z, 0.005) << i;
