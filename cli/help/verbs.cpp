@@ -76,13 +76,11 @@ std::span<const Verb> verbs() {
         {"vitrail sky 48.86,2.35,2026-12-21T12:00+01:00,turbidity=5 --json", "hazy air, for programs"}}},
       {"year",
        "daylight over a year of weather: lux, DA, UDI, sDA, EN 17037",
-       {{"vitrail year room.vit --weather paris.epw --sensors desk.txt -o year", "a page and tables"},
-        {"vitrail year room.vit --weather paris.epw --sensors desk.txt -o year --state clear=window.state=0 "
-         "--state dark=window.state=1 --rules rules.json",
-         "glass that switches by rules"},
-        {"vitrail year room.vit --weather paris.epw --sensors desk.txt -o year --patches 1 --paths 4k "
-         "--sun-paths 16",
-         "a fast first look"}}},
+       {{"vitrail year room.vit --weather paris.epw --sensors desk.txt -o year",
+         "tables, and a page with maps"},
+        {"vitrail year room.vit --weather a.epw --sensors a.txt -o year --patches 1", "a fast first look"},
+        {"mpirun -np 8 vitrail year room.vit --weather a.epw --sensors a.txt -o year",
+         "the same bytes by 8 ranks"}}},
       {"spectrum",
        "print reflectances made from RGB, and their errors",
        {{"vitrail spectrum", "two methods against measured patches"},

@@ -67,7 +67,7 @@ std::string figure(const std::string& svg, double width, double height, const st
 struct Plan {
   std::vector<std::size_t> sensors;
   std::vector<std::array<double, 2>> at;
-  double low[2] = {}, high[2] = {}, step = 1;
+  double low[2] = {}, high[2] = {}, step[2] = {1, 1};
 
   explicit Plan(const YearReport& r) {
     Vector3d normal;
@@ -87,13 +87,28 @@ struct Plan {
         const double d2 = std::pow(at[i][0] - at[j][0], 2) + std::pow(at[i][1] - at[j][1], 2);
         if (d2 > 0) nearest2 = std::min(nearest2, d2);
       }
-    if (std::isfinite(nearest2)) step = std::sqrt(nearest2);
+    if (std::isfinite(nearest2)) set_steps(std::sqrt(nearest2));
     for (int axis = 0; axis < 2; ++axis) {
       const auto place = static_cast<std::size_t>(axis);
       low[axis] = std::numeric_limits<double>::infinity(), high[axis] = -low[axis];
       for (const auto& p : at)
         low[axis] = std::min(low[axis], p[place]), high[axis] = std::max(high[axis], p[place]);
-      low[axis] -= step / 2, high[axis] += step / 2;
+      low[axis] -= step[axis] / 2, high[axis] += step[axis] / 2;
+    }
+  }
+
+  // How wide and how high a cell is: of a grid the distances of its columns and rows.
+  void set_steps(double nearest) {
+    for (const int axis : {0, 1}) {
+      const auto place = static_cast<std::size_t>(axis);
+      std::vector<double> along;
+      for (const auto& p : at) along.push_back(p[place]);
+      std::ranges::sort(along);
+      step[axis] = 4 * nearest;  // cells of one row are no longer than that
+      for (std::size_t i = 1; i < along.size(); ++i)
+        if (const double apart = along[i] - along[i - 1]; apart > nearest / 2)
+          step[axis] = std::min(step[axis], apart);
+      if (along.back() - along.front() < nearest / 2) step[axis] = nearest;
     }
   }
 };
@@ -107,10 +122,10 @@ std::string map_of(const YearReport& r, const Plan& plan, Figure f, double most,
   std::string svg;
   for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
     const Estimate e = r.sensor_years[plan.sensors[i]].estimate(f);
-    svg +=
-        square((plan.at[i][0] - plan.step / 2 - plan.low[0]) * unit,
-               (plan.high[1] - plan.at[i][1] - plan.step / 2) * unit, plan.step * unit, plan.step * unit,
-               color_of(e.value / most), fmt::format("sensor {}: {}", plan.sensors[i] + 1, words(e.value)));
+    svg += square((plan.at[i][0] - plan.step[0] / 2 - plan.low[0]) * unit,
+                  (plan.high[1] - plan.at[i][1] - plan.step[1] / 2) * unit, plan.step[0] * unit,
+                  plan.step[1] * unit, color_of(e.value / most),
+                  fmt::format("sensor {}: {}", plan.sensors[i] + 1, words(e.value)));
   }
   const double wide = std::max(width, 160.0);
   return figure(svg + scale_bar(height + 8, wide, "0", words(most)), wide, height + 34, caption);

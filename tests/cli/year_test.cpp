@@ -122,16 +122,18 @@ TEST_F(Year, IsTheSameOnRanks) {
 
 // What was traced is kept; under the final names nothing is half written.
 TEST_F(Year, StopsAndGoesOn) {
-  const std::string line =
-      fmt::format("{} open.vit --weather w.epw --sensors up.txt -o year --paths 6M --sun-paths 4 --quiet",
-                  vitrail("year"));
-  const CommandResult stopped =
-      run(fmt::format("cd '{}' && timeout -s INT 1 {}", directory_.path().string(), line));
-  EXPECT_EQ(stopped.status, 124) << stopped.output;
+  const std::string line = fmt::format(
+      "{} open.vit --weather w.epw --sensors up.txt -o year --paths 4M --sun-paths 4 --quiet "
+      "--checkpoint-every 0.1",
+      vitrail("year"));
+  const CommandResult stopped = run(
+      fmt::format("cd '{}' && ({} & it=$!; until [ -e year/as-it-is.sky.film.partial ]; do sleep .02; done; "
+                  "kill -TERM $it; wait $it)",
+                  directory_.path().string(), line));
+  EXPECT_EQ(stopped.status, 143) << stopped.output;
   EXPECT_THAT(stopped.output, HasSubstr("the same command continues"));
   EXPECT_FALSE(std::filesystem::exists(directory_ / "year" / "hours.csv"));
   EXPECT_FALSE(std::filesystem::exists(directory_ / "year" / "as-it-is.sky.film"));
-  EXPECT_TRUE(std::filesystem::exists(directory_ / "year" / "as-it-is.sky.film.partial"));
   const CommandResult done = run(fmt::format("cd '{}' && {}", directory_.path().string(), line));
   EXPECT_EQ(done.status, 0) << done.output;
   EXPECT_TRUE(std::filesystem::exists(directory_ / "year" / "hours.csv"));
@@ -172,8 +174,8 @@ TEST_F(Year, MistakesAreNamed) {
 }
 
 // Of the corpus' room, whose numbers are those of rfluxmtx, gendaymtx -m 4 and dctimestep: overcast hours
-// sensor by sensor; hours of sun by their means, as Radiance's are noisy and spread the sun over three
-// patches.
+// sensor by sensor. In hours of sun Radiance's have up to 40 % of noise, and spread the sun over three
+// patches: there it is the sum at the back on a day in March, when no sun gets that far.
 TEST_F(Year, IsAsRadianceHasIt) {
   const auto room = corpus() / "daylight";
   if (!std::filesystem::exists(room / "three-days-expected.csv")) GTEST_SKIP() << "no corpus";
@@ -193,13 +195,13 @@ TEST_F(Year, IsAsRadianceHasIt) {
       const bool overcast = h > 24 && h <= 48;
       if (overcast && of_radiance > 50) {
         worst = std::max(worst, std::abs(lux / of_radiance - 1));
-        EXPECT_NEAR(lux, of_radiance, 0.05 * of_radiance) << h << ", " << s;
+        EXPECT_NEAR(lux, of_radiance, 0.03 * of_radiance) << h << ", " << s;
       }
-      if (!overcast && s >= 16) all += lux, all_expected += of_radiance;
+      if (h <= 24 && s >= 16) all += lux, all_expected += of_radiance;
     }
-  fmt::print("overcast: within {:.2f} %; the back row in the sun: {:.4f} of Radiance's\n", 100 * worst,
+  fmt::print("overcast: within {:.2f} %; the back row in March: {:.4f} of Radiance's\n", 100 * worst,
              all / all_expected);
-  EXPECT_NEAR(all / all_expected, 1, 0.05);
+  EXPECT_NEAR(all / all_expected, 1, 0.08);
 }
 
 }  // namespace

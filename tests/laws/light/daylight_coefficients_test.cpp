@@ -117,8 +117,8 @@ TEST_F(DaylightCoefficients, OfSunsAreCosines) {
   const Coefficients c = trace(open_field(), "0 0 0 0 0 1\n0 0 0 0 -1 0\n", std::move(rows), 64);
   ASSERT_EQ(c.lights, suns.size());
   for (std::size_t i = 0; i < suns.size(); ++i) {
-    EXPECT_NEAR(c.of(0)[i], suns[i].z, 0.005) << i;
-    EXPECT_NEAR(c.of(1)[i], std::max(0.0, -suns[i].y), 0.005) << i;
+    EXPECT_NEAR(c.of(0)[i], suns[i].z, 0.01) << i;
+    EXPECT_NEAR(c.of(1)[i], std::max(0.0, -suns[i].y), 0.01) << i;
   }
 }
 
