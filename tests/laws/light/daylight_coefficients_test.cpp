@@ -133,18 +133,23 @@ TEST_F(DaylightCoefficients, OfARoomAddUpToTheSame) {
   }
 }
 
-TEST_F(DaylightCoefficients, BeamsAreWhatNoSurfaceReflects) {
+TEST_F(DaylightCoefficients, AreBeamsAndWhatSurfacesReflect) {
   DaylightRows rows;
   rows.suns = {direction_of({30, 180}), direction_of({30, 0})};
+  DaylightRows rest = rows;
+  rest.reflected_alone = true;
   const DaylightRows same = rows;
   const std::string sensors = "2 .5 .8 0 0 1\n2 5.5 .8 0 0 1\n";
   const Coefficients all = trace(room(), sensors, std::move(rows), 4096),
-                     beams = trace(room(), sensors, same, 16, 0, 1, true);
+                     beams = trace(room(), sensors, same, 64, 0, 1, true),
+                     reflected = trace(room(), sensors, std::move(rest), 4096);
   EXPECT_NEAR(beams.of(0)[0], 0.5, 0.01);
   EXPECT_EQ(beams.of(1)[0], 0);  // the sun reaches to y = 2.2 / tan 30° = 3.8
   EXPECT_EQ(beams.of(0)[1], 0);
-  EXPECT_GT(all.of(0)[0], 0.52);
-  EXPECT_GT(all.of(1)[0], 0.02);
+  EXPECT_GT(reflected.of(0)[0], 0.02);
+  EXPECT_LT(reflected.of(0)[0], 0.2);
+  EXPECT_NEAR(all.of(0)[0], beams.of(0)[0] + reflected.of(0)[0], 0.01);
+  EXPECT_NEAR(all.of(1)[0] / reflected.of(1)[0], 1, 0.05);
   EXPECT_EQ(all.of(1)[1], 0);  // from the north nothing gets in
 }
 
