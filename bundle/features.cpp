@@ -18,20 +18,20 @@ constexpr std::array required{
     "motion",   "tables",        "slabs",        "hair",      "curves",   "faces",           "masking",
     "decimals", "media_grids",   "fadings",      "glows",     "patterns", "hidden_emitters", "finishes",
     "veils",    "working_gamma", "shadowless",   "formulas",  "globes",   "glazes",          "packs",
-    "clips",    "codes",         "temperatures", "skies",     "bases"};
+    "clips",    "codes",         "temperatures", "skies"};
 constexpr std::array optional{"pieces"};
 
-std::vector<std::string> names(std::uint64_t bits, std::span<const char* const> known) {
+std::vector<std::string> names(std::uint32_t bits, std::span<const char* const> known) {
   std::vector<std::string> found;
-  for (std::size_t i = 0; i < 64; ++i)
+  for (std::size_t i = 0; i < 32; ++i)
     if (bits >> i & 1) found.push_back(i < known.size() ? known[i] : fmt::format("feature {}", i));
   return found;
 }
 
 // 0 where it is not known.
-std::uint64_t bit(const std::string& name, std::span<const char* const> known) {
+std::uint32_t bit(const std::string& name, std::span<const char* const> known) {
   const auto at = std::ranges::find(known, name);
-  return at == known.end() ? 0 : std::uint64_t{1} << (at - known.begin());
+  return at == known.end() ? 0 : 1u << (at - known.begin());
 }
 
 [[noreturn]] void refuse(const std::string& name, const std::filesystem::path& file) {
@@ -43,11 +43,11 @@ std::uint64_t bit(const std::string& name, std::span<const char* const> known) {
 
 }  // namespace
 
-std::vector<std::string> required_names(std::uint64_t bits) { return names(bits, required); }
+std::vector<std::string> required_names(std::uint32_t bits) { return names(bits, required); }
 std::vector<std::string> optional_names(std::uint32_t bits) { return names(bits, optional); }
 
-std::uint64_t required_bits(std::span<const std::string> of, const std::filesystem::path& file) {
-  std::uint64_t bits = 0;
+std::uint32_t required_bits(std::span<const std::string> of, const std::filesystem::path& file) {
+  std::uint32_t bits = 0;
   for (const std::string& name : of) {
     if (!bit(name, required)) refuse(name, file);
     bits |= bit(name, required);

@@ -17,11 +17,6 @@ struct Features {
   std::uint32_t required = 0, optional = 0;
   bool operator==(const Features&) const = default;
 };
-// A manifest names its features, and may have more than the bits of headers have room for.
-struct ManifestFeatures {
-  std::uint64_t required = 0;
-  std::uint32_t optional = 0;
-};
 
 namespace required_feature {
 inline constexpr std::uint32_t normals = 1, uvs = 2, attributes = 4, instances = 8, textures = 16,
@@ -32,17 +27,16 @@ inline constexpr std::uint32_t normals = 1, uvs = 2, attributes = 4, instances =
                                working_gamma = 1 << 22, shadowless = 1 << 23, formulas = 1 << 24,
                                globes = 1 << 25, glazes = 1 << 26, packs = 1 << 27, clips = 1 << 28,
                                codes = 1 << 29, temperatures = 1 << 30, skies = 1u << 31;
-inline constexpr std::uint64_t bases = 1ull << 32;
-}  // namespace required_feature
+}
 namespace optional_feature {
 inline constexpr std::uint32_t pieces = 1;
 }
 
 // Their names; of a bit without one, "feature N".
-std::vector<std::string> required_names(std::uint64_t bits);
+std::vector<std::string> required_names(std::uint32_t bits);
 std::vector<std::string> optional_names(std::uint32_t bits);
 // The bits of names: every one has to be known, or Error says which is not.
-std::uint64_t required_bits(std::span<const std::string> names, const std::filesystem::path& file);
+std::uint32_t required_bits(std::span<const std::string> names, const std::filesystem::path& file);
 
 // Throws Error unless all that is required is known.
 void refuse_unknown(std::uint32_t required, std::uint32_t known, const std::filesystem::path& file);

@@ -147,9 +147,9 @@ bool has_newer_grids(const Medium& medium) {
 
 }  // namespace
 
-ManifestFeatures features_of(const Manifest& m) {
-  ManifestFeatures f;
-  const auto require = [&](bool needed, std::uint64_t bit) { f.required |= needed ? bit : 0; };
+Features features_of(const Manifest& m) {
+  Features f;
+  const auto require = [&](bool needed, std::uint32_t bit) { f.required |= needed ? bit : 0; };
   require(m.requirements.shading_normals, required_feature::normals);
   require(m.requirements.uv, required_feature::uvs);
   require(m.attributes > 0, required_feature::attributes);
@@ -230,12 +230,6 @@ ManifestFeatures features_of(const Manifest& m) {
   require(std::ranges::any_of(m.domains, [](const DomainInfo& d) { return d.pack.has_value(); }),
           required_feature::packs);
   require(clip_of(m.camera) != ClipRange{}, required_feature::clips);
-  require(std::ranges::any_of(m.materials,
-                              [](const Material& material) {
-                                const auto* of = std::get_if<PrincipledMaterial>(&material.model);
-                                return of && of->below;
-                              }),
-          required_feature::bases);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }
@@ -285,7 +279,7 @@ std::uint64_t checksum_of_records(const std::filesystem::path& file) {
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest) {
   const std::filesystem::path file = bundle / "manifest.json";
   check_manifest(manifest, file);
-  const ManifestFeatures features = features_of(manifest);
+  const Features features = features_of(manifest);
   Json json{{"format", "vitrail bundle"}, {"version", manifest_version}};
   json["features"] = {{"required", required_names(features.required)},
                       {"optional", optional_names(features.optional)}};

@@ -214,7 +214,7 @@ std::span<const Surface> surfaces_of(const Manifest& m, const ObjectInfo& object
 std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain);
 
 // What the bundle has; its files have no more.
-ManifestFeatures features_of(const Manifest& m);
+Features features_of(const Manifest& m);
 
 // The files beside manifest.json that have its binary records.
 inline constexpr std::array records_file_names{"materials.bin", "lights.bin", "domains.bin"};

@@ -176,9 +176,9 @@ void fields(auto& io, Unresolved auto&) {
 
 // Those of which bundles have other fields.
 template <class T>
-concept Reduced = IsOneOf<T, ImageTexture, PtexTexture, PatternTexture, Roughness, PrincipledMaterial,
-                          SubsurfaceMaterial, MeasuredMaterial, TabulatedMaterial, AreaLight, PointLight,
-                          SpotLight, GoniometricLight, EnvironmentLight, SkyLight>;
+concept Reduced = IsOneOf<T, ImageTexture, PtexTexture, PatternTexture, Roughness, SubsurfaceMaterial,
+                          MeasuredMaterial, TabulatedMaterial, AreaLight, PointLight, SpotLight,
+                          GoniometricLight, EnvironmentLight, SkyLight>;
 template <HasFields T>
 requires(!Reduced<T>) void fields(auto& io, T& record) {
   visit_fields(record, [&](auto&... field) { (fields(io, field), ...); });
@@ -241,19 +241,6 @@ void facets(auto& io, Is<Roughness> auto& r) {
 }
 void fields(auto& io, Is<Roughness> auto& r) {
   fields(io, r.alpha_u), fields(io, r.alpha_v), facets(io, r), fields(io, r.square_root);
-}
-// The lowest bit of the last byte says whether it is a sheet; the next one only those of the feature `bases`
-// have.
-void fields(auto& io, Is<PrincipledMaterial> auto& m) {
-  visit_fields(m, [&](auto&... field) {
-    const auto each = [&](auto& value) {
-      if constexpr (!Is<std::remove_reference_t<decltype(value)>, bool>) fields(io, value);
-    };
-    (each(field), ...);
-  });
-  auto byte = static_cast<std::uint8_t>(m.thin | m.below << 1);
-  io(byte);
-  if constexpr (reads<decltype(io)>) m.thin = byte & 1, m.below = byte & 2;
 }
 void fields(auto& io, Is<MeasuredSheet> auto& s) {
   list(io, s.wavelengths_nm), list(io, s.cosines), list(io, s.reflectance), list(io, s.transmittance);

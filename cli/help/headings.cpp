@@ -106,6 +106,16 @@ const std::vector<Heading> of_glazing{
 const std::vector<Heading> of_sky{{"Where and when", "SKY=SKY"},
                                   {"What to write", "output=FILE height=PIXELS json"}};
 
+const std::vector<Heading> of_year{
+    {"What to measure",
+     "bundle=BUNDLE weather=FILE sensors=FILE up=AXIS north=AXIS ground=REFLECTANCE set=NAME.PROPERTY=VALUE "
+     "state=NAME=SETTINGS rules=FILE use=HOURS target=LUX"},
+    {"How good", "patches paths=COUNT sun-paths=COUNT sun-blur=DEGREES max-depth seed"},
+    {"How long", "checkpoint-every=SECONDS force"},
+    {"On how many", "memory=SIZE threads patience=SECONDS"},
+    {"What to write", "output=FOLDER table progress quiet"},
+};
+
 const std::vector<Heading> of_spectrum{
     {"Which colours", "rgb=R,G,B cube=SIDE picture=FILE"},
     {"What to write", "csv=FILE plot=FILE json"},
@@ -127,6 +137,7 @@ std::span<const Heading> headings(std::string_view verb) {
   if (verb == "plan") return of_plan;
   if (verb == "render") return of_render;
   if (verb == "sky") return of_sky;
+  if (verb == "year") return of_year;
   if (verb == "spectrum") return of_spectrum;
   if (verb == "verify") return of_verify;
   return {};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/common/main_guard.h"
+#include "cli/common/rank_guard.h"
 #include "cli/render/frames.h"
 #include "cli/render/render_arguments.h"
 #include "cli/render/render_frames.h"

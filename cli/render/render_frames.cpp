@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "cli/common/main_guard.h"
+#include "cli/common/rank_guard.h"
 #include "cli/render/check_frames.h"
 #include "cli/render/found_picture.h"
 #include "cli/render/frame_job.h"

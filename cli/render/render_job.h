@@ -36,7 +36,4 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& argum
 // The part after that, with a film that rank 0 has locked.
 int render_locked(Transport& transport, RenderArguments& arguments, const JobSteps& steps = {});
 
-// Returns the job's exit status. What it throws says which rank speaks, where there are several.
-int guarded(const Transport& transport, const std::function<int()>& job);
-
 }  // namespace vitrail

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Prints a weather file (EPW) that nobody measured, to try year.py: every third day is clear, the others are overcast.
+"""Prints a weather file (EPW) that nobody measured, to try `vitrail year`: every third day is clear, the others are overcast.
 
     ./made_up_weather.py --place 48.86,2.35 --zone 1 > made-up.epw
 

@@ -17,6 +17,7 @@ Job set_up(const RenderOptions& options, const Place& place) {
                                             options.picture.seed, options.picture.samples.sampling);
   job.scene->groups = group_lights(options.picture.light_groups, job.scene->manifest).table;
   job.scene->replaced_camera = read.replaced_camera;
+  if (options.picture.daylight) set_daylight(*job.scene, *options.picture.daylight);
   const Manifest& m = job.scene->manifest;
   ::malloc_trim(0);  // what was freed since the manifest was read
   job.plan = plan_job(m, options, place, {resident_bytes(), peak_resident_bytes(), textures});

@@ -10,7 +10,11 @@
 #include "farm/plan/film_size.h"
 #include "farm/plan/rounds.h"
 #include "film/picture_fields.h"
+#include "scene/daylight/photometry.h"
 #include "scene/models/sensor_file.h"
+#include "scene/records/film_extent.h"
+#include "scene/records/light_traits.h"
+#include "scene/spectra/color.h"
 #include "tracer/photons/progressive.h"
 #include "tracer/rays/ray_records.h"
 
@@ -64,6 +68,35 @@ Point3d put_sensors(Manifest& m, const PictureSettings& picture) {
   hasher.add(std::as_bytes(std::span(text)));
   m.scene_hash = hasher.digest();
   return replaced;
+}
+
+TabulatedSpectrum one_lux_of_d65() {
+  TabulatedSpectrum d65;
+  const auto unit = static_cast<float>(1 / photometric(1));  // its luminance is 1
+  for (const float value : cie_d65()) d65.values.push_back(unit * value);
+  return d65;
+}
+
+// In place of the scene's lights: 1 cd/m² from all around, or a sun of 1 lx, of D65. Lamps are for others to
+// turn off.
+void put_daylight(Manifest& m, const DaylightRows& rows) {
+  if (!std::holds_alternative<SensorCamera>(m.camera) || rows.count() > max_film_extent)
+    throw UsageError("daylight coefficients are of sensors, and of as many suns as a film may have rows");
+  std::erase_if(m.lights, [](const Light& light) { return traits_of(light.model).is_far(); });
+  if (rows.patches)
+    m.lights.push_back({InfiniteLight{one_lux_of_d65()}, {}});
+  else
+    m.lights.push_back({DistantLight{{0, 0, -1}, one_lux_of_d65()}, {}});
+  m.film.height = m.film.crop.y1 = static_cast<int>(rows.count());
+  m.film.spectrum.count = 0;
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(&m.scene_hash, 1)));
+  const DirectionFrame& sky = rows.sky;
+  std::vector<Vector3d> told{
+      sky.x, sky.y, sky.z, {rows.patches ? rows.patches->mf() + 0.0 : 0, rows.reflected_alone ? 1.0 : 0, 0}};
+  told.insert(told.end(), rows.suns.begin(), rows.suns.end());
+  hasher.add(std::as_bytes(std::span(told)));
+  m.scene_hash = hasher.digest();
 }
 
 void check_error_is_known(const PictureSettings& picture) {
@@ -150,6 +183,7 @@ JobManifest job_manifest(const RenderOptions& options, Manifest manifest) {
   edit_view(options.picture.view, m);
   override_settings(m, options);
   if (!options.picture.sensors.empty()) read.replaced_camera = put_sensors(m, options.picture);
+  if (options.picture.daylight) put_daylight(m, *options.picture.daylight);
   static_assert(no_limit_of_depth == max_path_depth);
   m.settings.max_depth = std::min(m.settings.max_depth, max_path_depth);
   override_film(m, options.picture, options.bundle);

@@ -13,6 +13,7 @@
 #include "farm/plan/view_edit.h"
 #include "farm/scheduler/residency.h"
 #include "scene/records/scene.h"
+#include "tracer/prepared/daylight_rows.h"
 
 namespace vitrail {
 
@@ -46,6 +47,7 @@ struct PictureSettings {
   double scale = 1;                  // of both, where neither is given
   std::filesystem::path
       sensors;  // measured in place of the picture (scene/models/sensor_file.h); empty: none
+  std::optional<DaylightRows> daylight;  // that sensors measure, in place of the scene's light
   std::optional<PixelRect> crop;
   std::optional<SpectralBins> bins;
   double clamp = 0;                     // FilmKey::clamp

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <utility>
@@ -126,13 +127,17 @@ class Replacer {
 }  // namespace
 
 void require_images(const Scene& scene) {
-  std::vector<std::pair<std::string, Origin>> missing;
+  constexpr std::size_t most_named = 8;
+  std::vector<std::pair<std::string, Origin>> missing;  // each once
+  std::set<std::string> asked;
+  const auto ask = [&](const std::string& file, const Origin& origin) {
+    if (asked.insert(file).second && is_missing(file)) missing.emplace_back(file, origin);
+  };
   const auto look_at = [&](const auto* model, const Origin& origin) {
-    if (model && is_missing(model->filename)) missing.emplace_back(model->filename, origin);
+    if (model) ask(model->filename, origin);
   };
   for (const Texture& texture : scene.textures)
-    if (const std::string* file = file_of(texture); file && is_missing(*file))
-      missing.emplace_back(*file, texture.origin);
+    if (const std::string* file = file_of(texture)) ask(*file, texture.origin);
   for (const Material& material : scene.materials)
     look_at(std::get_if<TabulatedMaterial>(&material.model), material.origin);
   for (const Light& light : scene.lights) {
@@ -146,9 +151,10 @@ void require_images(const Scene& scene) {
   std::string message = std::filesystem::exists(file, ignored)
                             ? fmt::format("\"{}\" is not a file", printable(file, longest_name))
                             : fmt::format("cannot find the file \"{}\"", printable(file, longest_name));
-  for (std::size_t i = 1; i < missing.size(); ++i)
+  for (std::size_t i = 1; i < std::min(missing.size(), most_named); ++i)
     message += fmt::format(", nor \"{}\" of {}", printable(missing[i].first, longest_name),
                            to_string(place_of(scene, missing[i].second)));
+  if (missing.size() > most_named) message += fmt::format(", nor {} others", missing.size() - most_named);
   throw Error(message + how_to_replace_missing, place_of(scene, origin));
 }
 

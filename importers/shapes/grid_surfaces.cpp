@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scene/geometry/unit_circle.h"
 #include "scene/system/diagnostics.h"
@@ -128,8 +129,32 @@ TriangleMesh heightfield(int columns, int rows, const std::vector<double>& heigh
   return mesh;
 }
 
-TriangleMesh hyperboloid(const Vector3d& p1, const Vector3d& p2, double phimax_rad) {
+namespace {
+
+// a·(x² + y²) − c·z² = 1, which pbrt-v3 takes for what a line sweeps: through p2 and the point that is as far
+// behind it as p1 is before it.
+struct Waisted {
+  double a = 0, c = 0;
+  Waisted(const Vector3d& p1, const Vector3d& p2) {
+    const Vector3d other = p2 * 2.0 - p1;
+    const auto squared = [](const Vector3d& p) { return p.x * p.x + p.y * p.y; };
+    const double z2 = p2.z * p2.z, other_z2 = other.z * other.z;
+    a = (z2 - other_z2) / (squared(other) * z2 - squared(p2) * other_z2);
+    c = (a * squared(p2) - 1) / z2;
+  }
+  // By which a point of the line is farther from the axis; 1 where there is no such surface.
+  double scale(const Vector3d& p) const {
+    const double squared = (1 + c * p.z * p.z) / (a * (p.x * p.x + p.y * p.y));
+    return std::isfinite(squared) ? std::sqrt(std::max(0.0, squared)) : 1;
+  }
+};
+
+}  // namespace
+
+TriangleMesh hyperboloid(Vector3d p1, Vector3d p2, double phimax_rad) {
   constexpr int of_turn = 256, rows = 64;
+  if (p2.z == 0) std::swap(p1, p2);
+  const Waisted waisted(p1, p2);
   const int columns = std::max(1, static_cast<int>(std::ceil(of_turn * phimax_rad / (2 * pi))));
   TriangleMesh mesh;
   for (int y = 0; y <= rows; ++y)
@@ -139,7 +164,12 @@ TriangleMesh hyperboloid(const Vector3d& p1, const Vector3d& p2, double phimax_r
       const auto turned = [&](const Vector3d& p) {
         return Vector3d{p.x * circle.x - p.y * circle.y, p.x * circle.y + p.y * circle.x, p.z};
       };
-      const Vector3d along = p2 - p1, p = turned(p1 + along * v);
+      const Vector3d along = p2 - p1;
+      Vector3d p = turned(p1 + along * v);
+      if (p1.z != p2.z) {
+        const double scale = waisted.scale(p);
+        p.x *= scale, p.y *= scale;
+      }
       const Vector3d normal = cross({-p.y, p.x, 0}, turned(along));
       mesh.positions.push_back(single<Point3f>(p));
       mesh.normals.push_back(single<Normal3f>(normal));

@@ -13,8 +13,11 @@ namespace vitrail {
 TriangleMesh heightfield(int columns, int rows, const std::vector<double>& heights);
 
 // What a line from p1 (v = 0) to p2 (v = 1) sweeps as it turns about the z axis by phimax (u = 1): 256 × 64
-// cells of a full turn, with the surface's normals.
-TriangleMesh hyperboloid(const Vector3d& p1, const Vector3d& p2, double phimax_rad);
+// cells of a full turn, with the surface's normals. As in pbrt-v3 the waist is at z = 0, though the line may
+// be nearest to the axis elsewhere: the points keep their angles and heights, and get the distance from the
+// axis that a(x² + y²) − cz² = 1 has there. Normals are the line's.
+// Where p2 is at z = 0, p1 and p2 change places.
+TriangleMesh hyperboloid(Vector3d p1, Vector3d p2, double phimax_rad);
 
 // One direction of a B-spline (Cox 1972, de Boor 1972): degree + 1, the knots, and the part that is shown.
 struct Spline {

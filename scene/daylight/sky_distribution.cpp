@@ -134,6 +134,14 @@ class PerezState {
 
 }  // namespace
 
+double gradient_of(const SkyDistribution& sky, double cosine) {
+  return 1 + sky.a * portable_exp(sky.b / std::max(cosine, 0.01));
+}
+
+double scattering_of(const SkyDistribution& sky, double sun_cosine) {
+  return sky.base + sky.c * portable_exp(sky.d * portable_acos(sun_cosine)) + sky.e * sun_cosine * sun_cosine;
+}
+
 MeasuredSky cie_sky(int type, const SunPosition& sun, const LocalTime& time) {
   const double* k = cie_types[type - 1];
   MeasuredSky sky{.distribution = {.a = k[0],

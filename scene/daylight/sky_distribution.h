@@ -13,6 +13,11 @@ struct MeasuredSky {
   double direct_normal_lx = 0;   // of the sun, across its direction
 };
 
+// The two factors of how bright a sky is in one direction beside another: by the cosine of the angle from the
+// zenith, which as in sky_model.h ends at 0.01, and by that of the angle from the sun.
+double gradient_of(const SkyDistribution& sky, double cosine);
+double scattering_of(const SkyDistribution& sky, double sun_cosine);
+
 // The sky of this type, 1 … 15, of the standard ISO 15469:2004 (CIE S 011). Its illuminance is the mean that
 // the IESNA gives (RP-21-84; Lighting Handbook, 9th ed. 2000, chapter 8) for the sun's height: overcast for
 // the types 1 to 5, which have no sun, partly cloudy to 10, clear beyond.

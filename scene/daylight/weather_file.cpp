@@ -45,8 +45,7 @@ class WeatherReader {
   }
 
   WeatherHour hour(const LocalTime& moment) {
-    const bool is_epw = file_.extension() == ".epw";
-    is_epw ? read_epw_head() : read_wea_head();
+    const bool is_epw = read_head();
     while (next()) {
       const auto words = words_of(line_, is_epw);
       if (words.empty() || words[0].empty()) continue;
@@ -56,7 +55,52 @@ class WeatherReader {
                 {file_.string()});
   }
 
+  WeatherYear year() {
+    const bool is_epw = read_head();
+    WeatherYear year{hour_.place, {}};
+    while (next()) {
+      const auto words = words_of(line_, is_epw);
+      if (words.empty() || words[0].empty()) continue;
+      const LocalTime moment = is_epw ? epw_moment(words) : wea_moment(words);
+      const std::size_t first = is_epw ? 14 : 3;
+      double direct_w = number(words, first), diffuse_w = number(words, first + 1);
+      if (direct_w >= missing_w || diffuse_w >= missing_w) direct_w = diffuse_w = 0, ++year.missing;
+      year.hours.push_back(measured(moment, direct_w, diffuse_w));
+      year.hours.back().middle.year = is_epw ? static_cast<int>(number(words, 0)) : moment.year;
+      if (year.hours.size() > 1 && is_same_hour(year.hours.end()[-2].middle, year.hours.back().middle))
+        fail("this hour has several lines; one an hour is needed");
+    }
+    if (year.hours.empty()) throw Error("there are no hours in it", {file_.string()});
+    return year;
+  }
+
  private:
+  static constexpr double missing_w = 9999;
+  static bool is_same_hour(const LocalTime& a, const LocalTime& b) {
+    return a.month == b.month && a.day == b.day && a.hour == b.hour;
+  }
+  // Whether it is an EPW.
+  bool read_head() {
+    const bool is_epw = file_.extension() == ".epw";
+    is_epw ? read_epw_head() : read_wea_head();
+    return is_epw;
+  }
+  LocalTime moment_of(double month, double day, double hour) const {
+    if (!(month >= 1 && month <= 12 && day >= 1 && day <= 31 && hour >= 0 && hour < 24) ||
+        month != std::floor(month) || day != std::floor(day))
+      fail("this is no month, day and hour of a year");
+    return {.year = 2025,
+            .month = static_cast<int>(month),
+            .day = static_cast<int>(day),
+            .hour = hour,
+            .timezone_h = hour_.middle.timezone_h};
+  }
+  LocalTime epw_moment(const std::vector<std::string_view>& words) const {
+    return moment_of(number(words, 1), number(words, 2), number(words, 3) - 1);
+  }
+  LocalTime wea_moment(const std::vector<std::string_view>& words) const {
+    return moment_of(number(words, 0), number(words, 1), number(words, 2));
+  }
   static int whole(const LocalTime& moment) { return static_cast<int>(std::floor(moment.hour)); }
 
   bool next() {
@@ -126,8 +170,7 @@ class WeatherReader {
   }
 
   WeatherHour measured(const LocalTime& moment, double direct_w, double diffuse_w) {
-    constexpr double missing = 9999;
-    if (direct_w >= missing || diffuse_w >= missing)
+    if (direct_w >= missing_w || diffuse_w >= missing_w)
       fail("the sun or the sky of this hour is missing (9999)");
     if (direct_w < 0 || diffuse_w < 0) fail("the sun or the sky of this hour is negative");
     hour_.middle.month = moment.month, hour_.middle.day = moment.day;
@@ -148,5 +191,7 @@ class WeatherReader {
 WeatherHour read_weather_hour(const std::filesystem::path& file, const LocalTime& moment) {
   return WeatherReader(file).hour(moment);
 }
+
+WeatherYear read_weather_year(const std::filesystem::path& file) { return WeatherReader(file).year(); }
 
 }  // namespace vitrail

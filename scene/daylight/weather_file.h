@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "scene/daylight/sun_position.h"
 
@@ -21,5 +22,14 @@ struct WeatherHour {
 // hour that begins then. Throws Error with the place: where a line is damaged, where there is no such hour,
 // and where its values are missing (9999).
 WeatherHour read_weather_hour(const std::filesystem::path& file, const LocalTime& moment);
+
+// All hours of such a file, in its order.
+struct WeatherYear {
+  Place place;
+  std::vector<WeatherHour> hours;
+  std::size_t missing = 0;  // hours whose sun or sky is missing: both are 0 there
+};
+// Throws Error as read_weather_hour does, but for missing values; also where an hour has several lines.
+WeatherYear read_weather_year(const std::filesystem::path& file);
 
 }  // namespace vitrail

@@ -34,9 +34,10 @@ inline MappedPoint map_point(const PreparedMapping& prepared, Point2d uv, Point3
     return {m->offset_s + dot(v, m->v1), m->offset_t + dot(v, m->v2)};
   }
   const double turn = portable_atan2(q.y, q.x) / (2 * pi);
-  if (std::holds_alternative<CylindricalMapping>(prepared.mapping)) return {0.5 + turn, q.z};
-  const double r = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
-  const double down = portable_acos(r > 0 ? q.z / r : 1) / pi, around = turn < 0 ? turn + 1 : turn;
+  const double r = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z), z = r > 0 ? q.z / r : 1;
+  if (const auto* m = std::get_if<CylindricalMapping>(&prepared.mapping))
+    return {0.5 + turn, m->of_direction ? z : q.z};
+  const double down = portable_acos(z) / pi, around = turn < 0 ? turn + 1 : turn;
   if (std::holds_alternative<GlobeMapping>(prepared.mapping)) return {around, 1 - down};
   return {down, around};
 }

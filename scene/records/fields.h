@@ -22,9 +22,8 @@ concept IsOneOf = (Is<A, T> || ...);
 // ---- Textures
 
 auto visit_fields(Is<UvMapping> auto& m, auto&& f) { return f(m.a, m.b, m.c, m.d, m.e, m.f); }
-auto visit_fields(IsOneOf<SphericalMapping, CylindricalMapping, GlobeMapping> auto& m, auto&& f) {
-  return f(m.texture_to_world);
-}
+auto visit_fields(IsOneOf<SphericalMapping, GlobeMapping> auto& m, auto&& f) { return f(m.texture_to_world); }
+auto visit_fields(Is<CylindricalMapping> auto& m, auto&& f) { return f(m.texture_to_world, m.of_direction); }
 auto visit_fields(Is<PlanarMapping> auto& m, auto&& f) {
   return f(m.texture_to_world, m.v1, m.v2, m.offset_s, m.offset_t);
 }

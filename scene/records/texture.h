@@ -27,9 +27,11 @@ struct SphericalMapping {
   Transform texture_to_world;
   bool operator==(const SphericalMapping&) const = default;
 };
-// s = ½ + atan2(y,x)/2π, t = z in texture space, as in pbrt.
+// s = ½ + atan2(y,x)/2π, t = z in texture space, as in pbrt-v4; `of_direction`: z of the direction of the
+// point, as in pbrt-v3.
 struct CylindricalMapping {
   Transform texture_to_world;
+  bool of_direction = false;
   bool operator==(const CylindricalMapping&) const = default;
 };
 // s = p·v1 + offset_s, t = p·v2 + offset_t in texture space.

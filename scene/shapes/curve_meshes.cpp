@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "scene/geometry/frame.h"
+#include "scene/geometry/pi.h"
 #include "scene/geometry/unit_circle.h"
 #include "scene/system/diagnostics.h"
 
@@ -202,9 +203,10 @@ int steps_within(std::span<const CurveSegment> segments, double tolerance, int m
 
 namespace {
 
+// Of opposite ones, which have no shortest way, what the formula tends to: it ends between them at 0.
 Vector3d interpolate_on_sphere(Vector3d a, Vector3d b, double t) {
   const double angle = std::atan2(length(cross(a, b)), dot(a, b)), sine = std::sin(angle);
-  if (!(sine > 1e-6)) return normalize(a * (1 - t) + b * t);
+  if (!(sine > 1e-6)) return dot(a, b) > 0 ? normalize(a * (1 - t) + b * t) : a * std::cos(pi * t);
   return a * (std::sin((1 - t) * angle) / sine) + b * (std::sin(t * angle) / sine);
 }
 
@@ -220,13 +222,14 @@ void append_ribbon(std::span<const CurveSegment> segments, std::span<const Vecto
     const auto segment = std::min(static_cast<std::size_t>(s.along), segments.size() - 1);
     const Vector3d normal = interpolate_on_sphere(
         normalize(normals[segment]), normalize(normals[segment + 1]), s.along - static_cast<double>(segment));
-    const Vector3d across = normalize(cross(normal, s.tangent));
+    const Vector3d across = cross(normal, s.tangent), facing = cross(s.tangent, across);
     const auto u = static_cast<float>(s.along / static_cast<double>(segments.size()));
     for (const double side : {-1.0, 1.0}) {
       const Point3f p = cast<float>(s.center + across * (side * s.radius));
       if (!is_finite(p)) throw Error("curves: a point is not finite in single precision");
       mesh.positions.push_back(p);
-      mesh.normals.push_back(cast<float>(to_normal(cross(s.tangent, across))));
+      mesh.normals.push_back(
+          cast<float>(to_normal(length(facing) > 0 ? normalize(facing) : Frame(s.tangent).tangent)));
       mesh.uvs.push_back({u, side < 0 ? 0.f : 1.f});
     }
   }

@@ -39,7 +39,9 @@ void append_tube(std::span<const CurveSegment> segments, const CurveDetail& deta
                  double v_last, bool round_ends, TriangleMesh& mesh);
 
 // Appends a ribbon across a curve: it is perpendicular to the normals, one a segment's end (segments + 1),
-// which are interpolated on the sphere. Its front is where they point; u runs along it, v across.
+// which are interpolated on the sphere. Where a normal is not perpendicular to the curve the ribbon is
+// narrower, by the sine of their angle, so that it looks as wide as pbrt's. Its front is where they point; u
+// runs along it, v across.
 void append_ribbon(std::span<const CurveSegment> segments, std::span<const Vector3d> normals, int steps,
                    TriangleMesh& mesh);
 

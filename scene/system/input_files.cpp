@@ -7,11 +7,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "scene/system/diagnostics.h"
@@ -57,9 +59,20 @@ RegularFile::RegularFile(const std::filesystem::path& file) {
     reason_ = errno;
     return;
   }
-  if (S_ISREG(status_.st_mode)) return;
+  if (S_ISREG(status_.st_mode) && !is_lfs_pointer()) return;
   ::close(descriptor_);
-  throw Error(fmt::format("this is {}, not a file", kind_of(status_.st_mode)), {file.string()});
+  throw Error(S_ISREG(status_.st_mode)
+                  ? "this is a pointer of Git LFS, not the file: 'git lfs pull' in its repository brings that"
+                  : fmt::format("this is {}, not a file", kind_of(status_.st_mode)),
+              {file.string()});
+}
+
+bool RegularFile::is_lfs_pointer() const {
+  constexpr std::string_view begin = "version https://git-lfs.github.com/spec/";
+  constexpr std::uint64_t longest = 1024;  // bytes, by its specification
+  std::array<char, begin.size()> text{};
+  return size() >= text.size() && size() < longest && read(std::as_writable_bytes(std::span(text)), 0) &&
+         std::ranges::equal(text, begin);
 }
 
 RegularFile::~RegularFile() {

@@ -16,7 +16,8 @@ namespace vitrail {
 // An open regular file. A pipe or a device would be waited for, or read without end.
 class RegularFile {
  public:
-  // Throws Error for what is there and is no regular file. `reason` is errno where it cannot be opened.
+  // Throws Error for what is there and is no regular file, or a pointer of Git LFS in its place. `reason` is
+  // errno where it cannot be opened.
   explicit RegularFile(const std::filesystem::path& file);
   ~RegularFile();
   RegularFile(const RegularFile&) = delete;
@@ -32,6 +33,8 @@ class RegularFile {
   bool read(std::span<std::byte> to, std::uint64_t offset) const;
 
  private:
+  bool is_lfs_pointer() const;
+
   int descriptor_ = -1, reason_ = 0;
   struct stat status_ = {};
 };

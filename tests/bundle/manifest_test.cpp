@@ -69,16 +69,6 @@ TEST_F(ManifestFile, Masking) {
   EXPECT_EQ(written_and_read(m).materials, m.materials);
 }
 
-TEST_F(ManifestFile, BasesBelowGloss) {
-  Manifest m = sample_manifest();
-  m.materials.push_back(Material{PrincipledMaterial{.thin = true}});
-  EXPECT_EQ(features_of(m).required & required_feature::bases, 0u);
-  for (const bool thin : {false, true})
-    m.materials.push_back(Material{PrincipledMaterial{.thin = thin, .below = true}});
-  EXPECT_NE(features_of(m).required & required_feature::bases, 0u);
-  EXPECT_EQ(written_and_read(m).materials, m.materials);
-}
-
 TEST_F(ManifestFile, WhatPovRayHas) {
   using namespace required_feature;
   Manifest m = sample_manifest();

@@ -171,6 +171,9 @@ TEST_F(Hostile, WhatASceneNamesIsARegularFile) {
     expect_refused("inspect", "a.pbrt", "not a file");
     expect_refused("partition", "a.pbrt -o a.vit", "not a file");
   }
+  fs::remove(folder_ / "zero.png");
+  write("zero.png", "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n");
+  expect_refused("partition", "a.pbrt -o a.vit", "git lfs pull");
   make_pipe("scene.obj");
   expect_refused("inspect", "scene.obj", "this is a pipe, not a file");
 }

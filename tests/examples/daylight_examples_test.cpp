@@ -70,44 +70,6 @@ TEST(HotelRoom, OverADay) {
   }
 }
 
-// In the open, where a sensor has what the file says: the sun by its sine, and all of the sky.
-TEST(Year, InTheOpenIsTheWeatherFile) {
-  const TemporaryDirectory directory;
-  std::ofstream(directory / "open.obj") << "v -1 -1 1\nv 1 -1 1\nv 1 -1 -1\nv -1 -1 -1\nf 1 2 3 4\n";
-  std::ofstream(directory / "up.txt") << "0 0 0  0 1 0\n0 -2 0  0 -1 0\n";
-  const std::string front = vitrail(""), python = "/usr/bin/python3 " + project_file("examples/frames/");
-  const CommandResult made = run(fmt::format(
-      "cd '{}' && {}made_up_weather.py > w.epw && {}year.py open.obj w.epw --sensors up.txt -o year "
-      "--every 91 --spp 64 --vitrail {}",
-      directory.path().string(), python, python, front.substr(0, front.find_last_not_of(' ') + 1)));
-  ASSERT_EQ(made.status, 0) << made.output;
-  EXPECT_THAT(made.output, testing::HasSubstr("sDA300,50%: 50 % of 2 sensors"));
-  const auto weather = table(directory / "w.epw"), year = table(directory / "year" / "year.csv");
-  ASSERT_EQ(weather.size(), 8 + 8760u);
-  ASSERT_EQ(year.size(), 1 + 8760u);
-  double file = 0, measured = 0;
-  std::size_t overcast = 0;
-  for (std::size_t i = 0; i < 8760; ++i) {
-    const double global = std::stod(weather[8 + i][16]), sun = std::stod(weather[8 + i][17]),
-                 lux = std::stod(year[1 + i][2]);
-    file += global, measured += lux;
-    EXPECT_EQ(std::stod(year[1 + i][3]), 0) << "below the ground";
-    if (sun > 0 || global < 1000 || lux == 0) continue;
-    ++overcast;
-    ASSERT_NEAR(lux, global, .02 * global) << i;
-  }
-  EXPECT_GT(overcast, 2000u);
-  // The sun by its height on the days between which hours are taken in proportion.
-  EXPECT_NEAR(measured, file, .06 * file);
-  const auto figures = table(directory / "year" / "figures.csv");
-  ASSERT_EQ(figures.size(), 3u);
-  double shares = 0;
-  for (std::size_t i = 3; i < 7; ++i) shares += std::stod(figures[1][i]);
-  EXPECT_NEAR(shares, 1, 1e-3);
-  EXPECT_GT(std::stod(figures[1][2]), .9);
-  EXPECT_EQ(std::stod(figures[2][2]), 0);
-}
-
 // What is in the shadow of the glass comes through it: photons bring it, and hardly anything is left without.
 TEST(Caustic, IsOfPhotons) {
   const TemporaryDirectory directory;

@@ -69,6 +69,7 @@ TEST(MappedUvs, OfAPlaneAreItsNumbers) {
 TEST(MappedUvs, AroundAnAxisAreThoseOfSmallTriangles) {
   for (const TextureMapping& mapping :
        {TextureMapping{SphericalMapping{translate({0.1, 0.2, 0.3})}}, TextureMapping{CylindricalMapping{}},
+        TextureMapping{CylindricalMapping{translate({0.1, 0, 0}), true}},
         TextureMapping{GlobeMapping{rotate(1, {1, 1, 0})}}}) {
     Scene scene = scene_with(mapping);
     TriangleMesh ball;

@@ -154,5 +154,28 @@ TEST(MissingFiles, AreRefusedWithTheirPlaceOrReplacedInEveryReader) {
         << reader.name << " names files, and is not tried";
 }
 
+TEST(MissingFiles, AreNamedOnceAndNotAllOfMany) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::vector<std::string>& images) {
+    std::string text;
+    for (std::size_t i = 0; i < images.size(); ++i)
+      text += "Texture \"t" + std::to_string(i) + "\" \"spectrum\" \"imagemap\" \"string filename\" \"" +
+              images[i] + "\"\nMaterial \"diffuse\" \"texture reflectance\" \"t" + std::to_string(i) +
+              "\"\nShape \"sphere\"\n";
+    try {
+      import_scene(folder.write("a.pbrt", "Film \"rgb\" WorldBegin\n" + text));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message({"a.png", "a.png", "a.png"}), testing::Not(HasSubstr("nor")));
+  std::vector<std::string> many;
+  for (int i = 0; i < 20; ++i) many.push_back("image" + std::to_string(i) + ".png");
+  const std::string said = message(many);
+  EXPECT_THAT(said, testing::AllOf(HasSubstr("image7.png"), HasSubstr("nor 12 others"),
+                                   testing::Not(HasSubstr("image8.png"))));
+}
+
 }  // namespace
 }  // namespace vitrail::missing_files_test

@@ -114,11 +114,16 @@ struct LightSampler {
     Spectrum irradiance{};    // across its direction; of a sun, of all its disc
     std::shared_ptr<const SkyModel> sun{};
     DirectionFrame frame{};
+    // Towards each of the suns that it is for the rows of a film (tracer/prepared/daylight_rows.h); the first
+    // number then says which. Empty: it is one light.
+    std::span<const Vector3d> rows{};
     // Unit, for two numbers in [0,1).
     Vector3d to_light(float u, float v) const;
     // For one of those directions.
     SampledSpectrum irradiance_from(Vector3d to_light, const SampledWavelengths& wavelengths) const;
   };
+  // The first number of Distant::to_light for a point of a row's disc, which another number in [0,1) tells.
+  static float number_of_row(std::size_t row, std::size_t rows, float u);
   std::vector<Distant> distant;     // ascending by their lights
   std::vector<std::uint32_t> suns;  // those of them that are suns
   std::vector<Environment> environments;

@@ -9,6 +9,7 @@
 #include "bundle/interiors.h"
 #include "tracer/lights/light_sampler.h"
 #include "tracer/media/free_flight.h"
+#include "tracer/prepared/daylight_rows.h"
 #include "tracer/prepared/grouped_lights.h"
 #include "tracer/prepared/lane_scene.h"
 #include "tracer/prepared/matte_ids.h"
@@ -49,6 +50,7 @@ struct RenderScene {
   PictureSeed seed;
   SamplingChoices sampling;
   GroupedLights groups;
+  DaylightRows daylight;
   bool uvs_show = true;  // some texture or a layer of the film may read (u,v)
   MatteIds mattes;
 };

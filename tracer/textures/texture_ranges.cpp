@@ -83,7 +83,7 @@ MappedBox mapped(const TextureMapping& mapping, const TextureRegion& region) {
     return {along(region.p, m->texture_to_world, m->v1, m->offset_s),
             along(region.p, m->texture_to_world, m->v2, m->offset_t)};
   if (const auto* m = std::get_if<CylindricalMapping>(&mapping))
-    return {{0, 1}, along(region.p, m->texture_to_world, {0, 0, 1}, 0)};
+    return {{0, 1}, m->of_direction ? Interval{-1, 1} : along(region.p, m->texture_to_world, {0, 0, 1}, 0)};
   if (const auto* m = std::get_if<AttributeMapping>(&mapping))
     return {of_corners(region.middle, m->slot, 0), of_corners(region.middle, m->slot, 1)};
   return {{0, 1}, {0, 1}};

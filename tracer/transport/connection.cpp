@@ -206,8 +206,13 @@ void pack(const Tracing&, const Connection& c, bool resolved, RayRecord& record)
 }
 
 std::array<float, 2> numbers_for_far_lights(const Tracing& tracing, const SampleKey& key) {
-  if (!tracing.scene.lights.has_discs()) return {};
+  const std::size_t rows = tracing.scene.daylight.suns.size();
+  if (!tracing.scene.lights.has_discs() && rows == 0) return {};
   const std::array<float, 4> u = sample_4d(key, sample_set::lens);
+  if (rows > 0) {
+    const std::uint32_t row = key.pixel / static_cast<std::uint32_t>(tracing.film.full_width());
+    return {LightSampler::number_of_row(row, rows, u[2]), u[3]};
+  }
   return {u[2], u[3]};
 }
 

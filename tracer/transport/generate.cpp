@@ -21,7 +21,7 @@ void set_sample(const Tracing& tracing, CameraPath& path, int x, int y, std::uin
   path.film.pixel =
       static_cast<std::uint32_t>(pixel_place(x - film.crop().x0, y - film.crop().y0, film.width()));
   path.film.sample = sample;
-  path.key = {tracing.scene.seed, static_cast<std::uint32_t>(pixel_place(x, y, film.full_width())), sample};
+  path.key = key_of(tracing, path.film.pixel, sample);
 }
 
 int column_of(const Tracing& tracing, const FilmSample& film) {

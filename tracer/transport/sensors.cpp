@@ -72,7 +72,7 @@ bool leave_sensor(Tracing& tracing, CameraPath& path, const Sensor& sensor, Shad
   find_wavelengths(tracing, path, path.film);
   const Departure from{sensor.position, cast<float>(sensor.position), no_triangle, path.inside};
   const std::uint32_t candidates = light_candidates(tracing, path, from.p, true);
-  if (tracing.scene.lights.can_sample())
+  if (tracing.scene.lights.can_sample() && !tracing.scene.daylight.reflected_alone)
     connect_sensor(tracing, path, from, sensor.normal, candidates, shadows);
   if (tracing.photons) gather_at_sensor(tracing, path, sensor);
   const std::array<float, 4> u = numbers_for_scattering(path);

@@ -28,6 +28,11 @@ SampleKey key_of(const Tracing& tracing, std::uint32_t pixel, std::uint32_t samp
   const auto width = static_cast<std::uint32_t>(film.width());
   const auto x = static_cast<std::uint32_t>(film.crop().x0) + pixel % width;
   const auto y = static_cast<std::uint32_t>(film.crop().y0) + pixel / width;
+  if (tracing.scene.daylight.patches) {
+    // The samples of all rows are one sequence, in which those of a group stay in it.
+    const auto rows = static_cast<std::uint32_t>(film.full_height());
+    return {tracing.scene.seed, x, (sample / sample_groups * rows + y) * sample_groups + group_of(sample)};
+  }
   return {tracing.scene.seed, y * static_cast<std::uint32_t>(film.full_width()) + x, sample};
 }
 
@@ -77,6 +82,10 @@ const Footprint* footprint_of(Tracing& tracing, std::uint32_t pixel, std::uint32
 void deposit(Tracing& tracing, std::uint32_t pixel, std::uint32_t sample, const SensorWeights& sensor,
              const SampledSpectrum& radiance, const LitBy& by) {
   Film& film = tracing.film;
+  if (const DaylightRows& daylight = tracing.scene.daylight; daylight.patches) [[unlikely]]
+    pixel =
+        pixel % static_cast<std::uint32_t>(film.width()) +
+        static_cast<std::uint32_t>(daylight.row_of(by.direction)) * static_cast<std::uint32_t>(film.width());
   const XYZ light = sense(sensor, radiance);
   const double left = film.clamp(pixel, sample, light);
   const Footprint* const spread = footprint_of(tracing, pixel, sample);

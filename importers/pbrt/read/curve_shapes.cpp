@@ -90,6 +90,15 @@ std::vector<Vector3d> ribbon_normals(ParameterSet& parameters, std::size_t segme
   return normals;
 }
 
+// Steps a segment in which normals turn by at most an eighth of half a turn.
+int steps_of_turns(const std::vector<Vector3d>& normals) {
+  double most_rad = 0;
+  for (std::size_t i = 0; i + 1 < normals.size(); ++i)
+    most_rad = std::max(
+        most_rad, std::atan2(length(cross(normals[i], normals[i + 1])), dot(normals[i], normals[i + 1])));
+  return static_cast<int>(std::ceil(8 * most_rad / std::numbers::pi));
+}
+
 }  // namespace
 
 std::optional<ShapeGeometry> ShapeMaker::curve(ParameterSet& parameters) {
@@ -120,12 +129,13 @@ std::optional<ShapeGeometry> ShapeMaker::curve(ParameterSet& parameters) {
 
 std::optional<ShapeGeometry> ShapeMaker::ribbon(ParameterSet& parameters,
                                                 const std::vector<CurveSegment>& segments, double width) {
-  // Scenes have very many curves: a sixth of half the width is near enough for such thin things.
-  constexpr int most_steps = 16;
+  // Scenes have very many curves: a fortieth of the width is as near as their edges are seen.
+  constexpr int most_steps = 32;
   const std::vector<Vector3d> normals = ribbon_normals(parameters, segments.size());
   TriangleMesh mesh;
   try {
-    append_ribbon(segments, normals, steps_within(segments, width / 12, most_steps), mesh);
+    const int steps = std::max(steps_within(segments, width / 40, most_steps), steps_of_turns(normals));
+    append_ribbon(segments, normals, steps, mesh);
   } catch (const Error& error) {
     fail(error.what(), parameters.place());
   }

@@ -88,7 +88,7 @@ Transform frame(Vector3d z) { return transform_of(Frame(z)); }
 LightModel spot_light(const LightMaker& m) {
   const bool v3 = m.scope.context.version == Version::v3;
   const double full = m.parameters.number("coneangle", 30);
-  const double delta = m.parameters.number("conedeltaangle", m.parameters.number("conedelta", 5));
+  const double delta = m.parameters.number("conedeltaangle", 5);
   const auto from = m.parameters.triple("from").value_or(std::array<double, 3>{});
   const auto to = m.parameters.triple("to").value_or(std::array<double, 3>{0, 0, 1});
   const Vector3d along{to[0] - from[0], to[1] - from[1], to[2] - from[2]};

@@ -108,7 +108,7 @@ struct TextureMaker {
   TextureMapping mapping() const {
     const std::string by = parameters.text("mapping", "uv");
     if (by == "spherical") return SphericalMapping{texture_to_world};
-    if (by == "cylindrical") return CylindricalMapping{texture_to_world};
+    if (by == "cylindrical") return CylindricalMapping{texture_to_world, is_v3()};
     if (by == "planar") {
       const auto vector = [&](const char* of, Vector3d otherwise) {
         const auto v = parameters.triple(of);

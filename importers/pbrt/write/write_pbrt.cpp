@@ -12,6 +12,7 @@ namespace vitrail {
 
 Diagnostics write_pbrt(const Scene& given, const std::filesystem::path& out) {
   const auto is_kept = [](const TextureMapping& m) {
+    if (const auto* cylinder = std::get_if<CylindricalMapping>(&m)) return !cylinder->of_direction;
     return std::holds_alternative<UvMapping>(m) ? is_unturned(m) : !std::holds_alternative<GlobeMapping>(m);
   };
   const std::optional<MappedUvs> mapped = with_mapped_uvs(given, is_kept);

@@ -80,6 +80,8 @@ Placement place(Context& context, const TextureMapping& mapping, const Origin& o
     map_type = "map_type 1 ";
   } else if (const auto* c = std::get_if<CylindricalMapping>(&mapping)) {
     t = inverse(c->texture_to_world);
+    if (c->of_direction)
+      context.approximated("image around a cylinder by direction, as in pbrt-v3: by height", origin);
     // POV-Ray: t = y, and s as on its spheres. Ours: s = 0 at −x.
     to_image.m = {{{-1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}}};
     map_type = "map_type 2 ";

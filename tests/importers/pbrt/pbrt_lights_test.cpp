@@ -229,6 +229,13 @@ TEST(PbrtLights, SpotsKeepTheirCone) {
   EXPECT_NEAR(determinant3(t), 1, 1e-14);
 }
 
+// Every pbrt reads "conedeltaangle" alone, and without it takes 5 degrees.
+TEST(PbrtLights, NoOtherNameHasTheWidthOfASpotsEdge) {
+  const ImportedScene imported = import_v3("LightSource \"spot\" \"float conedelta\" 20");
+  EXPECT_EQ(std::get<SpotLight>(imported.scene.lights.at(0).model).beam_deg, 25);
+  EXPECT_TRUE(mentions(imported.diagnostics, "conedelta"));
+}
+
 TEST(PbrtLights, UnknownKindsAreReported) {
   const ImportedScene unknown = import_v4("LightSource \"pont\"");
   EXPECT_TRUE(unknown.scene.lights.empty());

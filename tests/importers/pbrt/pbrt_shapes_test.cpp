@@ -302,6 +302,25 @@ TEST(PbrtCurves, StayCurvesAndRibbonsBecomeTriangles) {
   EXPECT_EQ(ribbon.triangles.size(), 2u);
   EXPECT_EQ(ribbon.positions[0], (Point3f{0, -1, 0}));
   EXPECT_EQ(ribbon.positions[3], (Point3f{3, 0, 0}));
+  // Turned by a quarter, in four steps; by half, which has no shortest way: narrow in the middle, as in pbrt;
+  // and normals that lean along the curve, which make it narrow everywhere.
+  const auto turned = [&](const std::string& normals) {
+    return mesh_of("Shape \"curve\" \"string type\" \"ribbon\" \"normal N\" [" + normals + "]" + p);
+  };
+  const auto width = [](const TriangleMesh& mesh, std::size_t step) {
+    return length(mesh.positions[2 * step + 1] - mesh.positions[2 * step]);
+  };
+  const TriangleMesh quarter = turned("0 0 1 0 1 0"), half = turned("0 0 1 0 0 -1");
+  EXPECT_EQ(quarter.triangles.size(), 8u);
+  for (std::size_t i = 0; i <= 4; ++i) EXPECT_NEAR(width(quarter, i), 2, 1e-6) << i;
+  EXPECT_EQ(half.triangles.size(), 16u);
+  for (std::size_t i = 0; i <= 8; ++i) {
+    EXPECT_NEAR(width(half, i), 2 * std::abs(std::cos(std::numbers::pi * static_cast<double>(i) / 8)), 1e-6)
+        << i;
+    const Normal3f n = half.normals[2 * i];
+    EXPECT_NEAR(n.x * n.x + n.y * n.y + n.z * n.z, 1, 1e-5);
+  }
+  EXPECT_NEAR(width(turned("1 0 1 1 0 1"), 0), std::numbers::sqrt2, 1e-6);
   EXPECT_EQ(curves_of("Shape \"curve\" \"string basis\" \"bspline\" \"integer degree\" 2" + p)[0].origin.x,
             0.5);
   const ImportedScene flat = import_v4("Shape \"curve\"" + p);
@@ -439,6 +458,29 @@ TEST(PbrtShapes, AHyperboloidIsWhatALineSweeps) {
     EXPECT_NEAR(p.x * p.x + p.y * p.y - p.z * p.z, 1, 1e-6);
     EXPECT_NEAR(length(cross(normalize(gradient), normalize(n))), 0, 1e-6);
   }
+}
+
+// pbrt-v3 knows hyperboloids with their waist at z = 0 alone: of a line that is nearest to the axis elsewhere
+// it shows the one through p2 and 2p2 − p1.
+TEST(PbrtShapes, TheWaistOfAHyperboloidIsWhereZIs0) {
+  const TriangleMesh mesh =
+      import_v3("Shape \"hyperboloid\" \"point p1\" [3 1.2 1] \"point p2\" [.65 -.5 -1]").scene.meshes.at(0);
+  const double end = .65 * .65 + .5 * .5, other = 1.7 * 1.7 + 2.2 * 2.2;  // at z = −1 and −3
+  const double a = 8 / (9 * end - other), c = a * end - 1;
+  EXPECT_NEAR(a * other - c * 9, 1, 1e-12);
+  for (const Point3f& position : mesh.positions) {
+    const Point3d p = cast<double>(position);
+    const double squared = std::max(0.0, (1 + c * p.z * p.z) / a);
+    EXPECT_NEAR(p.x * p.x + p.y * p.y, squared, 1e-5);
+  }
+}
+
+TEST(PbrtShapes, AHyperboloidThatEndsAtZ0BeginsThere) {
+  const std::string shape = "Shape \"hyperboloid\" ";
+  const TriangleMesh up = import_v3(shape + "\"point p1\" [1 0 0] \"point p2\" [1 1 1]").scene.meshes.at(0);
+  const TriangleMesh down = import_v3(shape + "\"point p1\" [1 1 1] \"point p2\" [1 0 0]").scene.meshes.at(0);
+  EXPECT_EQ(up.positions, down.positions);
+  EXPECT_EQ(up.positions[0], (Point3f{1, 0, 0}));
 }
 
 TEST(PbrtShapes, WithoutPointsAreLeftOut) {

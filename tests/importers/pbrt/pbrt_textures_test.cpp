@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures of pbrt in the Scene's terms.
+#include "scene/models/texture_mapping.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/pbrt/pbrt_text.h"
 #include "tests/support/png.h"
@@ -160,6 +161,17 @@ TEST(PbrtTextures, TextureSpaceOfV3IsTurnedAround) {
   const auto planar =
       std::get<CheckerboardTexture>(texture("\"checkerboard\" \"string mapping\" \"planar\""));
   EXPECT_EQ(std::get<PlanarMapping>(planar.mapping).texture_to_world, Transform{});
+}
+
+// Around a cylinder v3 goes by the height of the direction, v4 by that of the point.
+TEST(PbrtTextures, CylindersOfV3GoByDirections) {
+  const std::string board = "Texture \"t\" \"spectrum\" \"checkerboard\" \"string mapping\" \"cylindrical\"";
+  const Scene v3 = import_v3(board + " Material \"matte\" \"texture Kd\" \"t\" " + triangle).scene;
+  const auto height = [](const CheckerboardTexture& t) {
+    return map_point({t.mapping, {}}, {}, {0, 3, 4}).t;
+  };
+  EXPECT_DOUBLE_EQ(height(std::get<CheckerboardTexture>(v3.textures.at(0).model)), 0.8);
+  EXPECT_EQ(height(model<CheckerboardTexture>(board)), 4);
 }
 
 TEST(PbrtTextures, MayFollowTheMaterialsThatUseThem) {

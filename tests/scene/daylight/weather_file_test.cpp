@@ -84,5 +84,38 @@ TEST_F(WeatherFile, DamagedOnesAreRefusedWithTheirPlace) {
   EXPECT_THROW(read_weather_hour(directory_ / "none.epw", noon), Error);
 }
 
+TEST_F(WeatherFile, AYearIsAllItsHours) {
+  std::ofstream(directory_ / "a.epw") << epw_head << epw_line(2, 28, 24, "0", "0")
+                                      << epw_line(2, 29, 1, "9999", "20") << epw_line(3, 1, 12, "640", "110");
+  const WeatherYear year = read_weather_year(directory_ / "a.epw");
+  ASSERT_EQ(year.hours.size(), 3u);
+  EXPECT_EQ(year.missing, 1u);
+  EXPECT_EQ(year.place.latitude_deg, 28.58);
+  EXPECT_EQ(year.hours[0].middle.hour, 23.5);
+  EXPECT_EQ(year.hours[1].middle.day, 29);
+  EXPECT_EQ(year.hours[1].diffuse_horizontal_w, 0);
+  EXPECT_EQ(year.hours[2].direct_normal_w, 640);
+  EXPECT_EQ(year.hours[2].middle.year, 1999);
+  EXPECT_EQ(year.hours[2].middle.timezone_h, 5.5);
+}
+
+TEST_F(WeatherFile, AYearIsRefusedWithItsLine) {
+  const auto refused_year = [&](const std::string& text) {
+    std::ofstream(directory_ / "a.epw") << epw_head << text;
+    try {
+      read_weather_year(directory_ / "a.epw");
+    } catch (const Error& error) {
+      return std::to_string(error.location.line) + ": " + error.what();
+    }
+    return std::string("nothing is said");
+  };
+  EXPECT_THAT(refused_year(epw_line(1, 1, 1, "0", "-5")),
+              HasSubstr("4: the sun or the sky of this hour is neg"));
+  EXPECT_THAT(refused_year(epw_line(13, 1, 1, "0", "5")), HasSubstr("4: this is no month"));
+  EXPECT_THAT(refused_year(epw_line(1, 1, 1, "0", "5") + epw_line(1, 1, 1, "0", "5")),
+              HasSubstr("5: this hour has several lines"));
+  EXPECT_THAT(refused_year(""), HasSubstr("there are no hours"));
+}
+
 }  // namespace
 }  // namespace vitrail::weather_file_test

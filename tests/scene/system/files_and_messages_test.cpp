@@ -166,5 +166,20 @@ TEST(RegularFile, IsNoPipeAndNoDevice) {
   EXPECT_FALSE(RegularFile(directory / "a").read(bytes, 2));
 }
 
+// What git leaves of large files where Git LFS is not installed.
+TEST(RegularFile, IsNoPointerOfGitLfs) {
+  const test::TemporaryDirectory directory;
+  const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n";
+  std::ofstream(directory / "a.png") << pointer;
+  try {
+    RegularFile(directory / "a.png");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("git lfs pull"), std::string::npos) << error.what();
+  }
+  std::ofstream(directory / "b") << pointer << std::string(1024, ' ');
+  EXPECT_TRUE(RegularFile(directory / "b").is_open());
+}
+
 }  // namespace
 }  // namespace vitrail::files_and_messages_test

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a rank of a job throws, in words that say which rank speaks.
+#pragma once
+
+#include <functional>
+
+#include "farm/transport/transport.h"
+
+namespace vitrail {
+
+// Returns the job's exit status. What it throws says which rank speaks, where there are several.
+int guarded(const Transport& transport, const std::function<int()>& job);
+
+}  // namespace vitrail

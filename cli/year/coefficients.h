@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Daylight coefficients: what a light of the sky gives to a sensor.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "film/film.h"
+
+namespace vitrail {
+
+// [sensor][light]. Of patches lx for 1 cd/m² of the patch; of suns lx for 1 lx across the sun's direction.
+struct Coefficients {
+  std::size_t sensors = 0, lights = 0;
+  std::vector<float> mean, error;  // the standard error of each, by two halves of its samples
+
+  std::span<const float> of(std::size_t sensor) const { return {&mean[sensor * lights], lights}; }
+  std::span<const float> errors_of(std::size_t sensor) const { return {&error[sensor * lights], lights}; }
+};
+
+// Reads them off a film whose rows are lights (tracer/prepared/daylight_rows.h); `patches`: those of the sky,
+// else suns. Throws Error if the film is saturated.
+Coefficients coefficients_of(const Film& film, bool patches);
+
+// Writes an array as NumPy's .npy has it: little-endian floats of 32 bits, [sensor][light].
+void write_npy(const std::filesystem::path& file, const Coefficients& of, const std::vector<float>& values);
+
+}  // namespace vitrail

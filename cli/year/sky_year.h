@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hours of a weather file as skies and suns.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scene/daylight/patch_skies.h"
+#include "scene/daylight/weather_file.h"
+
+namespace vitrail {
+
+// Directions have +x east, +y north, +z up. At night all light is 0.
+struct YearHour {
+  LocalTime middle;
+  double elevation_deg = 0, azimuth_deg = 0;                   // of the sun in the middle of the hour
+  double direct_normal_lx = 0, diffuse_lx = 0, global_lx = 0;  // outdoors; the last two on the ground
+  std::optional<std::size_t> sun;                              // which of SkyYear::suns; none: without sun
+  std::optional<std::size_t> sky;  // which row of SkyYear::luminances; none: night
+  int clock_hour() const { return static_cast<int>(middle.hour); }
+};
+
+struct SkyYear {
+  std::vector<YearHour> hours;
+  std::vector<Vector3d> suns;
+  std::size_t patches = 0;
+  std::vector<float> luminances;  // [sky][patch], cd/m²; the first patch is the ground
+  std::span<const float> sky_of(const YearHour& hour) const {
+    return {&luminances[*hour.sky * patches], patches};
+  }
+};
+
+// Makes of each hour the all-weather sky of Perez (sky_distribution.h) and the sun where it stands in the
+// middle of the hour. The ground is as bright as a white sheet that reflects `ground` of the global
+// illuminance. Where the sun is below the horizon then, there is the hour's sky without sun.
+SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double ground);
+
+}  // namespace vitrail

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/year/year_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "scene/geometry/pi.h"
+#include "tracer/sampling/sampler.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::size_t years = 1 + replicas;  // side by side; the first is the estimate
+using Years = std::array<float, years>;
+
+constexpr double enough_sun_lx = 1000, most_sun_hours = 250;  // of ASE
+
+// Normal numbers of mean 0 and variance 1 (Box & Muller 1958), a function of the seed.
+class NormalNumbers {
+ public:
+  explicit NormalNumbers(std::uint64_t seed) : uniform_(seed) {}
+  float next() {
+    const double u = 1 - uniform_.next(), v = uniform_.next();
+    return static_cast<float>(std::sqrt(-2 * std::log(u)) * std::cos(2 * pi * v));
+  }
+
+ private:
+  RandomStream uniform_;
+};
+
+// One sensor's coefficients of each year, side by side.
+std::vector<Years> years_of(std::span<const float> mean, std::span<const float> error, std::uint64_t seed) {
+  std::vector<Years> all(mean.size());
+  NormalNumbers normal(seed);
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    all[i].fill(mean[i]);
+    if (error[i] > 0)
+      for (std::size_t r = 1; r < years; ++r) all[i][r] += error[i] * normal.next();
+  }
+  return all;
+}
+
+// Of one state, for one sensor. Patches that give nothing are left out.
+struct SensorState {
+  std::vector<std::uint32_t> patches;
+  std::vector<Years> sky, suns;
+  std::vector<float> sky_errors;
+  std::span<const float> sun_errors, beams;
+
+  SensorState(const StateCoefficients& c, const NearSuns& near, std::size_t sensor, std::uint64_t seed) {
+    const std::vector<Years> all = years_of(c.sky.of(sensor), c.sky.errors_of(sensor), seed);
+    for (std::size_t patch = 0; patch < all.size(); ++patch) {
+      const float error = c.sky.errors_of(sensor)[patch];
+      if (all[patch][0] == 0 && error == 0) continue;
+      patches.push_back(static_cast<std::uint32_t>(patch));
+      sky.push_back(all[patch]), sky_errors.push_back(error);
+    }
+    if (c.suns.lights == 0) return;
+    beams = c.beams.of(sensor), sun_errors = c.suns.errors_of(sensor);
+    const std::vector<Years> reflected =
+        years_of(c.reflected.of(sensor), c.reflected.errors_of(sensor), mix(seed));
+    suns = years_of(beams, c.beams.errors_of(sensor), mix(mix(seed)));
+    for (std::size_t sun = 0; sun < near.of.size(); ++sun)
+      for (const NearSuns::Near& n : near.of[sun])
+        for (std::size_t r = 0; r < years; ++r) suns[sun][r] += n.weight * reflected[n.sun][r];
+  }
+};
+
+struct HourLux {
+  Years lux{};
+  float error = 0, beam = 0;
+};
+
+HourLux hour_lux(const SkyYear& year, const YearHour& hour, const SensorState& state) {
+  HourLux result;
+  if (!hour.sky) return result;
+  const std::span<const float> sky = year.sky_of(hour);
+  float sky_variance = 0;
+  for (std::size_t i = 0; i < state.patches.size(); ++i) {
+    const Years& c = state.sky[i];
+    const float luminance = sky[state.patches[i]], off = luminance * state.sky_errors[i];
+    for (std::size_t r = 0; r < years; ++r) result.lux[r] += luminance * c[r];
+    sky_variance += off * off;
+  }
+  auto variance = static_cast<double>(sky_variance);
+  if (hour.sun) {
+    const auto lx = static_cast<float>(hour.direct_normal_lx);
+    for (std::size_t r = 0; r < years; ++r) result.lux[r] += lx * state.suns[*hour.sun][r];
+    const auto off = static_cast<double>(lx * state.sun_errors[*hour.sun]);
+    variance += off * off;
+    result.beam = lx * state.beams[*hour.sun];
+  }
+  for (float& lux : result.lux) lux = std::max(lux, 0.0f);
+  result.error = static_cast<float>(std::sqrt(variance));
+  return result;
+}
+
+// Of the first of the values; the others tell how far it may be off.
+Estimate estimate_of(std::span<const double> values) {
+  double squares = 0;
+  for (const double x : values.subspan(1)) squares += (x - values[0]) * (x - values[0]);
+  return {values[0], std::sqrt(squares / static_cast<double>(values.size() - 1))};
+}
+
+}  // namespace
+
+NearSuns near_suns(const std::vector<Vector3d>& suns, double within_deg) {
+  NearSuns near;
+  const double within = within_deg * radian;
+  for (std::size_t i = 0; i < suns.size(); ++i) {
+    std::vector<NearSuns::Near>& of = near.of.emplace_back();
+    double sum = 0;
+    for (std::size_t j = 0; j < suns.size(); ++j) {
+      const double apart = j == i ? 0 : length(suns[j] - suns[i]);
+      if (j != i && apart >= within) continue;
+      const double weight = j == i ? 1 : 1 - apart / within;
+      of.push_back({static_cast<std::uint32_t>(j), static_cast<float>(weight)});
+      sum += weight;
+    }
+    for (NearSuns::Near& n : of) n.weight /= static_cast<float>(sum);
+  }
+  return near;
+}
+
+void set_suns(StateCoefficients& state, Coefficients beams, Coefficients reflected, const NearSuns& near) {
+  state.suns = beams;
+  for (std::size_t sensor = 0; sensor < beams.sensors; ++sensor)
+    for (std::size_t sun = 0; sun < beams.lights; ++sun) {
+      const float error = beams.errors_of(sensor)[sun];
+      float mean = beams.of(sensor)[sun], variance = error * error;
+      for (const NearSuns::Near& n : near.of[sun]) {
+        const float off = n.weight * reflected.errors_of(sensor)[n.sun];
+        mean += n.weight * reflected.of(sensor)[n.sun], variance += off * off;
+      }
+      const std::size_t place = sensor * beams.lights + sun;
+      state.suns.mean[place] = mean, state.suns.error[place] = std::sqrt(variance);
+    }
+  state.beams = std::move(beams), state.reflected = std::move(reflected);
+}
+
+std::vector<FigureKind> figure_kinds() {
+  return {{"mean_lx", "mean illuminance in the hours of use, lx"},
+          {"DA", "daylight autonomy: share of the hours of use with the target or more"},
+          {"cDA", "continuous daylight autonomy: hours below the target count by their share of it"},
+          {"UDI_below_100", "useful daylight illuminance: share of the hours of use with less than 100 lx"},
+          {"UDI_100_300", "the same, 100 to 300 lx"},
+          {"UDI_300_3000", "the same, 300 to 3000 lx"},
+          {"UDI_above_3000", "the same, more than 3000 lx"},
+          {"sun_hours", "hours of use with more than 1000 lx of the sun alone"},
+          {"daylight_100", "share of the daylight hours with 100 lx or more (EN 17037)"},
+          {"daylight_300", "the same, 300 lx"},
+          {"daylight_500", "the same, 500 lx"},
+          {"daylight_750", "the same, 750 lx"}};
+}
+
+Estimate SensorYear::estimate(Figure figure) const {
+  return estimate_of(figures[static_cast<std::size_t>(figure)]);
+}
+
+CountedHours counted_hours(const SkyYear& year, const FigureSettings& settings) {
+  CountedHours counted;
+  std::vector<std::size_t> order(year.hours.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t h) { return year.hours[h].diffuse_lx; });
+  counted.daylight.resize(order.size());
+  for (std::size_t i = 0; i < order.size() / 2; ++i) counted.daylight[order[i]] = true;
+  for (const YearHour& hour : year.hours)
+    counted.use.push_back(hour.clock_hour() >= settings.first_hour && hour.clock_hour() < settings.last_hour);
+  return counted;
+}
+
+SensorYear sensor_year(const SkyYear& year, const NearSuns& near,
+                       const std::vector<StateCoefficients>& coefficients,
+                       const std::vector<std::size_t>& states, std::size_t sensor,
+                       const CountedHours& counted, const FigureSettings& settings) {
+  std::vector<SensorState> of_states;
+  for (const StateCoefficients& c : coefficients)
+    of_states.emplace_back(c, near, sensor, mix(sensor * coefficients.size() + of_states.size()));
+  SensorYear result;
+  const auto figure = [&](Figure f) -> auto& { return result.figures[static_cast<std::size_t>(f)]; };
+  const auto uses = static_cast<double>(std::ranges::count(counted.use, true)),
+             daylight = static_cast<double>(std::ranges::count(counted.daylight, true));
+  const double a_use = uses > 0 ? 1 / uses : 0, a_daylight = daylight > 0 ? 1 / daylight : 0;
+  for (std::size_t h = 0; h < year.hours.size(); ++h) {
+    const HourLux lux = hour_lux(year, year.hours[h], of_states[states[h]]);
+    result.lux.push_back(lux.lux[0]), result.error.push_back(lux.error), result.beam.push_back(lux.beam);
+    for (std::size_t r = 0; r < years; ++r) {
+      const auto lx = static_cast<double>(lux.lux[r]);
+      if (counted.use[h]) {
+        figure(Figure::mean_lx)[r] += lx * a_use;
+        figure(Figure::autonomy)[r] += lx >= settings.target_lx ? a_use : 0;
+        figure(Figure::continuous_autonomy)[r] += std::min(lx / settings.target_lx, 1.0) * a_use;
+        const Figure bin = lx < 100    ? Figure::useful_too_low
+                           : lx < 300  ? Figure::useful_low
+                           : lx < 3000 ? Figure::useful_enough
+                                       : Figure::useful_too_high;
+        figure(bin)[r] += a_use;
+        figure(Figure::sun_hours)[r] += static_cast<double>(lux.beam) > enough_sun_lx ? 1 : 0;
+      }
+      if (!counted.daylight[h]) continue;
+      figure(Figure::daylight_100)[r] += lx >= 100 ? a_daylight : 0;
+      figure(Figure::daylight_300)[r] += lx >= 300 ? a_daylight : 0;
+      figure(Figure::daylight_500)[r] += lx >= 500 ? a_daylight : 0;
+      figure(Figure::daylight_750)[r] += lx >= 750 ? a_daylight : 0;
+    }
+  }
+  return result;
+}
+
+std::vector<float> lux_of_sensor(const SkyYear& year, const StateCoefficients& c, std::size_t sensor) {
+  std::vector<float> lux;
+  for (const YearHour& hour : year.hours) {
+    double lx = 0;
+    if (hour.sky) {
+      const std::span<const float> sky = year.sky_of(hour), of = c.sky.of(sensor);
+      for (std::size_t patch = 0; patch < sky.size(); ++patch)
+        lx += static_cast<double>(sky[patch]) * static_cast<double>(of[patch]);
+      if (hour.sun) lx += hour.direct_normal_lx * static_cast<double>(c.suns.of(sensor)[*hour.sun]);
+    }
+    lux.push_back(static_cast<float>(lx));
+  }
+  return lux;
+}
+
+namespace {
+
+// The share of the counted sensors for which it holds, in each year.
+Estimate share_of(const std::vector<SensorYear>& sensors, const std::vector<bool>& counts, Figure figure,
+                  const std::function<double(double)>& of) {
+  std::array<double, years> shares{};
+  const auto all = static_cast<double>(std::ranges::count(counts, true));
+  for (std::size_t s = 0; s < sensors.size(); ++s)
+    for (std::size_t r = 0; r < years && counts[s]; ++r)
+      shares[r] += of(sensors[s].figures[static_cast<std::size_t>(figure)][r]) / all;
+  return estimate_of(shares);
+}
+
+}  // namespace
+
+AreaFigures area_figures(const std::vector<SensorYear>& sensors, const std::vector<bool>& counts) {
+  const auto half = [](double share) { return share >= 0.5 ? 1.0 : 0.0; };
+  const auto share = [&](Figure figure) { return share_of(sensors, counts, figure, half); };
+  AreaFigures area;
+  area.autonomy = share(Figure::autonomy);
+  area.sunlight = share_of(sensors, counts, Figure::sun_hours,
+                           [](double hours) { return hours > most_sun_hours ? 1.0 : 0.0; });
+  area.mean_autonomy = share_of(sensors, counts, Figure::autonomy, [](double da) { return da; });
+  area.provision = {{"minimum", 300, 100, share(Figure::daylight_300), share(Figure::daylight_100)},
+                    {"medium", 500, 300, share(Figure::daylight_500), share(Figure::daylight_300)},
+                    {"high", 750, 500, share(Figure::daylight_750), share(Figure::daylight_500)}};
+  return area;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// What daylight is over a year, at each sensor and over a room.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/year/coefficients.h"
+#include "cli/year/sky_year.h"
+
+namespace vitrail {
+
+// Suns near each sun, with weights whose sum is 1: what surfaces reflect of a sun is the mean over them. That
+// is little less exact, as it changes slowly with the sun's place, and much less noisy.
+struct NearSuns {
+  struct Near {
+    std::uint32_t sun = 0;
+    float weight = 1;
+  };
+  std::vector<std::vector<Near>> of;  // each sun
+};
+// Weights fall from the sun itself to 0 at `within_deg`; 0: each sun is alone.
+NearSuns near_suns(const std::vector<Vector3d>& suns, double within_deg);
+
+// Of one state of the glass. `suns`: the sum of the beams, which no surface has reflected, and of what is
+// reflected, the mean over near suns.
+struct StateCoefficients {
+  std::string name;
+  Coefficients sky, suns, beams, reflected;
+};
+void set_suns(StateCoefficients& state, Coefficients beams, Coefficients reflected, const NearSuns& near);
+
+// What the figures count.
+struct FigureSettings {
+  int first_hour = 8, last_hour = 18;  // hours of use: from the first one's beginning to the last one's
+  double target_lx = 300;
+};
+
+// A number and its standard error.
+struct Estimate {
+  double value = 0, error = 0;
+};
+
+// A figure that each sensor has, in the order of SensorYear::figures.
+struct FigureKind {
+  std::string_view name;   // as tables have it
+  std::string_view words;  // for people
+};
+std::vector<FigureKind> figure_kinds();
+enum class Figure : std::size_t {
+  mean_lx,
+  autonomy,             // DA
+  continuous_autonomy,  // cDA
+  useful_too_low,       // UDI of less than 100 lx, of 100 to 300, of 300 to 3000, of more
+  useful_low,
+  useful_enough,
+  useful_too_high,
+  sun_hours,     // of use, with more than 1000 lx of the sun alone
+  daylight_100,  // shares of the daylight hours of EN 17037
+  daylight_300,
+  daylight_500,
+  daylight_750,
+  count
+};
+inline constexpr std::size_t figure_count = static_cast<std::size_t>(Figure::count);
+
+// One sensor over the year. Errors come of `replicas` years, whose coefficients are off by as much as theirs
+// may be.
+inline constexpr std::size_t replicas = 15;
+struct SensorYear {
+  std::vector<float> lux, error, beam;                                   // an hour each, lx
+  std::array<std::array<double, 1 + replicas>, figure_count> figures{};  // the first is the estimate
+  Estimate estimate(Figure figure) const;
+};
+
+// Of hours: whether they count as hours of use, and as daylight hours: the half of the hours that has the
+// most light of the sky outdoors (EN 17037:2018; 4380 of a year).
+struct CountedHours {
+  std::vector<bool> use, daylight;
+};
+CountedHours counted_hours(const SkyYear& year, const FigureSettings& settings);
+
+// `states`: of each hour, which of `coefficients` the glass is in.
+SensorYear sensor_year(const SkyYear& year, const NearSuns& near,
+                       const std::vector<StateCoefficients>& coefficients,
+                       const std::vector<std::size_t>& states, std::size_t sensor,
+                       const CountedHours& counted, const FigureSettings& settings);
+// The same without errors and figures: lx of each hour.
+std::vector<float> lux_of_sensor(const SkyYear& year, const StateCoefficients& coefficients,
+                                 std::size_t sensor);
+
+// Over the sensors of an area, all with equal weight.
+struct AreaFigures {
+  Estimate autonomy;  // sDA: share of the sensors that have the target in half of the hours of use
+  Estimate sunlight;  // ASE: share of those that have more than 250 hours of sun
+  Estimate mean_autonomy;
+  // EN 17037, daylight provision by method 2: of the levels minimum, medium, high the share of sensors that
+  // have the target, and the minimum target, in half of the daylight hours.
+  struct Level {
+    std::string_view name;
+    double target_lx, minimum_lx;
+    Estimate target, minimum;
+    bool holds() const { return target.value >= 0.5 && minimum.value >= 0.95; }
+  };
+  std::vector<Level> provision;
+};
+AreaFigures area_figures(const std::vector<SensorYear>& sensors, const std::vector<bool>& counts);
+
+}  // namespace vitrail

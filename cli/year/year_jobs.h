@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The traced part of a year: films of coefficients, for each state of the glass.
+#pragma once
+
+#include "cli/year/year_arguments.h"
+#include "farm/transport/transport.h"
+#include "tracer/lights/environment.h"
+
+namespace vitrail {
+
+enum class CoefficientKind : std::uint8_t { sky, reflected, beams };
+
+// NAME.sky.film, NAME.reflected.film and NAME.beam.film in the output's folder.
+std::filesystem::path film_of(const YearArguments& arguments, const std::string& state, CoefficientKind kind);
+
+// How the sky stands over the bundle.
+struct SkyFrame {
+  DirectionFrame frame;
+  std::string words;  // where it comes from
+};
+// By --up and --north, else by the bundle's sky. Throws UsageError where they are along one axis.
+SkyFrame sky_frame(const YearArguments& arguments, const Manifest& manifest);
+
+// Whether some of those are there, or were begun.
+bool has_films(const YearArguments& arguments);
+
+// Traces on all ranks what is not there yet of a share, in (0, 1], of the paths. `suns`: in the sky's frame.
+// Throws Interrupted where a signal ended it, with a checkpoint.
+void trace_coefficients(Transport& transport, const YearArguments& arguments, const SkyFrame& sky,
+                        const std::vector<Vector3d>& suns, double share);
+
+}  // namespace vitrail

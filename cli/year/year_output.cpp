@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/year/year_output.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "compare/web_page.h"
+
+namespace vitrail {
+
+namespace {
+
+// Rows of text that grow fast.
+using Buffer = fmt::memory_buffer;
+
+template <class... Values>
+void add(Buffer& buffer, fmt::format_string<Values...> format, Values&&... values) {
+  fmt::format_to(std::back_inserter(buffer), format, std::forward<Values>(values)...);
+}
+
+void write(const std::filesystem::path& file, const Buffer& buffer) {
+  write_whole(file, {buffer.data(), buffer.size()});
+}
+
+void write_hours_of(const std::filesystem::path& file, const YearReport& r, bool errors) {
+  Buffer text;
+  add(text,
+      "month,day,hour,sun_elevation_deg,sun_azimuth_deg,direct_normal_lx,diffuse_horizontal_lx,global_"
+      "horizontal_lx,state");
+  for (std::size_t s = 0; s < r.sensor_years.size(); ++s)
+    add(text, ",sensor_{}_{}", s + 1, errors ? "error_lx" : "lx");
+  add(text, "\n");
+  for (std::size_t h = 0; h < r.year.hours.size(); ++h) {
+    const YearHour& hour = r.year.hours[h];
+    add(text, "{},{},{},{:.3f},{:.3f},{:.1f},{:.1f},{:.1f},{}", hour.middle.month, hour.middle.day,
+        hour.clock_hour(), hour.elevation_deg, hour.azimuth_deg, hour.direct_normal_lx, hour.diffuse_lx,
+        hour.global_lx, r.state_names[r.states[h]]);
+    for (const SensorYear& s : r.sensor_years) add(text, ",{:.1f}", errors ? s.error[h] : s.lux[h]);
+    add(text, "\n");
+  }
+  write(file, text);
+}
+
+std::string percent(const Estimate& e) {
+  return fmt::format("{:.1f} ± {:.1f} %", 100 * e.value, 100 * e.error);
+}
+
+}  // namespace
+
+void write_hours(const std::filesystem::path& folder, const YearReport& report) {
+  write_hours_of(folder / "hours.csv", report, false);
+  write_hours_of(folder / "hours-error.csv", report, true);
+}
+
+void write_figures(const std::filesystem::path& folder, const YearReport& r) {
+  const std::vector<FigureKind> kinds = figure_kinds();
+  Buffer text;
+  add(text, "sensor,x,y,z,nx,ny,nz,in_area");
+  for (const FigureKind& kind : kinds) add(text, ",{0},{0}_error", kind.name);
+  add(text, "\n");
+  for (std::size_t s = 0; s < r.sensors.size(); ++s) {
+    const auto& [p, n] = r.sensors[s];
+    add(text, "{},{},{},{},{:.6g},{:.6g},{:.6g},{}", s + 1, p.x, p.y, p.z, n.x, n.y, n.z,
+        r.in_area[s] ? 1 : 0);
+    for (std::size_t f = 0; f < figure_count; ++f) {
+      const Estimate e = r.sensor_years[s].estimate(static_cast<Figure>(f));
+      add(text, ",{:.5g},{:.2g}", e.value, e.error);
+    }
+    add(text, "\n");
+  }
+  write(folder / "figures.csv", text);
+}
+
+std::vector<AreaRow> area_rows(const YearReport& r) {
+  const AreaFigures& a = r.area;
+  const double target = r.settings.target_lx;
+  std::vector<AreaRow> rows{
+      {fmt::format("sDA {:g},50% without blinds", target),
+       fmt::format("share of the area with {:g} lx or more in half of the hours of use", target), a.autonomy},
+      {"ASE 1000,250h without blinds",
+       "share of the area with more than 1000 lx of the sun alone in more than 250 hours of use", a.sunlight},
+      {fmt::format("mean DA {:g}", target), "daylight autonomy, the mean over the area", a.mean_autonomy}};
+  for (const AreaFigures::Level& level : a.provision) {
+    rows.push_back({fmt::format("EN 17037 {}: {:g} lx", level.name, level.target_lx),
+                    "share of the area that has them in half of the daylight hours; 50 % are asked for",
+                    level.target});
+    rows.push_back({fmt::format("EN 17037 {}: {:g} lx", level.name, level.minimum_lx),
+                    "the same; 95 % are asked for", level.minimum});
+  }
+  return rows;
+}
+
+void write_area(const std::filesystem::path& folder, const YearReport& report) {
+  Buffer text;
+  add(text, "figure,share,error\n");
+  for (const AreaRow& row : area_rows(report))
+    add(text, "\"{}\",{:.5g},{:.2g}\n", row.name, row.estimate.value, row.estimate.error);
+  write(folder / "area.csv", text);
+}
+
+std::string words_of_area(const YearReport& report) {
+  std::string text;
+  for (const AreaRow& row : area_rows(report))
+    text += fmt::format("{:34} {:>16}\n", row.name, percent(row.estimate));
+  std::string reached = "none";
+  for (const AreaFigures::Level& level : report.area.provision)
+    if (level.holds()) reached = level.name;
+  return text + fmt::format("{:34} {:>16}\n", "EN 17037 daylight provision", reached);
+}
+
+void write_coefficients_table(const std::filesystem::path& file, const Coefficients& c, const char* unit) {
+  Buffer text;
+  add(text, "sensor,light,{0},error_{0}\n", unit);
+  for (std::size_t s = 0; s < c.sensors; ++s)
+    for (std::size_t i = 0; i < c.lights; ++i)
+      add(text, "{},{},{:.6g},{:.2g}\n", s + 1, i, c.of(s)[i], c.errors_of(s)[i]);
+  write(file, text);
+}
+
+}  // namespace vitrail

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""`vitrail year` beside Radiance: rfluxmtx, gendaymtx -m 4 and dctimestep for a year, rtrace for some hours of sun.
+
+  tests/conformance/year_oracle.py --bin build/release/bin --weather golden.epw --room CORPUS/daylight [--radiance FOLDER]
+
+The room is room.pbrt and room.rad with sensors.txt and sky.rad, without glass. The year has -ad DIVISIONS of rfluxmtx and --paths of
+ours. Printed are: the sky alone (gendaymtx -s) in hours above 50 lx, sensor by sensor; DA, sDA and ASE of all light; seconds of
+processor. Then --hours of sun are traced by rtrace with a disc where the sun stands for us, and compared with the coefficients of a
+second year without blur. With -ad 8192 rtrace has up to a quarter too little at the back where the sun is beside the window. FOLDER holds Radiance's bin/ and lib/: that of PyPI's pyradiance where none is given.
+"""
+import argparse
+import csv
+import importlib.util
+import math
+import os
+import pathlib
+import random
+import resource
+import subprocess
+import tempfile
+
+import numpy as np
+
+LX = np.array([47.4, 119.9, 11.6])  # of Radiance's RGB
+
+
+def run(words, **more):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(words, check=True, capture_output=True, **more)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return done.stdout, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def table(file):
+    with open(file) as text:
+        return list(csv.reader(text))[1:]
+
+
+def hours_of(folder):
+    rows = table(folder / "hours.csv")
+    return rows, np.array([[float(x) for x in row[9:]] for row in rows])
+
+
+def sun_part(rows, folder):
+    direct = np.array([float(row[5]) for row in rows])
+    sunny = np.where(direct > 0)[0]
+    part = np.zeros((len(rows), np.load(folder / "as-it-is.sun.npy").shape[0]))
+    part[sunny] = (np.load(folder / "as-it-is.sun.npy") * direct[sunny]).T
+    return part
+
+
+class Radiance:
+    def __init__(self, folder, room, work):
+        self.bin, self.room, self.work = folder / "bin", room, work
+        self.env = {**os.environ, "RAYPATH": str(folder / "lib"), "PATH": f"{folder / 'bin'}:{os.environ['PATH']}"}
+
+    def run(self, words, **more):
+        return run([str(w) for w in words], env=self.env, **more)
+
+    def year(self, weather, divisions):
+        self.run(["epw2wea", weather, self.work / "w.wea"])
+        skies = {}
+        for name, more in (("all", []), ("sky", ["-s"])):
+            (self.work / f"{name}.smx").write_bytes(self.run(["gendaymtx", "-m", 4, "-O0", *more, self.work / "w.wea"])[0])
+        sensors = (self.room / "sensors.txt").read_bytes()
+        matrix, traced_s = self.run(["rfluxmtx", "-n", 1, "-I+", "-ab", 8, "-ad", divisions, "-lw", "1e-5", "-faa", "-y",
+                                     len(sensors.splitlines()), "-", "sky.rad", "room.rad"], input=sensors, cwd=self.room)
+        (self.work / "d.mtx").write_bytes(matrix)
+        for name in ("all", "sky"):
+            text, multiplied_s = self.run(["dctimestep", "-h", self.work / "d.mtx", self.work / f"{name}.smx"])
+            values = np.array(text.split(), float).reshape(len(sensors.splitlines()), -1, 3) @ LX
+            skies[name] = values.T
+        return skies["all"], skies["sky"], traced_s, multiplied_s
+
+    def sun(self, elevation, azimuth, points, divisions):
+        e, a = math.radians(elevation), math.radians(azimuth)
+        x, y, z = math.cos(e) * math.sin(a), math.cos(e) * math.cos(a), math.sin(e)
+        bright = 1 / (2 * math.pi * (1 - math.cos(math.radians(.2665))))
+        (self.work / "s.rad").write_text(f"void light sun 0 0 3 {bright} {bright} {bright}\nsun source s 0 0 4 {x} {y} {z} 0.533\n")
+        (self.work / "s.oct").write_bytes(self.run(["oconv", self.room / "room.rad", self.work / "s.rad"])[0])
+        text, _ = self.run(["rtrace", "-n", 1, "-h", "-I+", "-ab", 8, "-ad", divisions, "-lw", "1e-6", "-aa", 0, "-dj", 0, "-ds", 0,
+                            "-dt", 0, "-dc", 1, self.work / "s.oct"], input=points)
+        return np.array(text.split(), float).reshape(-1, 3)[:, 1]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", type=pathlib.Path, required=True)
+    parser.add_argument("--weather", type=pathlib.Path, required=True)
+    parser.add_argument("--room", type=pathlib.Path, required=True)
+    parser.add_argument("--radiance", type=pathlib.Path)
+    parser.add_argument("--divisions", type=int, default=32768)
+    parser.add_argument("--paths", default="128k")
+    parser.add_argument("--sun-paths", default="16")
+    parser.add_argument("--hours", type=int, default=50)
+    parser.add_argument("--hour-paths", default="64k")
+    parser.add_argument("--hour-divisions", type=int, default=65536)
+    args = parser.parse_args()
+    found = args.radiance or importlib.util.find_spec("pyradiance")
+    if not found:
+        raise SystemExit("there is no Radiance: give --radiance, or install pyradiance")
+    folder = args.radiance or pathlib.Path(found.origin).parent
+    with tempfile.TemporaryDirectory() as name:
+        work = pathlib.Path(name)
+        radiance = Radiance(folder, args.room, work)
+        run([args.bin / "vitrail-partition", args.room / "room.pbrt", "-o", work / "room.vit", "--quiet"])
+        sensors = args.room / "sensors.txt"
+        year = [args.bin / "vitrail-year", work / "room.vit", "--weather", args.weather, "--quiet", "--up", "z", "--north", "y"]
+        _, ours_s = run([*year, "--sensors", sensors, "-o", work / "y", "--paths", args.paths, "--sun-paths", args.sun_paths, "-t", "1"])
+        rows, ours = hours_of(work / "y")
+        theirs, their_sky, traced_s, multiplied_s = radiance.year(args.weather, args.divisions)
+        our_sky = ours - sun_part(rows, work / "y")
+        lit = their_sky > 50
+        ratio = our_sky[lit] / their_sky[lit]
+        print(f"sky, {lit.sum()} values above 50 lx: median {np.median(ratio):.4f}, 5 to 95 % {np.percentile(ratio, 5):.4f} "
+              f"to {np.percentile(ratio, 95):.4f}, within 2 %: {100 * np.mean(abs(ratio - 1) < .02):.1f} %")
+        high = (np.array([float(row[3]) for row in rows]) > 10) & (their_sky.sum(1) > 50 * their_sky.shape[1])
+        ratio = our_sky[high].sum(1) / their_sky[high].sum(1)
+        print(f"sky, mean of the sensors, sun above 10°: within 2 % in {100 * np.mean(abs(ratio - 1) < .02):.1f} % of {high.sum()} hours")
+        use = np.array([8 <= int(row[2]) < 18 for row in rows])
+        for target in (300, 500):
+            mine, other = ((v[use] >= target).mean(0) for v in (ours, theirs))
+            print(f"DA {target}: {mine.mean():.4f} beside {other.mean():.4f}; most apart {abs(mine - other).max():.4f}; "
+                  f"sDA {np.mean(mine >= .5):.3f} beside {np.mean(other >= .5):.3f}")
+        print(f"seconds of processor: {ours_s:.1f} beside {traced_s:.1f} of rfluxmtx and {multiplied_s:.1f} of dctimestep")
+        if args.hours == 0:
+            return
+        lines = sensors.read_bytes().splitlines(keepends=True)
+        points = b"".join([lines[1], lines[9], lines[17]])
+        (work / "three.txt").write_bytes(points)
+        random.seed(5)
+        sunny = [h for h, row in enumerate(rows) if float(row[5]) > 20000]
+        chosen = sorted(random.sample(sunny, args.hours))
+        weather = args.weather.read_text(encoding="latin-1").splitlines(keepends=True)
+        (work / "some.epw").write_text("".join(weather[:8] + [weather[8 + h] for h in chosen]), encoding="latin-1")
+        year[year.index(args.weather)] = work / "some.epw"
+        run([*year, "--sensors", work / "three.txt", "-o", work / "h", "--patches", "1", "--paths", "2", "--sun-paths",
+             args.hour_paths, "--sun-blur", "0"])
+        off = []
+        for hour, mine in zip(chosen, np.load(work / "h" / "as-it-is.sun.npy").T):
+            other = radiance.sun(float(rows[hour][3]), float(rows[hour][4]), points, args.hour_divisions)
+            off.append(mine / np.maximum(other, 1e-9))
+            print("/".join(rows[hour][:3]), *(f"{m:.5f} {o:.5f}" for m, o in zip(mine, other)), flush=True)
+        off = np.array(off)
+        print(f"sun by rtrace, {off.size} values: median {np.median(off):.4f}, within 2 %: {100 * np.mean(abs(off - 1) < .02):.1f} %")
+
+
+if __name__ == "__main__":
+    main()
