@@ -7,7 +7,12 @@
 #include <sstream>
 #include <string>
 
+#include "bundle/manifest.h"
+
 namespace vitrail::test {
+
+// Beside those of domains: the manifest and its records.
+inline constexpr std::size_t files_of_records = 1 + records_file_names.size();
 
 // The files below a directory, by their names in it.
 inline std::map<std::string, std::string> contents(const std::filesystem::path& directory) {

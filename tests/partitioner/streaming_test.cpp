@@ -19,6 +19,7 @@ namespace {
 
 using test::bumpy_torus;
 using test::contents;
+using test::files_of_records;
 using test::scene_of;
 
 class Streaming : public ::testing::Test {
@@ -55,7 +56,7 @@ TEST_F(Streaming, BucketsChangeTheCutsAlone) {
     EXPECT_EQ(s.duplicates, 0u);
     EXPECT_LT(s.area_error, 1e-6);
     EXPECT_TRUE(verify_bundle(out).problems.empty());
-    EXPECT_EQ(contents(out).size(), 11u + 3u) << "nothing of the buckets is left";
+    EXPECT_EQ(contents(out).size(), 11u + files_of_records) << "nothing of the buckets is left";
   }
 }
 
