@@ -298,12 +298,6 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
       report.approximated("environment light: its portal is not looked at, it shines from everywhere",
                           light.origin);
   }
-  if (glass && scene.settings.direct_only)
-    report.approximated(
-        "direct light shines straight through glass. Below it pbrt's directlighting and whitted and "
-        "Mitsuba's "
-        "direct are dark",
-        {});
   if (glass && std::ranges::any_of(scene.lights, [](const Light& l) { return traits_of(l.model).parallel; }))
     report_wedges(scene, report);
   result.attributes = textures.attributes();

@@ -12,10 +12,8 @@ namespace vitrail::appearance_test {
 namespace {
 
 // The last of `materials` is in use.
-Appearance baked(std::vector<Material> materials, std::vector<Texture> textures = {},
-                 bool direct_only = false) {
+Appearance baked(std::vector<Material> materials, std::vector<Texture> textures = {}) {
   Scene scene;
-  scene.settings.direct_only = direct_only;
   scene.files = {"scene.pbrt"};
   scene.textures = std::move(textures);
   scene.materials = std::move(materials);
@@ -28,12 +26,6 @@ Appearance baked(std::vector<Material> materials, std::vector<Texture> textures 
 }
 Appearance baked(MaterialModel model) { return baked(std::vector{Material{std::move(model)}}); }
 Spectrum grey(float value) { return ConstantSpectrum{value}; }
-
-TEST(Appearance, DirectLightThroughGlassIsNotThatOfOthers) {
-  EXPECT_EQ(baked({{DielectricMaterial{}}}, {}, true).diagnostics.size(), 1u);
-  EXPECT_TRUE(baked({{DiffuseMaterial{}}}, {}, true).diagnostics.empty());
-  EXPECT_TRUE(baked({{DielectricMaterial{}}}).diagnostics.empty());
-}
 
 TEST(Appearance, WhatTheRendererHasStaysAsItIs) {
   for (const MaterialModel& model : std::vector<MaterialModel>{
