@@ -89,8 +89,8 @@ std::vector<std::byte> read_records(const std::filesystem::path& file, std::arra
 void check_version(const Json& json, const std::filesystem::path& file) {
   if (json.at("format") != "vitrail bundle") throw Error("not the manifest of a bundle", {file.string()});
   if (json.at("version") != manifest_version)
-    throw Error(fmt::format("bundle of version {}; this program reads version {}", json.at("version").dump(),
-                            manifest_version),
+    throw Error(fmt::format("bundle of version {}; this program reads version {}: partition the scene again",
+                            json.at("version").dump(), manifest_version),
                 {file.string()});
   required_bits(json.at("features").at("required").get<std::vector<std::string>>(), file);
 }
