@@ -100,7 +100,7 @@ double longest_work_s(const Arguments& a, const RayProfile& profile, const Homes
 }
 
 // Until a rank has read the manifest and can begin. docs/why/scheduler.md has the measure.
-double setup_s(const Manifest& m) { return 7.5e-3 + 8.7e-6 * static_cast<double>(m.domains.size()); }
+double setup_s(const Manifest& m) { return 7.5e-3 + 1.3e-6 * static_cast<double>(m.domains.size()); }
 
 // A profile is of few samples, and a job of so few is soon done on any cluster.
 void warn_of_few_samples(const Arguments& a, const Manifest& m, const RayProfile& profile) {
