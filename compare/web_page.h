@@ -17,6 +17,15 @@ std::string base64(std::span<const std::uint8_t> bytes);
 std::string half_floats_base64(std::span<const float> values);
 std::uint16_t to_half(float value);
 
+// The style of reports: a column of text, tables of numbers with words in the first column, or in all of the
+// class `words`, and drawings.
+inline constexpr std::string_view report_style =
+    "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em;color:#222}"
+    "table{border-collapse:collapse;margin:.5em 0 1.5em}td,th{padding:.2em .8em;text-align:right;"
+    "border-bottom:1px solid #ddd}th:first-child,td:first-child,.words td,.words th{text-align:left;"
+    "vertical-align:top}"
+    "svg{max-width:100%;height:auto}";
+
 // The text with what HTML reads as markup written as entities.
 std::string escaped(std::string_view text);
 

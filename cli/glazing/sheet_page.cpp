@@ -12,12 +12,7 @@ namespace vitrail {
 
 namespace {
 
-constexpr const char* style =
-    "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em;color:#222}"
-    "table{border-collapse:collapse;margin:.5em 0 1.5em}td,th{padding:.2em .8em;text-align:right;"
-    "border-bottom:1px solid #ddd}th:first-child,td:first-child,.words td,.words th{text-align:left;"
-    "vertical-align:top}"
-    ".group td{font-weight:bold;padding-top:.9em}svg{max-width:100%;height:auto}td.small{color:#555}";
+constexpr const char* style = ".group td{font-weight:bold;padding-top:.9em}td.small{color:#555}";
 
 std::string heading(const DataSheetState& state) {
   return state.name.empty() ? "value" : escaped(state.name);
@@ -227,8 +222,8 @@ std::string sheet_page(const DataSheet& sheet, const std::vector<std::string>& n
   const std::string title = escaped(sheet.system.name.empty() ? "Glazing" : sheet.system.name);
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=en><meta "
-      "charset=utf-8><title>{0}</title><style>{1}</style>\n<h1>{0}</h1>\n",
-      title, style);
+      "charset=utf-8><title>{0}</title><style>{1}{2}</style>\n<h1>{0}</h1>\n",
+      title, report_style, style);
   page += panes_table(sheet.system) + figures_table(sheet) + temperature_table(sheet) + spectrum_plot(sheet) +
           angle_plot(sheet);
   for (const DataSheetState& state : sheet.states) page += angle_table(state);

@@ -15,11 +15,7 @@ namespace vitrail {
 
 namespace {
 
-constexpr const char* style =
-    "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em;color:#222}"
-    "table{border-collapse:collapse;margin:.5em 0 1.5em}td,th{padding:.2em .8em;text-align:right;"
-    "border-bottom:1px solid #ddd}th:first-child,td:first-child,.words td,.words th{text-align:left;"
-    "vertical-align:top}figure{display:inline-block;margin:0 1.5em 1em 0}svg{max-width:100%;height:auto}";
+constexpr const char* style = "figure{display:inline-block;margin:0 1.5em 1em 0}";
 
 // From dark blue over green to yellow, for `share` in [0, 1].
 std::string color_of(double share) {
@@ -163,7 +159,7 @@ std::string head_of(const YearReport& r) {
   const auto hours_with = [&](auto of) { return std::ranges::count_if(r.year.hours, of); };
   std::string text = fmt::format(
       "<!doctype html><html lang=en><meta charset=utf-8><title>Daylight over a "
-      "year</title><style>{}</style>\n"
+      "year</title><style>{}{}</style>\n"
       "<h1>Daylight over a year</h1>\n<table class=words>\n"
       "<tr><td>Room<td>{}</tr>\n<tr><td>Weather<td>{}, at {:.2f}°, {:.2f}°: {} hours, {} of them by day, {} "
       "with "
@@ -171,7 +167,7 @@ std::string head_of(const YearReport& r) {
       "counted as "
       "the area</tr>\n<tr><td>Sky<td>Perez's all-weather sky in {} patches, the sun where it stands in the "
       "middle of each hour</tr>\n<tr><td>Command<td><code>{}</code></tr>\n</table>\n",
-      style, escaped(r.bundle), escaped(r.weather), r.place.latitude_deg, r.place.longitude_deg,
+      report_style, style, escaped(r.bundle), escaped(r.weather), r.place.latitude_deg, r.place.longitude_deg,
       r.year.hours.size(), hours_with([](const YearHour& h) { return h.sky.has_value(); }),
       hours_with([](const YearHour& h) { return h.sun.has_value(); }),
       r.missing_hours > 0 ? fmt::format("; {} without measurements count as dark", r.missing_hours) : "",
