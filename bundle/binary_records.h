@@ -25,7 +25,7 @@ void decode_materials(std::vector<std::byte> payload, const std::filesystem::pat
 void decode_lights(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest);
 void decode_domains(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest);
 
-// Of the payload of any of the files, as its header has it: read_manifest has compared it.
+// Returns the checksum of a file's payload as its header has it: read_manifest has compared it.
 std::uint64_t checksum_of_records(const std::filesystem::path& file);
 
 // Throws Error (with `file`) unless every index in the manifest is in range, every number finite and the

@@ -12,7 +12,7 @@
 
 namespace vitrail {
 
-// What a rule compares: a number of an hour.
+// A term compares a number that an hour has.
 struct RuleTerm {
   enum class Quantity : std::uint8_t { sensor, global, diffuse, direct, elevation, azimuth, month, hour };
   enum class Comparison : std::uint8_t { less, less_or_equal, greater, greater_or_equal };

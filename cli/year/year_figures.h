@@ -24,15 +24,15 @@ struct NearSuns {
 // Weights fall from the sun itself to 0 at `within_deg`; 0: each sun is alone.
 NearSuns near_suns(const std::vector<Vector3d>& suns, double within_deg);
 
-// Of one state of the glass. `suns`: the sum of the beams, which no surface has reflected, and of what is
-// reflected, the mean over near suns.
+// Holds what was traced in one state of the glass. `suns`: the sum of the beams, which no surface has
+// reflected, and of what is reflected, the mean over near suns.
 struct StateCoefficients {
   std::string name;
   Coefficients sky, suns, beams, reflected;
 };
 void set_suns(StateCoefficients& state, Coefficients beams, Coefficients reflected, const NearSuns& near);
 
-// What the figures count.
+// Says which hours and which illuminance the figures count.
 struct FigureSettings {
   int first_hour = 8, last_hour = 18;  // hours of use: from the first one's beginning to the last one's
   double target_lx = 300;
@@ -75,8 +75,8 @@ struct SensorYear {
   Estimate estimate(Figure figure) const;
 };
 
-// Of hours: whether they count as hours of use, and as daylight hours: the half of the hours that has the
-// most light of the sky outdoors (EN 17037:2018; 4380 of a year).
+// Tells of each hour whether it counts as one of use, and as a daylight hour: the half of the hours that has
+// the most light of the sky outdoors (EN 17037:2018; 4380 of a year).
 struct CountedHours {
   std::vector<bool> use, daylight;
 };

@@ -13,15 +13,15 @@ enum class CoefficientKind : std::uint8_t { sky, reflected, beams };
 // NAME.sky.film, NAME.reflected.film and NAME.beam.film in the output's folder.
 std::filesystem::path film_of(const YearArguments& arguments, const std::string& state, CoefficientKind kind);
 
-// How the sky stands over the bundle.
+// Says how the sky stands over the bundle.
 struct SkyFrame {
   DirectionFrame frame;
   std::string words;  // where it comes from
 };
-// By --up and --north, else by the bundle's sky. Throws UsageError where they are along one axis.
+// Goes by --up and --north, else by the bundle's sky. Throws UsageError where they are along one axis.
 SkyFrame sky_frame(const YearArguments& arguments, const Manifest& manifest);
 
-// Whether some of those are there, or were begun.
+// Returns whether some of those films are there, or were begun.
 bool has_films(const YearArguments& arguments);
 
 // Traces on all ranks what is not there yet of a share, in (0, 1], of the paths. `suns`: in the sky's frame.

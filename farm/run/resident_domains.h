@@ -52,7 +52,7 @@ class ResidentDomains {
   OpenPacks packs_;
   std::vector<bool> touched_;
   std::vector<std::weak_ptr<const MappedDomain>> objects_;  // by number
-  std::vector<std::uint8_t> objects_touched_;               // by number, likewise
+  std::vector<std::uint8_t> objects_touched_;               // by number: 1 if it was loaded
   std::shared_ptr<std::atomic<std::uint64_t>> released_;    // bytes
   std::shared_ptr<const ResidentTable> table_;
 };

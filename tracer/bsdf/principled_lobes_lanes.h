@@ -61,8 +61,8 @@ VITRAIL_LANES D diffuse(D roughness, D flatness, D out, D in, D half) {
   return select<D>(flattened, round * (1.0 - flatness) + flat * flatness, round);
 }
 
-// Of a base below microfacets of that roughness, behind which the index is eta ≥ 1: π·f/base, so that of all
-// light from a direction the base gets what the facets do not reflect, 1 − E (Kulla and Conty 2017).
+// Returns π·f/base of a base below microfacets of that roughness, behind which the index is eta ≥ 1: of all
+// light from a direction it gets what the facets do not reflect, 1 − E (Kulla and Conty 2017).
 // E = f₀·a + (1 − f₀)·b·y·(m + (1 − m)·y), y = (1 − cosine)^p, is a fit to GGX with separable masking: up to
 // 75° within .009 for indices of 1.5 to 1.8. Of an index of 1 it is 0.
 template <class D>

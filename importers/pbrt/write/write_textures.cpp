@@ -173,7 +173,7 @@ class TextureWriter {
     } else if (const auto* cylinder = std::get_if<CylindricalMapping>(&mapping)) {
       texture_to_world_ = cylinder->texture_to_world;
       if (cylinder->of_direction)
-        p_.approximated("its height around a cylinder is not that of the direction, as in pbrt-v3");
+        p_.approximated("an image around a cylinder by direction, as in pbrt-v3: by height");
       p_.text("mapping", "cylindrical");
     } else if (std::holds_alternative<GlobeMapping>(mapping)) {
       p_.approximated("an image around a globe, which pbrt turns by a quarter: by the surface's (u,v)");
