@@ -245,7 +245,7 @@ void check_lights(const Checker& c, const Manifest& m) {
             c.require(!l.fading || (l.fading->fade_distance >= 0 && l.fading->fade_power >= 0),
                       "a light fades over a negative distance, or by a negative power");
           if constexpr (requires { l.tightness; })
-            c.require(l.tightness >= 0, "a light has a negative tightness");
+            c.require(std::isfinite(l.tightness), "a light's tightness is no number");
         },
         light.model);
   for (const Light& light : m.lights)

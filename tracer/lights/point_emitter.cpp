@@ -147,6 +147,9 @@ PointEmitter make_emitter(const SpotLight& light, const Textures* textures,
   spot.cutoff_rad = std::clamp(static_cast<double>(light.cutoff_deg) * radians, 0.0, pi);
   spot.beam_rad = std::clamp(static_cast<double>(light.beam_deg) * radians, 0.0, spot.cutoff_rad);
   spot.cos_cutoff = portable_cos(spot.cutoff_rad);
+  // A negative power of the cosine grows without bound towards a right angle: up to 10³⁶, which floats have.
+  if (spot.tightness < 0)
+    spot.cos_cutoff = std::max(spot.cos_cutoff, portable_pow(10.0, 36 / spot.tightness));
   spot.cos_beam = portable_cos(spot.beam_rad);
   spot.texture = light.texture;
   spot.frame = std::max(1e-9, portable_tan(std::min(spot.cutoff_rad, 0.4999 * pi)));
@@ -155,9 +158,11 @@ PointEmitter make_emitter(const SpotLight& light, const Textures* textures,
   double flux =
       2 * pi * (1 - spot.cos_beam + mean * (spot.cos_beam - spot.cos_cutoff)) * luminance(light.intensity);
   // As if the beam was all of the cone: ∫ 2π x^t dx.
-  if (spot.tightness > 0 && spot.cos_cutoff >= 0)
-    flux *= (1 - portable_pow(spot.cos_cutoff, spot.tightness + 1)) /
-            ((spot.tightness + 1) * std::max(1 - spot.cos_cutoff, 1e-12));
+  if (spot.tightness != 0 && spot.cos_cutoff >= 0) {
+    double power = spot.tightness + 1;
+    if (std::abs(power) < 1e-6) power = 1e-6;  // as a logarithm
+    flux *= (1 - portable_pow(spot.cos_cutoff, power)) / (power * std::max(1 - spot.cos_cutoff, 1e-12));
+  }
   if (spot.texture) flux *= mean_over_frame(*spot.texture, textures, records);
   bound_cone(shape, spot.cutoff_rad);
   shape.kind = spot;

@@ -30,7 +30,7 @@ VITRAIL_LANES D spot_part(D z, const SpotOf& spot) {
   }
   part = select<D>(z >= cos_beam, fill<D>(1), part);
   const D tightness = number(&SpotShape::tightness);
-  if (const Mask<D> tight = tightness > 0; any(tight))
+  if (const Mask<D> tight = tightness != 0; any(tight))
     part = select<D>(tight, part * portable_pow<D>(z, tightness), part);
   return select<D>(z > cos_cutoff, part, fill<D>(0));
 }

@@ -50,7 +50,8 @@ void write(Context& context, Element root, const SpotLight& light) {
   add_transform(element, light.light_to_world);
   const Point3d position = transform_point(light.light_to_world, {0, 0, 0});
   add_spectrum(element, "intensity", intensity_of(context, light, position), Meaning::emission);
-  if (light.tightness > 0) context.approximated(fmt::format("its tightness {} is left out", light.tightness));
+  if (light.tightness != 0)
+    context.approximated(fmt::format("its tightness {} is left out", light.tightness));
   const MatchedSpot spot = matched_spot(light, SpotLight::Falloff::linear);
   add_float(element, "cutoff_angle", static_cast<float>(spot.cutoff_deg));
   add_float(element, "beam_width", static_cast<float>(spot.beam_deg));

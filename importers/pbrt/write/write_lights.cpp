@@ -31,7 +31,7 @@ class LightWriter {
   const char* operator()(SpotLight l) {
     light_to_world_ = l.light_to_world;
     l.intensity = intensity(l, transform_point(l.light_to_world, {0, 0, 0}));
-    if (l.tightness > 0) p_.approximated(fmt::format("its tightness {} is left out", l.tightness));
+    if (l.tightness != 0) p_.approximated(fmt::format("its tightness {} is left out", l.tightness));
     if (l.texture && textured_spot(l)) return "projection";
     const MatchedSpot spot = matched_spot(l, SpotLight::Falloff::smoothstep);
     if (spot.difference > 0)

@@ -50,9 +50,6 @@ void SceneMaker::add_light(const Object& object, const LightShape& light, const 
   if (!(std::max({color.r, color.g, color.b}) > 0)) return;
   if (std::min({light.color.v[0], light.color.v[1], light.color.v[2]}) < 0)
     reader_.notes.approximated("a light of negative colour: 0", place);
-  if (light.kind == LightShape::Kind::spot && light.tightness < 0)
-    reader_.notes.approximated(
-        fmt::format("a spotlight of tightness {:g}: 0, without its bright rim", light.tightness), place);
   if (light.area && (light.count1 > most_lights || light.count2 > most_lights))
     reader_.notes.approximated("area_light: a grid of eight lights along an axis", place);
   const Spectrum intensity = emission_from_rgb(color);
@@ -90,7 +87,7 @@ void SceneMaker::add_light(const Object& object, const LightShape& light, const 
         spot.cutoff_deg = static_cast<float>(std::clamp(edge, 0.01, 90.0));
         spot.beam_deg =
             static_cast<float>(std::clamp(light.radius_deg, 0.0, static_cast<double>(spot.cutoff_deg)));
-        spot.tightness = static_cast<float>(std::max(light.tightness, 0.0));
+        spot.tightness = static_cast<float>(light.tightness);
       }
       made.model = spot;
     }

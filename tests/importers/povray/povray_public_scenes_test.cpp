@@ -40,6 +40,16 @@ TEST_F(PovrayPublicScenes, SpotlightsWithARadiusBeyondTheFalloff) {
                  0.03);
 }
 
+// The cosine's power is below 0: towards its rim such a spotlight is up to three times as bright.
+TEST_F(PovrayPublicScenes, SpotlightsThatAreBrightAtTheirRim) {
+  for (const char* cone : {"radius 20 falloff 28 tightness -10", "radius 5 falloff 25 tightness -1"})
+    expect_alike("#version 3.7; global_settings { assumed_gamma 1 }\n" + flat_camera +
+                     "light_source { -5*z rgb .3 spotlight point_at 0 " + cone +
+                     " }\n"
+                     "plane { -z, 0 pigment { rgb 1 } finish { ambient 0 diffuse 1 } }\n",
+                 0.03);
+}
+
 // Clear planes that bend nothing are no levels of max_trace_level.
 TEST_F(PovrayPublicScenes, ClearPlanesAreNoLevels) {
   std::string planes;

@@ -256,21 +256,6 @@ TEST_F(ReadPovrayPictures, SpotlightsAcrossAnAreaAreALamp) {
   }
 }
 
-// povray multiplies by that power of the cosine: here by up to 3.5.
-TEST_F(ReadPovrayPictures, SpotlightsThatAreBrightAtTheirRimAreTold) {
-  const auto told = [&](const std::string& tightness) {
-    const ImportedScene scene = read(gamma_1 + ball +
-                                     "light_source { -5*z rgb 1 spotlight point_at 0 radius 5"
-                                     " falloff 28 tightness " +
-                                     tightness + " }");
-    return std::ranges::any_of(scene.diagnostics, [](const Diagnostic& d) {
-      return d.message.find("a spotlight of tightness -10") != std::string::npos;
-    });
-  };
-  EXPECT_TRUE(told("-10"));
-  EXPECT_FALSE(told("10"));
-}
-
 // As lamps of nothing are written: their front shines, and light passes.
 TEST_F(ReadPovrayPictures, ClearLamps) {
   const Scene scene =

@@ -8,6 +8,7 @@
 #include "scene/geometry/portable_math.h"
 #include "scene/models/fading.h"
 #include "tests/tracer/lights/light_fixtures.h"
+#include "tracer/lights/point_emitter.h"
 
 namespace vitrail::test::fading_lights_test {
 namespace {
@@ -100,23 +101,34 @@ TEST(FadingLights, Many) {
   EXPECT_LT(deviation, 1.5 * expected);
 }
 
-// cos^tightness within the cone, and no fall-off.
+// cos^tightness within the cone, and no fall-off; powers below 0 up to where they leave the floats.
 TEST(FadingLights, TightSpot) {
-  SpotLight spot;
-  spot.light_to_world = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0});
-  spot.intensity = ConstantSpectrum{1};
-  spot.beam_deg = spot.cutoff_deg = 60;
-  spot.fading = Fading{};
-  spot.tightness = 10;
-  const std::vector<Light> lights{{spot, {}}};
-  const LightScene scene = scene_of(lights);
-  const LightSampler sampler = sampler_of(scene);
-  for (const double degrees : {0.0, 20.0, 50.0}) {
-    const double x = 5 * std::tan(degrees * pi / 180);
-    const auto sample = sample_light(sampler, {x, 0, 0}, {0.5f, 0.5f, 0.5f, 0.5f}, some_wavelengths());
-    ASSERT_TRUE(sample);
-    EXPECT_NEAR(static_cast<double>(sample->radiance.v[0]) / sample->pdf,
-                std::pow(std::cos(degrees * pi / 180), 10), 1e-6);
+  for (const float tightness : {10.0f, -1.0f, -10.0f, -1000.0f}) {
+    SpotLight spot;
+    spot.light_to_world = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0});
+    spot.intensity = ConstantSpectrum{1};
+    spot.beam_deg = spot.cutoff_deg = 60;
+    spot.fading = Fading{};
+    spot.tightness = tightness;
+    const std::vector<Light> lights{{spot, {}}};
+    const LightScene scene = scene_of(lights);
+    const LightSampler sampler = sampler_of(scene);
+    for (const double degrees : {0.0, 20.0, 50.0}) {
+      const double x = 5 * std::tan(degrees * pi / 180);
+      const double expected = std::pow(std::cos(degrees * pi / 180), tightness);
+      const auto sample = sample_light(sampler, {x, 0, 0}, {0.5f, 0.5f, 0.5f, 0.5f}, some_wavelengths());
+      ASSERT_EQ(sample.has_value(), expected < 1e36) << tightness << " " << degrees;
+      if (sample)
+        EXPECT_NEAR(static_cast<double>(sample->radiance.v[0]) / sample->pdf / expected, 1, 2e-5)
+            << tightness;
+    }
+    const PointEmitter emitter = make_emitter(spot, nullptr, {});
+    double flux = 0;  // ∫ 2π x^t dx
+    constexpr int n = 100000;
+    const double edge = std::max(0.5, tightness < 0 ? std::pow(10, 36 / static_cast<double>(tightness)) : 0);
+    for (int i = 0; i < n; ++i)
+      flux += 2 * pi * std::pow(edge + (1 - edge) * (i + 0.5) / n, tightness) * (1 - edge) / n;
+    EXPECT_NEAR(emitter.flux / flux, 1, 1e-5) << tightness;
   }
 }
 
