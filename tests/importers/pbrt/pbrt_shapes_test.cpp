@@ -477,10 +477,12 @@ TEST(PbrtShapes, TheWaistOfAHyperboloidIsWhereZIs0) {
 
 TEST(PbrtShapes, AHyperboloidThatEndsAtZ0BeginsThere) {
   const std::string shape = "Shape \"hyperboloid\" ";
-  const TriangleMesh up = import_v3(shape + "\"point p1\" [1 0 0] \"point p2\" [1 1 1]").scene.meshes.at(0);
-  const TriangleMesh down = import_v3(shape + "\"point p1\" [1 1 1] \"point p2\" [1 0 0]").scene.meshes.at(0);
-  EXPECT_EQ(up.positions, down.positions);
-  EXPECT_EQ(up.positions[0], (Point3f{1, 0, 0}));
+  const TriangleMesh upwards =
+      import_v3(shape + "\"point p1\" [1 0 0] \"point p2\" [1 1 1]").scene.meshes.at(0);
+  const TriangleMesh downwards =
+      import_v3(shape + "\"point p1\" [1 1 1] \"point p2\" [1 0 0]").scene.meshes.at(0);
+  EXPECT_EQ(upwards.positions, downwards.positions);
+  EXPECT_EQ(upwards.positions[0], (Point3f{1, 0, 0}));
 }
 
 TEST(PbrtShapes, WithoutPointsAreLeftOut) {
