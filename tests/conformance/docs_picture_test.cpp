@@ -126,6 +126,11 @@ std::vector<CorpusScene> documented_scenes() {
   return scenes;
 }
 
+TEST(DocsPictureScenes, AreThere) {
+  if (corpus().empty()) GTEST_SKIP() << "no corpus";
+  EXPECT_FALSE(documented_scenes().empty());
+}
+
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DocsPicture);
 INSTANTIATE_TEST_SUITE_P(Corpus, DocsPicture, ::testing::ValuesIn(documented_scenes()),
                          [](const auto& scene) { return case_name(scene.param.name()); });

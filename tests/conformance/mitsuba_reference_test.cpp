@@ -112,6 +112,11 @@ std::vector<CorpusScene> scenes_with_variance() {
   return scenes;
 }
 
+TEST(MitsubaReferenceScenes, AreThere) {
+  if (corpus().empty()) GTEST_SKIP() << "no corpus";
+  EXPECT_FALSE(scenes_with_variance().empty());
+}
+
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(MitsubaReference);
 INSTANTIATE_TEST_SUITE_P(Corpus, MitsubaReference, ::testing::ValuesIn(scenes_with_variance()),
                          [](const auto& scene) { return case_name(scene.param.name()); });
