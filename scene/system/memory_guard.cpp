@@ -177,6 +177,7 @@ void forget_refusal() {
 }
 
 LentReserve::LentReserve() : before_(memory_refusal()), bytes_(is_guarding() ? reserve / 4 * 3 : 0) {
+  if (is_guarding()) forget_code_pages();
   constexpr std::uint64_t least = 2 << 20, least_budget = 15 << 20;
   if (const std::uint64_t enough =
           std::min(resident_bytes() + least, std::max(limit + reserve, least_budget));

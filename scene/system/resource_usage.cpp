@@ -2,6 +2,8 @@
 #include "scene/system/resource_usage.h"
 
 #include <fcntl.h>
+#include <link.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
@@ -9,7 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
 #include <fstream>
+#include <span>
 #include <string>
 
 namespace vitrail {
@@ -37,6 +41,21 @@ std::uint64_t peak_resident_bytes() {
   rusage u{};
   ::getrusage(RUSAGE_SELF, &u);
   return static_cast<std::uint64_t>(u.ru_maxrss) * 1024;
+}
+
+// Segments that are run are never written: nothing is lost.
+void forget_code_pages() {
+  ::dl_iterate_phdr(
+      [](dl_phdr_info* object, std::size_t, void*) {
+        static const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+        for (const ElfW(Phdr) & segment : std::span(object->dlpi_phdr, object->dlpi_phnum))
+          if (segment.p_type == PT_LOAD && (segment.p_flags & PF_X) && !(segment.p_flags & PF_W)) {
+            const std::uintptr_t begin = object->dlpi_addr + segment.p_vaddr, first = begin / page * page;
+            ::madvise(reinterpret_cast<void*>(first), begin + segment.p_memsz - first, MADV_DONTNEED);
+          }
+        return 0;
+      },
+      nullptr);
 }
 
 // The second number of the file is pages. Asked for often, and where nothing may be allocated.

@@ -108,7 +108,7 @@ TEST_F(EditAndRender, PicturesByTheImageLibraryAreCounted) {
 
 // Other programs make them beside rank 0, or it reads the film once more.
 TEST_F(EditAndRender, WhatShowsAPictureIsCounted) {
-  edit({.width = 200});
+  edit({.width = 4000});
   const std::string here = fmt::format("cd '{}' && ", directory_.path().string());
   ASSERT_EQ(run(here + vitrail("partition") + " scene.pbrt -o s.vit --quiet").status, 0);
   const auto render_it = [&](const std::string& more) {

@@ -250,8 +250,8 @@ const std::map<std::string, std::string>& third_parties() {
 }
 
 bool is_of_the_system(const std::string& header) {
-  static const Names system{"dlfcn.h", "fcntl.h", "immintrin.h", "malloc.h", "netdb.h", "pthread.h",
-                            "sched.h", "spawn.h", "sys",         "time.h",   "unistd.h"};
+  static const Names system{"dlfcn.h",   "fcntl.h", "immintrin.h", "link.h", "malloc.h", "netdb.h",
+                            "pthread.h", "sched.h", "spawn.h",     "sys",    "time.h",   "unistd.h"};
   return header.find_first_of("./") == std::string::npos ||
          system.contains(header.substr(0, header.find('/')));
 }

@@ -217,6 +217,19 @@ TEST(MemoryGuard, AllowsAllWhereNothingIsPromised) {
   EXPECT_FALSE(memory_refusal().refused);
 }
 
+// Code that no longer runs is not resident, and runs again as it did.
+TEST(ResourceUsage, CodePagesComeBack) {
+  constexpr std::uint64_t much = std::uint64_t{100} << 10;
+  std::uint64_t before = resident_bytes(), after = before;
+  for (int i = 0; i < 5 && after + much > before; ++i) {  // the system may take and bring pages meanwhile
+    before = resident_bytes();
+    forget_code_pages();
+    after = resident_bytes();
+  }
+  EXPECT_LT(after + much, before);
+  EXPECT_GT(cpu_seconds(), 0);
+}
+
 }  // namespace
 }  // namespace vitrail::memory_guard_test
 
