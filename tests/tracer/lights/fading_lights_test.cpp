@@ -118,9 +118,10 @@ TEST(FadingLights, TightSpot) {
       const double expected = std::pow(std::cos(degrees * pi / 180), tightness);
       const auto sample = sample_light(sampler, {x, 0, 0}, {0.5f, 0.5f, 0.5f, 0.5f}, some_wavelengths());
       ASSERT_EQ(sample.has_value(), expected < 1e36) << tightness << " " << degrees;
-      if (sample)
+      if (sample) {
         EXPECT_NEAR(static_cast<double>(sample->radiance.v[0]) / sample->pdf / expected, 1, 2e-5)
             << tightness;
+      }
     }
     const PointEmitter emitter = make_emitter(spot, nullptr, {});
     double flux = 0;  // ∫ 2π x^t dx
