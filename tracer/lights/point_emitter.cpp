@@ -150,7 +150,7 @@ PointEmitter make_emitter(const SpotLight& light, const Textures* textures,
   // A negative power of the cosine grows without bound towards a right angle: up to 10³⁶, which floats have.
   if (spot.tightness < 0)
     spot.cos_cutoff = std::max(spot.cos_cutoff, portable_pow(10.0, 36 / spot.tightness));
-  spot.cos_beam = portable_cos(spot.beam_rad);
+  spot.cos_beam = std::max(portable_cos(spot.beam_rad), spot.cos_cutoff);
   spot.texture = light.texture;
   spot.frame = std::max(1e-9, portable_tan(std::min(spot.cutoff_rad, 0.4999 * pi)));
   // The falloff over cosines has the mean 1/2, and 1/5 where it is quartic; linear in the angle: nearly 1/2.
