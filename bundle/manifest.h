@@ -39,8 +39,8 @@ struct KdNode {
 // Where in the packs (packs.h) a domain is.
 struct PackPlace {
   std::uint32_t pack = 0;
-  std::uint64_t offset = 0;  // bytes
-  auto operator<=>(const PackPlace&) const = default;
+  std::uint64_t offset = 0;                            // bytes
+  auto operator<=>(const PackPlace&) const = default;  // NOLINT(modernize-use-nullptr): its own 0
 };
 
 // What the manifest knows of a domain's file.

@@ -16,6 +16,7 @@ namespace vitrail {
 namespace {
 
 constexpr int grid_size = 32;
+constexpr std::size_t grid_points = std::size_t{grid_size} * grid_size * grid_size;
 constexpr double edge = 1e-5;  // the grid leaves out what is nearer to 0 or 1
 
 // A grey v has x with v = S(x). Of both, w = r/(1 + r) with r = √(v/(1 − v)) = x + √(1 + x²): in these terms
@@ -115,7 +116,7 @@ class StartGrid {
   }
 
   const double first_ = warp(0), spacing_ = (warp(1) - warp(0)) / (grid_size - 1);
-  std::vector<std::atomic<bool>> made_ = std::vector<std::atomic<bool>>(grid_size * grid_size * grid_size);
+  std::vector<std::atomic<bool>> made_ = std::vector<std::atomic<bool>>(grid_points);
   std::vector<Vertex> vertices_ = std::vector<Vertex>(made_.size());
   std::mutex mutex_;
 };

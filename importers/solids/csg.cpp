@@ -139,7 +139,7 @@ class Evaluation {
     for (const Literal& literal : unbounded) {
       if (left.empty()) return {};
       const Solid part = literal.csg->within(bounds_of(left));
-      left = literal.negated ? without(std::move(left), {part}) : common(left, {part});
+      left = literal.negated ? without(left, {part}) : common(left, {part});
     }
     for (const Bodies& other : positives) left = common(left, other);
     left = without(std::move(left), negatives);
@@ -166,10 +166,10 @@ class Evaluation {
 
   // One after the other. What is left of a body may intersect itself by a rounding, where the next cannot be
   // cut out: then all that is cut out is made one first.
-  Bodies without(Bodies left, const Bodies& cut) {
+  Bodies without(const Bodies& left, const Bodies& cut) {
     const Bodies together = grouped(cut);
     Bodies made;
-    for (Solid& body : left) {
+    for (const Solid& body : left) {
       const std::vector<std::string> before = result_.refused;
       Solid rest = cut_out(body, together);
       if (result_.refused.size() > before.size() && together.size() > 1) {

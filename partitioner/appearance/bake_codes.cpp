@@ -19,9 +19,10 @@ CodeValues values_of_bytes(const ImageTexture& texture, TextureUse use) {
   const bool number = use == TextureUse::number;
   StoredImage ramp{black_image(code_count, 1, number ? 1 : 3), true, {}};
   const auto channels = static_cast<std::size_t>(ramp.image.channels);
-  for (std::size_t i = 0; i < ramp.image.values.size(); ++i)
-    ramp.image.values[i] =
-        static_cast<float>(i / channels) * (1.0f / (code_count - 1));  // as the library has it
+  for (std::size_t i = 0; i < ramp.image.values.size(); ++i) {
+    const std::size_t code = i / channels;
+    ramp.image.values[i] = static_cast<float>(code) * (1.0f / (code_count - 1));  // as the library has it
+  }
   ImageTexture one = texture;
   if (number && one.number == ImageNumber::alpha) one.number = ImageNumber::mean;  // of the ramp
   const Image all = texture_values(one, std::move(ramp), number ? ImageUse::number : ImageUse::color);

@@ -121,7 +121,7 @@ std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, 
                                      bool all_levels, const SourceLocation& where) {
   const std::string key = cache_.is_on() ? key_of(image, use, tint, all_levels, scene_.settings.rgb) : "";
   if (!key.empty()) {
-    const std::string name = next_file();
+    std::string name = next_file();
     const auto kept = bundle_.empty() ? cache_.note(key) : cache_.take(key, bundle_ / name);
     if (kept) {
       report(image, {((*kept)[2] & 1) != 0, (*kept)[3]}, where);
@@ -154,7 +154,7 @@ std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, 
   };
   if (bundle_.empty() && !(trust_integers_ && layout.integer && keeps_integers_finite(image)))
     rows.read([](const Image&) {});
-  const std::string name = write_image(rows, use, all_levels);
+  std::string name = write_image(rows, use, all_levels);
   report(image, facts, where);
   if (!key.empty() && !bundle_.empty())
     cache_.keep(key, bundle_ / name,
@@ -167,7 +167,7 @@ std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, 
 std::string TextureBaker::write_codes(const ImageTexture& image, const ByteRows& rows,
                                       const CodedImage& coded, bool all_levels, const SourceLocation& where,
                                       const std::string& key) {
-  const std::string name = next_file();
+  std::string name = next_file();
   files_.push_back({name, 0, 0});
   if (bundle_.empty()) {
     if (!trust_integers_) rows.read([](auto) {});
@@ -219,7 +219,7 @@ void TextureBaker::report(const ImageTexture& image, const ImageFacts& facts, co
 }
 
 std::string TextureBaker::write_image(const ImageRows& rows, TextureUse use, bool all_levels) {
-  const std::string name = next_file();
+  std::string name = next_file();
   if (bundle_.empty()) {
     files_.push_back({name, 0, 0});
     return name;

@@ -241,7 +241,7 @@ SpectrumParameter TextureBaker::bake_texture(Id<Texture> texture, TextureUse use
   if (original.is_float && use != TextureUse::vector) use = TextureUse::number;
   const auto known = baked_.find({texture.value, use});
   if (known != baked_.end()) return known->second;
-  const SpectrumParameter baked = std::visit(Clone{*this, texture, use}, original.model);
+  SpectrumParameter baked = std::visit(Clone{*this, texture, use}, original.model);
   baked_.insert({{texture.value, use}, baked});
   return baked;
 }

@@ -42,7 +42,7 @@ struct Halves {
 };
 
 // What is cut keeps the rest of its box on either side.
-Halves halves(std::vector<Item> sample, Plane plane) {
+Halves halves(const std::vector<Item>& sample, Plane plane) {
   Halves h;
   for (const Item& item : sample) {
     const Interval i{item.bounds.lower[plane.axis], item.bounds.upper[plane.axis]};
@@ -95,7 +95,8 @@ KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& s, const PlanRule& 
   low.cell.upper[plane.axis] = high.cell.lower[plane.axis] = plane.split;
   const auto axis = static_cast<std::uint32_t>(plane.axis);
   const std::size_t items = sample.size();
-  Halves half_samples = halves(std::move(sample), plane);
+  Halves half_samples = halves(sample, plane);
+  sample = {};  // its memory is the halves' now
   if (parts_nothing(s, rule, items, half_samples)) {
     const std::uint32_t whole = KdNode::leaf_bit | s.first_domain;
     kd_nodes[s.node] = {plane.split, axis, whole, whole};

@@ -99,7 +99,7 @@ BoxTree build_bvh(std::span<const Bounds3f> boxes, unsigned leaf_size) {
   BoxTree out;
   if (boxes.empty()) return out;
   const BinaryTree tree = build_binary_tree(boxes, leaf_size);
-  out.nodes.reserve(boxes.size() / (3 * leaf_size) + 1);
+  out.nodes.reserve(boxes.size() / (std::size_t{3} * leaf_size) + 1);
   out.leaves.reserve(boxes.size() / 3 * 4 + leaf_size);
   Collapser(tree, leaf_size, out).add_root();
   return out;

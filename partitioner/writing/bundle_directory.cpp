@@ -102,7 +102,7 @@ fs::path BundleDirectory::give_name() const {
   if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0)
     return temporary_;
   // A file system that cannot exchange.
-  const fs::path old = beside(target_, "old");
+  fs::path old = beside(target_, "old");
   fs::rename(target_, old);
   try {
     fs::rename(temporary_, target_);

@@ -12,6 +12,7 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "bundle/checksum.h"
 #include "bundle/triangle_number.h"
@@ -157,7 +158,7 @@ void write_object(const World& world, const WorldObject& o, std::uint32_t first,
         return std::ranges::binary_search(files.planned[file].objects, ref.object);
       });
     else if (file == first)
-      refs = std::move(all_refs);
+      refs = std::exchange(all_refs, {});
     Bounds3f& box = files.bounds[file];
     for (const std::uint32_t t : part)
       for (const Point3f& v : object.triangles[t]) extend(box, v);

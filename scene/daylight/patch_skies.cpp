@@ -41,7 +41,8 @@ PatchSkies::PatchSkies(const SkyPatches& patches) : horizontal_(patches.count())
   for (std::size_t patch = 1; patch < patches.count(); ++patch) {
     double height = 0;
     for (int i = 0; i < side * side; ++i) {
-      const Vector3d d = patches.direction(patch, (i % side + 0.5) / side, (i / side + 0.5) / side);
+      const int column = i % side, row = i / side;
+      const Vector3d d = patches.direction(patch, (column + 0.5) / side, (row + 0.5) / side);
       const auto known = std::ranges::find(heights_, d.z);
       points_.push_back({d, static_cast<std::size_t>(known - heights_.begin())});
       if (known == heights_.end()) heights_.push_back(d.z);

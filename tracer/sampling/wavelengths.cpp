@@ -61,7 +61,7 @@ struct TablePlace {
 };
 
 std::array<SampledWavelengths, 4> make_luminance_wavelengths() {
-  constexpr std::size_t count = 4 * hero_count;
+  constexpr std::size_t count = std::size_t{4} * hero_count;
   std::array<SampledWavelengths, 4> result{};
   double below = 0;
   std::size_t next = 0;

@@ -308,9 +308,8 @@ Scattering Materials::scattering_at(const Material& material, const Interaction&
       tables_};
   Bsdf bsdf = std::visit(maker, material.model);
   const Vector3d normal = shading_normal(material, at, takes_any_normal(bsdf));
-  return Scattering{std::move(bsdf),
-                    frame_around(normal, tangent(material, at), both_sides ? 1.0 : at.side()), both_sides,
-                    material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
+  return Scattering{bsdf, frame_around(normal, tangent(material, at), both_sides ? 1.0 : at.side()),
+                    both_sides, material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
 }
 
 namespace {

@@ -141,12 +141,13 @@ class SceneReader {
   // The meshes of a mesh: two where its (u,v) are mirrored on a part of it, and a normal map shows.
   const std::vector<Part>& keep(std::size_t id) {
     const auto [at, is_new] = meshes_.try_emplace(id);
-    if (!is_new) return at->second;
+    std::vector<Part>& parts = at->second;
+    if (!is_new) return parts;
     const auto layout = materials_.layout(surfaces_.at(asset_.meshes[id].material).material);
     TriangleMesh whole = mesh_of(std::move(asset_.meshes[id]), file_);
     const auto add = [&](TriangleMesh mesh, AgainstAxes against) {
       std::vector<TriangleMesh>& meshes = imported_.scene.meshes;
-      at->second.push_back({{static_cast<std::uint32_t>(meshes.size())}, against});
+      parts.push_back({{static_cast<std::uint32_t>(meshes.size())}, against});
       meshes.push_back(memory_.keep(std::move(mesh), {}));
     };
     const std::vector<UvPart> sides = layout ? uv_parts(whole, *layout) : std::vector<UvPart>{};
@@ -154,7 +155,7 @@ class SceneReader {
       add(std::move(whole), sides.empty() ? AgainstAxes{} : sides[0].against);
     else
       for (const UvPart& side : sides) add(only_triangles(whole, side.triangles), side.against);
-    return at->second;
+    return parts;
   }
 
   void add_shapes(std::vector<Shape>& shapes, std::size_t mesh, std::size_t node, const Transform& to_world) {

@@ -24,8 +24,7 @@ void note_numbers_above_one(Builder& b, const Object& o, const char* name, const
 }
 
 SpectrumParameter index_part(Builder& b, const Object& o, const char* name, float otherwise) {
-  const SpectrumParameter value =
-      spectrum_parameter(b, o, name, Quantity::unbounded, ConstantSpectrum{otherwise});
+  SpectrumParameter value = spectrum_parameter(b, o, name, Quantity::unbounded, ConstantSpectrum{otherwise});
   note_numbers_above_one(b, o, name, value);
   return value;
 }

@@ -27,7 +27,7 @@ Origin place_of(const Object& object, std::string_view name) {
 }
 
 std::string existing_file(const Builder& builder, const Object& object, std::string_view name) {
-  const std::string text = object.text(name, "", builder.report);
+  std::string text = object.text(name, "", builder.report);
   const Origin place = place_of(object, name);
   if (text.empty())
     builder.report.fail(fmt::format("{} \"{}\" needs a \"{}\"", object.tag, object.type, name), place);

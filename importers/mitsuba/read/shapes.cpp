@@ -248,7 +248,7 @@ void add_moving(Builder& builder, const Object& object, const ShapeGeometry& geo
   Instance instance{Id<Prototype>{static_cast<std::uint32_t>(scene.prototypes.size())}, {}, object.origin};
   move(builder, motion, instance);
   scene.prototypes.push_back(std::move(prototype));
-  scene.instances.push_back(std::move(instance));
+  scene.instances.push_back(instance);
 }
 
 // Empty for kinds that are not known.

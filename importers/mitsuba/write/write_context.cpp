@@ -17,7 +17,7 @@ std::string Context::new_id(const std::string& name, const char* kind, std::size
   std::string id = name.empty() || substitutable ? fmt::format("_unnamed_{}_{}", kind, index) : name;
   if (substitutable)
     approximated(fmt::format("the name \"{}\" is written as \"{}\": $ starts a parameter", name, id));
-  const std::string unique = ids.take(id);
+  std::string unique = ids.take(id);
   if (unique != id && !name.empty())
     approximated(
         fmt::format("the name \"{}\" is written as \"{}\": another record has it already", name, unique));

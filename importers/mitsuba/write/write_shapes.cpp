@@ -44,7 +44,7 @@ const std::string& bsdf_of(const Context& context, const Shape& shape) {
 // Mitsuba joins meshes of one bsdf, and refuses those of which some are turned and some are not: the others
 // have a mask around it that hides nothing. (Of equal copies Mitsuba makes one.)
 std::string bsdf_facing(Context& context, Element parent, const std::string& id, bool turned) {
-  Context::Facing& facing = context.facings.try_emplace(id, turned).first->second;
+  Context::Facing& facing = context.facings.try_emplace(id, Context::Facing{turned}).first->second;
   if (facing.turned == turned) return id;
   if (!facing.other.empty()) return facing.other;
   Element root = parent.root().child("scene");

@@ -21,7 +21,7 @@ Vector3d winding_normal(const TriangleMesh& mesh, std::size_t triangle) {
 }
 
 std::string write_derived(Context& context, const TriangleMesh& mesh) {
-  const std::string name = context.new_file("meshes", "sides.ply", context.derived_meshes);
+  std::string name = context.new_file("meshes", "sides.ply", context.derived_meshes);
   write_ply_part(mesh, context.file.parent_path() / name);
   return name;
 }

@@ -35,7 +35,7 @@ void add_rgb(Element parent, const std::string& name, const std::array<float, 3>
 // What was read; else the fewest samples that lines through them give the same table back, or all of them
 // where that is not exact.
 std::vector<SpectrumSample> knots(const TabulatedSpectrum& table) {
-  const std::vector<SpectrumSample> all = samples_of(table);
+  std::vector<SpectrumSample> all = samples_of(table);
   if (!table.samples.empty()) return all;
   std::vector<SpectrumSample> few;
   few.push_back(all.front());

@@ -176,8 +176,9 @@ Image bordered(const Image& image) {
   Image result = black_image(image.width + 2, image.height + 2, image.channels);
   const auto row = static_cast<std::ptrdiff_t>(image.width) * image.channels;
   for (std::ptrdiff_t y = 0; y < image.height; ++y)
-    std::copy_n(image.values.begin() + y * row, row,
-                result.values.begin() + (y + 1) * (row + 2 * image.channels) + image.channels);
+    std::copy_n(
+        image.values.begin() + y * row, row,
+        result.values.begin() + (y + 1) * (row + std::ptrdiff_t{2} * image.channels) + image.channels);
   return result;
 }
 

@@ -39,9 +39,8 @@ SourceLocation location(const Place& place) {
   return {place.file ? *place.file : std::string{}, place.line, place.column};
 }
 
-void fail(std::string message, const Place& place) {
-  throw Error(std::move(message), location(place),
-              place.file && place.line > 0 ? excerpt(place) : std::string{});
+void fail(const std::string& message, const Place& place) {
+  throw Error(message, location(place), place.file && place.line > 0 ? excerpt(place) : std::string{});
 }
 
 std::string describe(const Token& token) {

@@ -20,7 +20,7 @@ struct Place {
 SourceLocation location(const Place& place);
 
 // Throws Error with the place and the line of the file that is there.
-[[noreturn]] void fail(std::string message, const Place& place);
+[[noreturn]] void fail(const std::string& message, const Place& place);
 
 enum class TokenKind { word, text, open, close, end_of_import, end };
 

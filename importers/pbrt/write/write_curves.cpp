@@ -106,7 +106,7 @@ class CurveWriter {
 
 std::string write_curves(Writer& w, const Shape& shape, bool uvs, Parameters& p) {
   const TriangleMesh& mesh = w.scene.meshes.at(shape.mesh.value);
-  const std::string name = w.new_file("meshes", "pbrt");
+  std::string name = w.new_file("meshes", "pbrt");
   AtomicFile file(w.directory / name);
   TextSink out(&file);
   CurveWriter curves(out, p.list(), shape.flip_orientation, mesh.quadric->uv == QuadricUv::pbrt);

@@ -66,7 +66,7 @@ std::string written(Parameters& p, const ImageTexture& image, ImageUse use, cons
 }  // namespace
 
 ImageTexture image_for_pbrt(Parameters& p, const ImageTexture& image, ImageUse use, RGB tint) {
-  const ImageTexture taken = taken_by_pbrt(image, use);
+  ImageTexture taken = taken_by_pbrt(image, use);
   try {
     if (tint == RGB{1, 1, 1} && is_read_by_pbrt(image.filename) && have_same_values(image, taken, use))
       return taken;

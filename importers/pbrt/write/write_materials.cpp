@@ -448,7 +448,7 @@ void write_principled(Writer& w, std::size_t index, const PrincipledMaterial& m)
   if (!material.two_sided)
     whole.approximated("its back, which is black in the scene, shows as its front does");
   const auto part = [&](const char* suffix, auto&& write) {
-    const std::string part_name = Writer::add_name(w.materials, name + suffix);
+    std::string part_name = Writer::add_name(w.materials, name + suffix);
     Parameters p(w, owner, material.origin, RecordKind::material);
     MaterialWriter writer(p, index);
     const char* type = write(writer);

@@ -330,7 +330,7 @@ Shared<Function> declare_function(Reader& reader) {
 
 Shared<Function> read_function(Reader& reader) {
   const SourceLocation place = reader.location(reader.peek().place);
-  const Shared<Function> function = declare_function(reader);
+  Shared<Function> function = declare_function(reader);
   say_notes(reader, *function, place);
   reader.function_levels = std::max(reader.function_levels, function->levels);
   return function;

@@ -22,7 +22,7 @@ class Steps {
     return steps;
   }
   // Returns the code of an operation on some operands, the topmost last.
-  static Steps of(Op op, std::vector<Steps> operands) {
+  static Steps of(Op op, const std::vector<Steps>& operands) {
     Steps all(0);
     all.code_.clear();
     for (const Steps& operand : operands)

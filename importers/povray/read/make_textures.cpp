@@ -159,7 +159,7 @@ Spectrum Surfaces::filtered(const Numbers& color) const {
   return unbounded_from_rgb({part(0), part(1), part(2)});
 }
 
-SpectrumParameter Surfaces::tinted(SpectrumParameter value, const Look& look, const Place& place) {
+SpectrumParameter Surfaces::tinted(const SpectrumParameter& value, const Look& look, const Place& place) {
   return look.tint ? add(ProductTexture{value, *look.tint}, false, place) : value;
 }
 

@@ -108,7 +108,7 @@ char opened(Reader& reader) {
 
 }  // namespace
 
-Shared<Pigment> read_pigment_block(Reader& reader, Shared<Pigment> from) {
+Shared<Pigment> read_pigment_block(Reader& reader, const Shared<Pigment>& from) {
   if (const auto named = reader.identifier<Shared<Pigment>>(); named) return *named;
   const char close = opened(reader);
   const Reader::Deeper deeper(reader, reader.here());

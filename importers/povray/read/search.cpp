@@ -54,10 +54,10 @@ Search search_of(const fs::path& scene, const std::vector<std::string>& given) {
 }
 
 std::optional<fs::path> find(const Search& search, const std::string& name) {
-  if (const auto path = found_as(search, name)) return path;
+  if (auto path = found_as(search, name)) return path;
   std::string slashes = name;
   std::replace(slashes.begin(), slashes.end(), '\\', '/');
-  if (const auto path = found_as(search, slashes)) return path;
+  if (auto path = found_as(search, slashes)) return path;
   return found_in_another_case(search, slashes);
 }
 

@@ -68,9 +68,8 @@ SolidShape prism(Reader& reader) {
       prism.conic = true;
     else if (reader.accept(Word::linear_sweep_))
       prism.conic = false;
-    else if (const Token t = reader.peek(); t.kind == TokenKind::word && spline_kind(t.symbol->word))
-      prism.spline = spline_kind_of(reader);
-    else if (t.is(Word::bezier_spline_))
+    else if (const Token t = reader.peek();
+             t.is(Word::bezier_spline_) || (t.kind == TokenKind::word && spline_kind(t.symbol->word)))
       prism.spline = spline_kind_of(reader);
     else
       more = false;

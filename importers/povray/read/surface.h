@@ -183,10 +183,10 @@ struct MaterialParts {
 };
 
 // Behind the word, a block or, where that may be, the name of one.
-Shared<Pigment> read_pigment_block(Reader& reader, Shared<Pigment> from = {});
+Shared<Pigment> read_pigment_block(Reader& reader, const Shared<Pigment>& from = {});
 Shared<Pigment> read_pattern_block(Reader& reader);
 Shared<Bump> read_normal_block(Reader& reader);
-Shared<Finish> read_finish_block(Reader& reader, Shared<Finish> from = {});
+Shared<Finish> read_finish_block(Reader& reader, const Shared<Finish>& from = {});
 Shared<Texture> read_texture_block(Reader& reader);
 
 // Reads what comes behind `normal` in or behind a texture that was transformed, as povray shows it: a pigment

@@ -106,7 +106,7 @@ class Surfaces {
   SpectrumParameter highlight_color(const Pigment& pigment, const Finish& finish, const Transform& to_world,
                                     const Look& look);
   // Returns that times what the layers above let through of each colour.
-  SpectrumParameter tinted(SpectrumParameter value, const Look& look, const Place& place);
+  SpectrumParameter tinted(const SpectrumParameter& value, const Look& look, const Place& place);
   // Puts into `look`, that of a layer below, what a layer above it does to the light that it lets through.
   void put_above(const Texture& texture, const Transform& to_world, Look& look);
   Id<Material> clear_material(const Pigment& pigment, const Finish& finish, const Interior* interior);

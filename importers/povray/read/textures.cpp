@@ -115,7 +115,7 @@ bool read_finish_part(Reader& reader, Finish& finish, const Token& token) {
 
 }  // namespace
 
-Shared<Finish> read_finish_block(Reader& reader, Shared<Finish> from) {
+Shared<Finish> read_finish_block(Reader& reader, const Shared<Finish>& from) {
   if (const auto named = reader.identifier<Shared<Finish>>()) return *named;
   reader.expect('{', "behind finish");
   Finish finish = from ? *from : Finish{};
@@ -131,7 +131,7 @@ Shared<Finish> read_finish_block(Reader& reader, Shared<Finish> from) {
     if (token.kind != TokenKind::word || !read_finish_part(reader, finish, token))
       reader.unexpected(token, "a part of finish");
   }
-  return std::make_shared<Finish>(std::move(finish));
+  return std::make_shared<Finish>(finish);
 }
 
 Shared<Texture> moved(const Shared<Texture>& texture, const Transform& by) {

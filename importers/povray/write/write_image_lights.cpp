@@ -84,7 +84,7 @@ Thrown thrown(Context& context, const ProjectionLight& light) {
 // The pixels of an equal-area map at the middles of those of a fine map that POV-Ray knows: its edges stay
 // sharp.
 Image by_latitude_and_longitude(const Image& picture) {
-  using enum EnvironmentProjection;
+  using enum EnvironmentLight::Projection;
   constexpr int height = 1024, width = 2 * height;
   Image result;
   result.width = width, result.height = height, result.channels = picture.channels;
@@ -139,7 +139,7 @@ std::string shaded_light(Context& context, const ProjectionLight& light, WritePo
 
 std::string shaded_light(Context& context, const GoniometricLight& light, WritePoint point,
                          const Origin& origin) {
-  using enum EnvironmentProjection;
+  using enum EnvironmentLight::Projection;
   Image picture = texture_values(image_of(light), read_stored_image(light.filename), ImageUse::number);
   const auto projection = light.latitude_longitude ? latitude_longitude : equal_area;
   double factor = 1;

@@ -45,7 +45,7 @@ bool has_transparent_pixels(const ImageTexture& texture) {
 }
 
 // Whether every channel is the number.
-bool is_grey(ImageTexture texture) {
+bool is_grey(const ImageTexture& texture) {
   if (read_image_layout(texture.filename).channels < 3) return texture.number != ImageNumber::alpha;
   for (const ImageNumber channel : {ImageNumber::red, ImageNumber::green, ImageNumber::blue}) {
     ImageTexture other = texture;

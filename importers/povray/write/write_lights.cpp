@@ -35,7 +35,7 @@ std::string at(const Context& context, Point3d p) { return vector(transform_poin
 std::string strength(const Context& context, const auto& light) {
   const RGB intensity = signed_emission_rgb(light.intensity);
   if (!light.fading) return fmt::format("{} {}", intensity_color(context, intensity), fading(context));
-  const std::string shade = color(intensity * (1 / pi));
+  std::string shade = color(intensity * (1 / pi));
   if (!weakens(*light.fading)) return shade;
   return fmt::format("{} fade_distance {} fade_power {}", shade,
                      static_cast<double>(light.fading->fade_distance) * context.units.scale,
@@ -141,7 +141,8 @@ std::string facing(const Context& context, const Rectangle& r, Vector3d front, R
   const char* const photons = context.has_caustics ? " photons { reflection on refraction on }" : "";
   std::string text;
   for (int i = 0; i < parts * parts; ++i) {
-    const Point3d middle = r.corner + u * (i % parts + 0.5) + v * (i / parts + 0.5) + front * before;
+    const int column = i % parts, row = i / parts;
+    const Point3d middle = r.corner + u * (column + 0.5) + v * (row + 0.5) + front * before;
     text += fmt::format(
         "light_source {{ {} {} spotlight radius 90 falloff 90 tightness 1 point_at {}\n  area_light {}, {}, "
         "{}, {} adaptive {} {}{}{} }}\n",

@@ -222,7 +222,7 @@ class Writer {
     }
     AreaLight source = *light;
     if (!is_unseen) source.scale *= *share;
-    const std::string text = shows_reflection() ? rectangle_light_text(context_, *rectangle, source) : "";
+    std::string text = shows_reflection() ? rectangle_light_text(context_, *rectangle, source) : "";
     if (is_unseen) return text;
     // The source stands for the mesh, which must not be counted a second time.
     const std::string shining = shape_text(shape, mesh, unseen_by_camera() + "no_radiosity ");
