@@ -26,13 +26,13 @@ SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double g
     const MeasuredSky measured = perez_sky(w.direct_normal_w, w.diffuse_horizontal_w, of_sky, w.middle);
     YearHour hour{w.middle, sun.elevation_deg, sun.azimuth_deg};
     if (measured.distribution.diffuse_lx > 0) {
-      const Vector3d to_sun = direction_of(of_sky);
+      const Vector3d to_sun = direction_of(sun);
       hour.direct_normal_lx = is_up ? measured.direct_normal_lx : 0;
       hour.diffuse_lx = measured.distribution.diffuse_lx;
       hour.global_lx = hour.diffuse_lx + hour.direct_normal_lx * to_sun.z;
       if (hour.direct_normal_lx > 0) hour.sun = year.suns.size(), year.suns.push_back(to_sun);
       hour.sky = year.luminances.size() / year.patches;
-      std::vector<double> luminances = skies.luminances(measured.distribution, to_sun);
+      std::vector<double> luminances = skies.luminances(measured.distribution, direction_of(of_sky));
       luminances[0] = ground * hour.global_lx / pi;
       year.luminances.insert(year.luminances.end(), luminances.begin(), luminances.end());
     }

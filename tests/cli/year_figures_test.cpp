@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scene/daylight/sun_position.h"
+#include "scene/geometry/pi.h"
 
 namespace vitrail::year_figures_test {
 namespace {
@@ -38,6 +39,19 @@ SensorYear figures(float error) {
   const SkyYear year = four_hours();
   const NearSuns near = near_suns(year.suns, 3);
   return sensor_year(year, near, {state(near, error)}, {0, 0, 0, 0}, 0, counted_hours(year, {}), {});
+}
+
+// The sky is that of a sun at 3° where it is lower; the sun itself shines from where it is.
+TEST(SkyYear, HasALowSunWhereItStands) {
+  WeatherYear weather;
+  weather.hours = {{{48.86, 2.35}, {2001, 3, 21, 6.5, 1}, 500, 100}, {{48.86, 2.35}, {2001, 3, 21, 6.8, 1}, 500, 100}};
+  const SkyYear year = sky_year(weather, SkyPatches(1), 0);
+  ASSERT_EQ(year.suns.size(), 1u);
+  EXPECT_LT(year.hours[0].elevation_deg, 0);
+  const double elevation = year.hours[1].elevation_deg;
+  EXPECT_GT(elevation, 0);
+  EXPECT_LT(elevation, 3);
+  EXPECT_NEAR(std::asin(year.suns[0].z), elevation * radian, 1e-9);
 }
 
 TEST(YearFigures, AreSharesOfTheHoursOfUse) {

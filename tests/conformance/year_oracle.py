@@ -7,7 +7,8 @@
 The room is room.pbrt and room.rad with sensors.txt and sky.rad, without glass. The year has -ad DIVISIONS of rfluxmtx and --paths of
 ours. Printed are: the sky alone (gendaymtx -s) in hours above 50 lx, sensor by sensor; DA, sDA and ASE of all light; seconds of
 processor. Then --hours of sun are traced by rtrace with a disc where the sun stands for us, and compared with the coefficients of a
-second year without blur. With -ad 8192 rtrace has up to a quarter too little at the back where the sun is beside the window. FOLDER holds Radiance's bin/ and lib/: that of PyPI's pyradiance where none is given.
+second year without blur. ASE is compared on a grid of its own, --grid, with shadow rays of rcontrib alone: with the suns and the light of
+gendaymtx -D, which stand up to .7° apart from ours, and with our suns, whose discs are seen in part for some hours. With -ad 8192 rtrace has up to a quarter too little at the back where the sun is beside the window. FOLDER holds Radiance's bin/ and lib/: that of PyPI's pyradiance where none is given.
 """
 import argparse
 import csv
@@ -16,6 +17,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import resource
 import subprocess
 import tempfile
@@ -23,6 +25,7 @@ import tempfile
 import numpy as np
 
 LX = np.array([47.4, 119.9, 11.6])  # of Radiance's RGB
+DISC = 2 * math.pi * (1 - math.cos(math.radians(.533 / 2)))  # the sun's solid angle
 
 
 def run(words, **more):
@@ -53,7 +56,7 @@ def sun_part(rows, folder):
 class Radiance:
     def __init__(self, folder, room, work):
         self.bin, self.room, self.work = folder / "bin", room, work
-        self.env = {**os.environ, "RAYPATH": str(folder / "lib"), "PATH": f"{folder / 'bin'}:{os.environ['PATH']}"}
+        self.env = {**os.environ, "RAYPATH": f"{work}:{folder / 'lib'}", "PATH": f"{folder / 'bin'}:{os.environ['PATH']}"}
 
     def run(self, words, **more):
         return run([str(w) for w in words], env=self.env, **more)
@@ -76,12 +79,67 @@ class Radiance:
     def sun(self, elevation, azimuth, points, divisions):
         e, a = math.radians(elevation), math.radians(azimuth)
         x, y, z = math.cos(e) * math.sin(a), math.cos(e) * math.cos(a), math.sin(e)
-        bright = 1 / (2 * math.pi * (1 - math.cos(math.radians(.2665))))
+        bright = 1 / DISC
         (self.work / "s.rad").write_text(f"void light sun 0 0 3 {bright} {bright} {bright}\nsun source s 0 0 4 {x} {y} {z} 0.533\n")
         (self.work / "s.oct").write_bytes(self.run(["oconv", self.room / "room.rad", self.work / "s.rad"])[0])
         text, _ = self.run(["rtrace", "-n", 1, "-h", "-I+", "-ab", 8, "-ad", divisions, "-lw", "1e-6", "-aa", 0, "-dj", 0, "-ds", 0,
                             "-dt", 0, "-dc", 1, self.work / "s.oct"], input=points)
         return np.array(text.split(), float).reshape(-1, 3)[:, 1]
+
+    def suns(self, weather):
+        """Of each hour with sun: its number in the year, where gendaymtx has the sun, and lx across its direction."""
+        self.run(["epw2wea", weather, self.work / "w.wea"])
+        self.run(["gendaymtx", "-n", "-O0", "-D", self.work / "suns.rad", self.work / "w.wea"])
+        text = (self.work / "suns.rad").read_text()
+        minutes = re.findall(r"light solar(\d+)", text)
+        bright = re.findall(r"^3 (\S+)", text, re.MULTILINE)
+        directions = np.array([line.split()[:3] for line in re.findall(r"^4 (.*)", text, re.MULTILINE)], float)
+        return np.array(minutes, int) // 60, directions, np.array(bright, float) * LX.sum() * DISC
+
+    def beams(self, directions, points, rays):
+        """What a sun of 1 lx gives straight to the points: [sun][point]. One ray goes to the middle of its disc."""
+        scene = "".join(f"void light m{i} 0 0 3 {1 / DISC} {1 / DISC} {1 / DISC}\nm{i} source s{i} 0 0 4 {x} {y} {z} 0.533\n"
+                        for i, (x, y, z) in enumerate(directions))
+        (self.work / "s.rad").write_text(scene)
+        (self.work / "s.mod").write_text("".join(f"m{i}\n" for i in range(len(directions))))
+        (self.work / "s.oct").write_bytes(self.run(["oconv", self.room / "room.rad", self.work / "s.rad"])[0])
+        found, lines = [], points.splitlines(keepends=True)
+        for first in range(0, len(lines), 50):
+            some = lines[first:first + 50]
+            rows, _ = self.run(["rcontrib", "-n", 1, "-h", "-I+", "-V+", "-ab", 0, "-dj", int(rays > 1), "-ds", 0, "-dt", 0, "-dc", 1,
+                                "-faf", "-y", rays * len(some), "-M", "s.mod", self.work / "s.oct"], input=b"".join(some) * rays)
+            found.append(np.frombuffer(rows, "<f4").reshape(rays, len(some), len(directions), 3)[..., 1].mean(0))
+        return np.concatenate(found).T
+
+
+def compare_sun_hours(year, radiance, weather, grid):
+    """ASE 1000,250h: sensors with more than 250 hours of use above 1000 lx of the sun alone."""
+    columns, rows = map(int, grid.split("x"))
+    points = "".join(f"{4 * (i + .5) / columns} {6 * (j + .5) / rows} 0.8 0 0 1\n" for j in range(rows) for i in range(columns))
+    (radiance.work / "grid.txt").write_text(points)
+    run([*year, "--sensors", radiance.work / "grid.txt", "-o", radiance.work / "a", "--patches", "1", "--paths", "2", "--sun-paths", "2"])
+    hours = table(radiance.work / "a" / "hours.csv")
+    use = np.array([8 <= int(row[2]) < 18 for row in hours])
+    direct = np.array([float(row[5]) for row in hours])
+    sunny = np.where(direct > 0)[0]
+    elevation, azimuth = (np.radians([float(row[i]) for row in hours])[sunny] for i in (3, 4))
+    ours_to_sun = np.stack([np.cos(elevation) * np.sin(azimuth), np.cos(elevation) * np.cos(azimuth), np.sin(elevation)], 1)
+    their_hours, to_sun, their_direct = radiance.suns(weather)
+
+    def bright(which, beams, lx):
+        found = np.zeros((len(hours), columns * rows), bool)
+        found[which] = beams * lx[:, None] > 1000
+        return found[use]
+
+    ours = bright(sunny, np.load(radiance.work / "a" / "as-it-is.beam.npy").T, direct[sunny])
+    points = points.encode()
+    for name, other in (("gendaymtx's suns", bright(their_hours, radiance.beams(to_sun, points, 1), their_direct)),
+                        ("our suns, their middles", bright(sunny, radiance.beams(ours_to_sun, points, 1), direct[sunny])),
+                        ("our suns, 16 rays to the disc", bright(sunny, radiance.beams(ours_to_sun, points, 16), direct[sunny]))):
+        mine, its = ours.sum(0), other.sum(0)
+        print(f"ASE, {mine.size} sensors, {name}: {100 * np.mean(mine > 250):.2f} % beside {100 * np.mean(its > 250):.2f} %; "
+              f"hours most apart {abs(mine - its).max()}, on the average {np.mean(mine - its):+.2f} of {its.mean():.0f}; "
+              f"{100 * np.mean(ours == other):.3f} % of the sensors' hours agree", flush=True)
 
 
 def main():
@@ -93,6 +151,7 @@ def main():
     parser.add_argument("--divisions", type=int, default=32768)
     parser.add_argument("--paths", default="128k")
     parser.add_argument("--sun-paths", default="16")
+    parser.add_argument("--grid", default="20x30", help="sensors of ASE; 0: without it")
     parser.add_argument("--hours", type=int, default=50)
     parser.add_argument("--hour-paths", default="64k")
     parser.add_argument("--hour-divisions", type=int, default=65536)
@@ -124,6 +183,8 @@ def main():
             print(f"DA {target}: {mine.mean():.4f} beside {other.mean():.4f}; most apart {abs(mine - other).max():.4f}; "
                   f"sDA {np.mean(mine >= .5):.3f} beside {np.mean(other >= .5):.3f}")
         print(f"seconds of processor: {ours_s:.1f} beside {traced_s:.1f} of rfluxmtx and {multiplied_s:.1f} of dctimestep")
+        if args.grid != "0":
+            compare_sun_hours(year, radiance, args.weather, args.grid)
         if args.hours == 0:
             return
         lines = sensors.read_bytes().splitlines(keepends=True)
