@@ -92,8 +92,12 @@ void put_daylight(Manifest& m, const DaylightRows& rows) {
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(&m.scene_hash, 1)));
   const DirectionFrame& sky = rows.sky;
+  constexpr double has_melanopic = 1;  // films are no longer what they were without (daylight_rows.h)
   std::vector<Vector3d> told{
-      sky.x, sky.y, sky.z, {rows.patches ? rows.patches->mf() + 0.0 : 0, rows.reflected_alone ? 1.0 : 0, 0}};
+      sky.x,
+      sky.y,
+      sky.z,
+      {rows.patches ? rows.patches->mf() + 0.0 : 0, rows.reflected_alone ? 1.0 : 0, has_melanopic}};
   told.insert(told.end(), rows.suns.begin(), rows.suns.end());
   hasher.add(std::as_bytes(std::span(told)));
   m.scene_hash = hasher.digest();

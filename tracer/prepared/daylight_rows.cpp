@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/prepared/daylight_rows.h"
 
+#include "scene/daylight/photometry.h"
 #include "tracer/prepared/render_scene.h"
 
 namespace vitrail {
+
+const std::array<std::array<float, 3>, table_size>& observer_of(const DaylightRows& rows) {
+  static const auto with_melanopic = [] {
+    std::array<std::array<float, 3>, table_size> observer = cie_1931();
+    for (std::size_t i = 0; i < table_size; ++i) observer[i][2] = melanopic()[i];
+    return observer;
+  }();
+  return rows.any() ? with_melanopic : cie_1931();
+}
 
 void set_daylight(RenderScene& scene, DaylightRows rows) {
   scene.daylight = std::move(rows);

@@ -3,10 +3,12 @@
 // coefficients (Tregenza & Waters, "Daylight coefficients", 1983).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
 #include "scene/daylight/sky_patches.h"
+#include "scene/spectra/color.h"
 #include "tracer/lights/environment.h"
 
 namespace vitrail {
@@ -29,6 +31,10 @@ struct DaylightRows {
     return patches->patch_of(sky.to_light(normalize(cast<double>(direction))));
   }
 };
+
+// What a film of such rows has as X, Y and Z: x̄ and ȳ of the CIE, and in the place of z̄ the melanopic action
+// spectrum (scene/daylight/photometry.h). Else the observer of the CIE.
+const std::array<std::array<float, 3>, table_size>& observer_of(const DaylightRows& rows);
 
 struct RenderScene;
 // Gives them to a scene whose lights are one that is infinite, for patches, or one that is distant.

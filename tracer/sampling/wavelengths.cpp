@@ -122,10 +122,10 @@ double greatest_bin_weight(const SpectralBins& into) {
   return bins / (floor_share * hero_count * into.width_nm());
 }
 
-SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale, const SpectralBins& into) {
+SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale, const SpectralBins& into,
+                             const Observer& observer) {
   SensorWeights w;
   if (into.count > 0) add_bins(w, wavelengths, scale, into);
-  const auto& observer = cie_1931();
   const auto all = static_cast<float>(scale / (hero_count * cie_y_integral_nm));
   for (std::size_t i = 0; i < hero_count; ++i) {
     const TablePlace at(wavelengths.lambda_nm[i]);

@@ -42,9 +42,11 @@ struct SensorWeights {
   std::array<float, hero_count> spectral{};  // 0: in no bin
   std::array<std::uint16_t, hero_count> bin{};
 };
+// Three functions of the wavelength, as x̄, ȳ and z̄ are: at 360, 361 … 830 nm.
+using Observer = std::array<std::array<float, 3>, table_size>;
 // `scale` multiplies them.
 SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale = 1,
-                             const SpectralBins& bins = {});
+                             const SpectralBins& bins = {}, const Observer& observer = cie_1931());
 
 // SensorWeights::spectral is nowhere greater.
 double greatest_bin_weight(const SpectralBins& bins);
