@@ -15,8 +15,12 @@ namespace vitrail {
 struct Coefficients {
   std::size_t sensors = 0, lights = 0;
   std::vector<float> mean, error;  // the standard error of each, by two halves of its samples
+  std::vector<float> melanopic;    // as the mean, but lx of melanopic EDI
 
   std::span<const float> of(std::size_t sensor) const { return {&mean[sensor * lights], lights}; }
+  std::span<const float> melanopic_of(std::size_t sensor) const {
+    return {&melanopic[sensor * lights], lights};
+  }
   std::span<const float> errors_of(std::size_t sensor) const { return {&error[sensor * lights], lights}; }
 };
 

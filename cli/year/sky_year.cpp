@@ -14,10 +14,17 @@ constexpr double lowest_sun_deg = 3;  // of Perez's sky
 
 }  // namespace
 
+bool is_whole_year(const SkyYear& year) { return year.hours.size() >= std::size_t{365} * 24; }
+
 SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double ground) {
   SkyYear year;
   year.patches = patches.count();
   const PatchSkies skies(patches);
+  SkyDistribution overcast = cie_sky(1, {90, 0}, {}).distribution;
+  overcast.diffuse_lx = 1;
+  const std::vector<double> of_overcast = skies.luminances(overcast, {0, 0, 1});
+  year.overcast.assign(of_overcast.begin(), of_overcast.end());
+  year.overcast[0] = static_cast<float>(ground / pi);
   for (const WeatherHour& w : weather.hours) {
     const SunPosition sun = sun_position(w.middle, w.place);
     // An hour at whose middle the sun has not risen has the sky of one that has just done so.
@@ -28,6 +35,7 @@ SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double g
     if (measured.distribution.diffuse_lx > 0) {
       const Vector3d to_sun = direction_of(sun);
       hour.direct_normal_lx = is_up ? measured.direct_normal_lx : 0;
+      hour.direct_normal_w = is_up ? w.direct_normal_w : 0, hour.diffuse_w = w.diffuse_horizontal_w;
       hour.diffuse_lx = measured.distribution.diffuse_lx;
       hour.global_lx = hour.diffuse_lx + hour.direct_normal_lx * to_sun.z;
       if (hour.direct_normal_lx > 0) hour.sun = year.suns.size(), year.suns.push_back(to_sun);
@@ -39,6 +47,20 @@ SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double g
     year.hours.push_back(hour);
   }
   return year;
+}
+
+std::vector<Vector3d> suns_of_day(const WeatherYear& weather, int month, int day, double above_deg) {
+  std::vector<Vector3d> suns;
+  if (weather.hours.empty()) return suns;
+  LocalTime time = weather.hours.front().middle;
+  time.month = month, time.day = day;
+  constexpr int minutes = 24 * 60;
+  for (int minute = 0; minute < minutes; ++minute) {
+    time.hour = (minute + 0.5) / 60;
+    const SunPosition sun = sun_position(time, weather.place);
+    if (sun.elevation_deg > above_deg) suns.push_back(direction_of(sun));
+  }
+  return suns;
 }
 
 }  // namespace vitrail

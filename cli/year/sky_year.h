@@ -16,7 +16,9 @@ struct YearHour {
   LocalTime middle;
   double elevation_deg = 0, azimuth_deg = 0;                   // of the sun in the middle of the hour
   double direct_normal_lx = 0, diffuse_lx = 0, global_lx = 0;  // outdoors; the last two on the ground
-  std::optional<std::size_t> sun;                              // which of SkyYear::suns; none: without sun
+  double direct_normal_w = 0,
+         diffuse_w = 0;            // as measured, W/m², across the sun's direction and on the ground
+  std::optional<std::size_t> sun;  // which of SkyYear::suns; none: without sun
   std::optional<std::size_t> sky;  // which row of SkyYear::luminances; none: night
   int clock_hour() const { return static_cast<int>(middle.hour); }
 };
@@ -26,14 +28,22 @@ struct SkyYear {
   std::vector<Vector3d> suns;
   std::size_t patches = 0;
   std::vector<float> luminances;  // [sky][patch], cd/m²; the first patch is the ground
+  std::vector<float> overcast;    // [patch]: the overcast sky of the CIE that gives 1 lx on the ground
   std::span<const float> sky_of(const YearHour& hour) const {
     return {&luminances[*hour.sky * patches], patches};
   }
 };
 
+// Whether there are all hours of a year.
+bool is_whole_year(const SkyYear& year);
+
 // Makes of each hour the all-weather sky of Perez (sky_distribution.h) and the sun where it stands in the
 // middle of the hour. The ground is as bright as a white sheet that reflects `ground` of the global
 // illuminance. Where the sun is below the horizon then, there is the hour's sky without sun.
 SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double ground);
+
+// Where the sun stands in the middle of each minute of a day of the weather's year, while it is higher than
+// `above_deg`.
+std::vector<Vector3d> suns_of_day(const WeatherYear& weather, int month, int day, double above_deg);
 
 }  // namespace vitrail

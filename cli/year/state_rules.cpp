@@ -16,14 +16,14 @@ namespace vitrail {
 
 namespace {
 
-using Quantity = RuleTerm::Quantity;
+using RuleQuantity = RuleTerm::Quantity;
 using Comparison = RuleTerm::Comparison;
 
-constexpr std::pair<std::string_view, Quantity> quantities[] = {
-    {"sensor", Quantity::sensor},       {"global", Quantity::global},
-    {"diffuse", Quantity::diffuse},     {"direct", Quantity::direct},
-    {"elevation", Quantity::elevation}, {"azimuth", Quantity::azimuth},
-    {"month", Quantity::month},         {"hour", Quantity::hour}};
+constexpr std::pair<std::string_view, RuleQuantity> quantities[] = {
+    {"sensor", RuleQuantity::sensor},       {"global", RuleQuantity::global},
+    {"diffuse", RuleQuantity::diffuse},     {"direct", RuleQuantity::direct},
+    {"elevation", RuleQuantity::elevation}, {"azimuth", RuleQuantity::azimuth},
+    {"month", RuleQuantity::month},         {"hour", RuleQuantity::hour}};
 constexpr std::pair<std::string_view, Comparison> comparisons[] = {{"<", Comparison::less},
                                                                    {"<=", Comparison::less_or_equal},
                                                                    {">", Comparison::greater},
@@ -91,11 +91,11 @@ class RuleReader {
     };
     RuleTerm term;
     const auto* const quantity =
-        std::ranges::find(quantities, next(), &std::pair<std::string_view, Quantity>::first);
+        std::ranges::find(quantities, next(), &std::pair<std::string_view, RuleQuantity>::first);
     if (quantity == std::end(quantities))
       fail("there are sensor N, global, diffuse, direct, elevation, azimuth, month and hour", when);
     term.quantity = quantity->second;
-    if (term.quantity == Quantity::sensor) {
+    if (term.quantity == RuleQuantity::sensor) {
       const double n = number(next(), when);
       if (!(n >= 1 && n <= static_cast<double>(sensors_)) || n != std::floor(n))
         fail(fmt::format("sensors are numbered from 1 to {}", sensors_), when);
@@ -117,21 +117,21 @@ class RuleReader {
 
 double value_of(const RuleTerm& term, const YearHour& hour, double lux) {
   switch (term.quantity) {
-    case Quantity::sensor:
+    case RuleQuantity::sensor:
       return lux;
-    case Quantity::global:
+    case RuleQuantity::global:
       return hour.global_lx;
-    case Quantity::diffuse:
+    case RuleQuantity::diffuse:
       return hour.diffuse_lx;
-    case Quantity::direct:
+    case RuleQuantity::direct:
       return hour.direct_normal_lx;
-    case Quantity::elevation:
+    case RuleQuantity::elevation:
       return hour.elevation_deg;
-    case Quantity::azimuth:
+    case RuleQuantity::azimuth:
       return hour.azimuth_deg;
-    case Quantity::month:
+    case RuleQuantity::month:
       return hour.middle.month;
-    case Quantity::hour:
+    case RuleQuantity::hour:
       return hour.clock_hour();
   }
   return 0;
@@ -162,7 +162,7 @@ std::vector<std::size_t> sensors_of(const StateRules& rules) {
   std::vector<std::size_t> sensors;
   for (const StateRule& rule : rules.rules)
     for (const RuleTerm& term : rule.terms)
-      if (term.quantity == Quantity::sensor) sensors.push_back(term.sensor);
+      if (term.quantity == RuleQuantity::sensor) sensors.push_back(term.sensor);
   std::ranges::sort(sensors);
   sensors.erase(std::ranges::unique(sensors).begin(), sensors.end());
   return sensors;
@@ -174,7 +174,7 @@ std::vector<std::size_t> states_of(const StateRules& rules, const SkyYear& year,
   for (std::size_t h = 0; h < year.hours.size(); ++h) {
     const auto holds = [&](const StateRule& rule) {
       return std::ranges::all_of(rule.terms, [&](const RuleTerm& term) {
-        const double of_sensor = term.quantity == Quantity::sensor ? lux(term.sensor, h) : 0;
+        const double of_sensor = term.quantity == RuleQuantity::sensor ? lux(term.sensor, h) : 0;
         return compare(value_of(term, year.hours[h], of_sensor), term.comparison, term.value);
       });
     };

@@ -10,8 +10,10 @@
 #include "bundle/manifest.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/rank_guard.h"
+#include "cli/common/switching_glazing.h"
 #include "cli/year/state_rules.h"
 #include "cli/year/year_arguments.h"
+#include "cli/year/year_inputs.h"
 #include "cli/year/year_jobs.h"
 #include "cli/year/year_output.h"
 #include "farm/files/output_lock.h"
@@ -21,6 +23,7 @@
 #include "farm/transport/agreement.h"
 #include "farm/transport/doing.h"
 #include "film/film_progress.h"
+#include "glazing/system_file.h"
 #include "scene/models/sensor_file.h"
 #include "scene/system/say.h"
 
@@ -47,6 +50,7 @@ struct Known {
   std::vector<Sensor> sensors;
   WeatherYear weather;
   SkyYear year;
+  std::vector<Vector3d> minutes;  // suns of the day whose sunlight is counted
   NearSuns near;
   StateRules rules;
 };
@@ -57,20 +61,6 @@ std::vector<std::string> names_of(const std::vector<YearState>& states) {
   return names;
 }
 
-Known read_all(const YearArguments& a) {
-  const Manifest manifest = read_manifest(a.bundle);
-  Known known{.frame = sky_frame(a, manifest),
-              .sensors = read_sensors(a.sensors),
-              .weather = read_weather_year(a.weather),
-              .year = {},
-              .near = {},
-              .rules = {}};
-  known.year = sky_year(known.weather, SkyPatches(a.division), a.ground);
-  known.near = near_suns(known.year.suns, a.sun_blur_deg);
-  if (!a.rules.empty()) known.rules = read_state_rules(a.rules, names_of(states_of(a)), known.sensors.size());
-  return known;
-}
-
 // Those that face up.
 std::vector<bool> sensors_of_area(const Known& known) {
   constexpr double level = 0.999;
@@ -79,10 +69,31 @@ std::vector<bool> sensors_of_area(const Known& known) {
   return in_area;
 }
 
+Known read_all(const YearArguments& a) {
+  const Manifest manifest = read_manifest(a.bundle);
+  Known known{.frame = sky_frame(a, manifest),
+              .sensors = read_sensors(a.sensors),
+              .weather = read_weather_year(a.weather),
+              .year = {},
+              .minutes = {},
+              .near = {},
+              .rules = {}};
+  known.year = sky_year(known.weather, SkyPatches(a.division), a.ground);
+  known.near = near_suns(known.year.suns, a.sun_blur_deg);
+  if (!a.heat.empty()) heat_through(a, known.sensors.size());
+  if (!a.rules.empty()) known.rules = read_state_rules(a.rules, names_of(states_of(a)), known.sensors.size());
+  if (std::ranges::count(sensors_of_area(known), false) > 0)
+    known.minutes = suns_of_day(known.weather, a.sun_month, a.sun_day_of_month, a.sun_above_deg);
+  return known;
+}
+
 void say_what_is_known(const YearArguments& a, const Known& known) {
   if (known.weather.missing > 0)
     say("vitrail: {}: {} hours have no measurement (9999) and count as dark\n", a.weather.string(),
         known.weather.missing);
+  if (!is_whole_year(known.year))
+    say("vitrail: {}: {} hours are no year: DA, UDI, sDA, ASE and EN 17037 are of these hours alone\n",
+        a.weather.string(), known.year.hours.size());
   if (std::ranges::none_of(sensors_of_area(known), [](bool in) { return in; }))
     say("vitrail: no sensor faces up, and there is no area for sDA, ASE and EN 17037\n");
   if (a.quiet) return;
@@ -121,6 +132,42 @@ std::vector<std::size_t> states_of_hours(const Known& known, const std::vector<S
   });
 }
 
+// The glass of --heat in each of the states.
+std::vector<GlazingSystem> glass_of_states(const YearArguments& a, const HeatThrough& through) {
+  const GlazingSystem as_it_is = read_system({through.file}).system;
+  std::vector<GlazingSystem> systems;
+  for (const YearState& state : states_of(a)) {
+    systems.push_back(as_it_is);
+    for (const std::string& text : state.settings)
+      if (text.starts_with(through.glass + ".") && !is_scene_edit(text)) {
+        const GlazingSetting setting = parse_settings({text}).front();
+        set(systems.back(), setting.quantity, setting.value);
+      }
+  }
+  return systems;
+}
+
+// What the glass lets in. Glass that follows its own kinetics tells the states of the hours.
+SolarHeat heat_of(const YearArguments& a, const Known& known, const std::vector<StateCoefficients>& states,
+                  std::vector<std::size_t>& of_hours) {
+  const HeatThrough through = heat_through(a, known.sensors.size());
+  const std::vector<GlazingSystem> systems = glass_of_states(a, through);
+  std::vector<SolarGain> gains;
+  for (const GlazingSystem& system : systems) gains.push_back(solar_gain(system));
+  const auto heat = [&] {
+    return solar_heat(known.year, SkyPatches(a.division), states, gains, of_hours, through.sensor,
+                      known.frame.frame.to_light(known.sensors[through.sensor].normal));
+  };
+  if (!a.photochromic) return heat();
+  const auto photochromic = std::ranges::find_if(
+      systems.front().layers, [](const GlazingLayer& layer) { return layer.light.has_value(); });
+  if (photochromic == systems.front().layers.end()) throw Error("this glass has no kinetics", {through.file});
+  std::vector<double> values;
+  for (const GlazingSystem& system : systems) values.push_back(value_of(system, Quantity::state).value_or(0));
+  of_hours = photochromic_states(*photochromic->light, values, heat().on_the_pane);
+  return heat();
+}
+
 // On one rank: the films' product with the weather.
 void conclude(const YearArguments& a, const Known& known, bool is_whole) {
   std::vector<StateCoefficients> states;
@@ -134,16 +181,32 @@ void conclude(const YearArguments& a, const Known& known, bool is_whole) {
   report.patch_division = a.division, report.settings = a.figures;
   report.sensors = known.sensors, report.in_area = sensors_of_area(known);
   report.state_names = names_of(states_of(a));
-  report.states = states_of_hours(known, states);
+  std::vector<std::size_t> open = states_of_hours(known, states);
+  if (!a.heat.empty()) report.heat = heat_of(a, known, states, open);
+  report.states = {open, open, known.rules.otherwise};
+  if (!a.blinds.empty()) {
+    const auto closed = std::ranges::find(report.state_names, a.blinds) - report.state_names.begin();
+    report.states = close_blinds(known.year, states, std::move(report.states),
+                                 static_cast<std::size_t>(closed), report.in_area);
+  }
+  report.blinds_move = !a.blinds.empty();
   report.counted = counted_hours(known.year, a.figures);
   for (std::size_t s = 0; s < known.sensors.size(); ++s)
     report.sensor_years.push_back(
         sensor_year(known.year, known.near, states, report.states, s, report.counted, a.figures));
   report.year = known.year;
-  report.area = area_figures(report.sensor_years, report.in_area);
+  report.area =
+      area_figures(report.sensor_years, report.in_area, median_diffuse_lx(report.year, report.counted));
+  report.sun_day = a.sun_day, report.sun_above_deg = a.sun_above_deg;
+  if (!known.minutes.empty())
+    report.sunlight_h = sunlight_hours(coefficients_of(
+        read_film(film_of(a, states[known.rules.otherwise].name, CoefficientKind::sunlight), nullptr),
+        false));
   write_hours(a.output, report);
   write_figures(a.output, report);
   write_area(a.output, report);
+  write_sunlight(a.output, report);
+  write_heat(a.output, report);
   write_page(a.output, report);
   if (is_whole)
     show("{}", words_of_area(report));
@@ -164,6 +227,9 @@ int year_job(Transport& transport, YearArguments& a) {
   Known known;
   now_doing("reading the weather");
   agree(transport, [&] { known = read_all(a); });
+  agree(transport, [&] {
+    if (first) require_same_inputs(a, {known.year.suns, known.sensors});
+  });
   if (first) say_what_is_known(a, known);
   // A page is there soon, and again with all paths.
   std::uint64_t begins[] = {0};
@@ -172,7 +238,8 @@ int year_job(Transport& transport, YearArguments& a) {
   std::vector<double> shares{1};
   if (begins[0] != 0) shares.insert(shares.begin(), 0.125);
   for (const double share : shares) {
-    trace_coefficients(transport, a, known.frame, known.year.suns, share);
+    trace_coefficients(transport, a, known.frame, {known.year.suns, known.minutes, known.rules.otherwise},
+                       share);
     a.force = false;
     now_doing("multiplying by the weather");
     agree_on_root(transport, [&] { conclude(a, known, share == 1); });

@@ -17,6 +17,9 @@ constexpr std::size_t years = 1 + replicas;  // side by side; the first is the e
 using Years = std::array<float, years>;
 
 constexpr double enough_sun_lx = 1000, most_sun_hours = 250;  // of ASE
+constexpr double glare_lx = 3473;                             // 6.22·10⁻⁵ of it + 0.184 is 0.40
+constexpr double enough_melanopic_lx = 250;                   // Brown et al. 2022, by day
+constexpr double most_sunlit = 0.02;                          // of the area, with open blinds
 
 // Normal numbers of mean 0 and variance 1 (Box & Muller 1958), a function of the seed.
 class NormalNumbers {
@@ -47,7 +50,8 @@ std::vector<Years> years_of(std::span<const float> mean, std::span<const float> 
 struct SensorState {
   std::vector<std::uint32_t> patches;
   std::vector<Years> sky, suns;
-  std::vector<float> sky_errors;
+  std::vector<float> sky_errors, melanopic;
+  std::span<const float> melanopic_suns;
   std::span<const float> sun_errors, beams;
 
   SensorState(const StateCoefficients& c, const NearSuns& near, std::size_t sensor, std::uint64_t seed) {
@@ -57,9 +61,11 @@ struct SensorState {
       if (all[patch][0] == 0 && error == 0) continue;
       patches.push_back(static_cast<std::uint32_t>(patch));
       sky.push_back(all[patch]), sky_errors.push_back(error);
+      melanopic.push_back(c.sky.melanopic_of(sensor)[patch]);
     }
     if (c.suns.lights == 0) return;
     beams = c.beams.of(sensor), sun_errors = c.suns.errors_of(sensor);
+    melanopic_suns = c.suns.melanopic_of(sensor);
     const std::vector<Years> reflected =
         years_of(c.reflected.of(sensor), c.reflected.errors_of(sensor), mix(seed));
     suns = years_of(beams, c.beams.errors_of(sensor), mix(mix(seed)));
@@ -71,8 +77,13 @@ struct SensorState {
 
 struct HourLux {
   Years lux{};
-  float error = 0, beam = 0;
+  float error = 0, melanopic = 0;
 };
+
+// Whether a sensor has more than enough of the sun alone.
+bool is_sunlit(const YearHour& hour, std::span<const float> beams) {
+  return hour.sun && hour.direct_normal_lx * static_cast<double>(beams[*hour.sun]) > enough_sun_lx;
+}
 
 HourLux hour_lux(const SkyYear& year, const YearHour& hour, const SensorState& state) {
   HourLux result;
@@ -84,6 +95,7 @@ HourLux hour_lux(const SkyYear& year, const YearHour& hour, const SensorState& s
     const float luminance = sky[state.patches[i]], off = luminance * state.sky_errors[i];
     for (std::size_t r = 0; r < years; ++r) result.lux[r] += luminance * c[r];
     sky_variance += off * off;
+    result.melanopic += luminance * state.melanopic[i];
   }
   auto variance = static_cast<double>(sky_variance);
   if (hour.sun) {
@@ -91,7 +103,7 @@ HourLux hour_lux(const SkyYear& year, const YearHour& hour, const SensorState& s
     for (std::size_t r = 0; r < years; ++r) result.lux[r] += lx * state.suns[*hour.sun][r];
     const auto off = static_cast<double>(lx * state.sun_errors[*hour.sun]);
     variance += off * off;
-    result.beam = lx * state.beams[*hour.sun];
+    result.melanopic += lx * state.melanopic_suns[*hour.sun];
   }
   for (float& lux : result.lux) lux = std::max(lux, 0.0f);
   result.error = static_cast<float>(std::sqrt(variance));
@@ -130,13 +142,16 @@ void set_suns(StateCoefficients& state, Coefficients beams, Coefficients reflect
   for (std::size_t sensor = 0; sensor < beams.sensors; ++sensor)
     for (std::size_t sun = 0; sun < beams.lights; ++sun) {
       const float error = beams.errors_of(sensor)[sun];
-      float mean = beams.of(sensor)[sun], variance = error * error;
+      float mean = beams.of(sensor)[sun], variance = error * error,
+            melanopic = beams.melanopic_of(sensor)[sun];
       for (const NearSuns::Near& n : near.of[sun]) {
         const float off = n.weight * reflected.errors_of(sensor)[n.sun];
         mean += n.weight * reflected.of(sensor)[n.sun], variance += off * off;
+        melanopic += n.weight * reflected.melanopic_of(sensor)[n.sun];
       }
       const std::size_t place = sensor * beams.lights + sun;
       state.suns.mean[place] = mean, state.suns.error[place] = std::sqrt(variance);
+      state.suns.melanopic[place] = melanopic;
     }
   state.beams = std::move(beams), state.reflected = std::move(reflected);
 }
@@ -153,7 +168,12 @@ std::vector<FigureKind> figure_kinds() {
           {"daylight_100", "share of the daylight hours with 100 lx or more (EN 17037)"},
           {"daylight_300", "the same, 300 lx"},
           {"daylight_500", "the same, 500 lx"},
-          {"daylight_750", "the same, 750 lx"}};
+          {"daylight_750", "the same, 750 lx"},
+          {"daylight_factor", "illuminance over that outdoors, under the overcast sky of the CIE"},
+          {"glare_hours",
+           "hours of use with more than 3473 lx, which at an eye is a simplified glare probability (Wienold) "
+           "of 0.40"},
+          {"melanopic_250", "share of the hours of use with 250 lx of melanopic EDI or more"}};
 }
 
 Estimate SensorYear::estimate(Figure figure) const {
@@ -172,10 +192,33 @@ CountedHours counted_hours(const SkyYear& year, const FigureSettings& settings) 
   return counted;
 }
 
+double median_diffuse_lx(const SkyYear& year, const CountedHours& counted) {
+  std::vector<double> lx;
+  for (std::size_t h = 0; h < year.hours.size(); ++h)
+    if (counted.daylight[h]) lx.push_back(year.hours[h].diffuse_lx);
+  if (lx.empty()) return 0;
+  const auto middle = lx.begin() + static_cast<std::ptrdiff_t>(lx.size() / 2);
+  std::ranges::nth_element(lx, middle);
+  return *middle;
+}
+
+StatesOfYear close_blinds(const SkyYear& year, const std::vector<StateCoefficients>& coefficients,
+                          StatesOfYear states, std::size_t closed, const std::vector<bool>& in_area) {
+  const auto all = static_cast<double>(std::ranges::count(in_area, true));
+  for (std::size_t h = 0; h < year.hours.size(); ++h) {
+    if (!year.hours[h].sun) continue;
+    const Coefficients& beams = coefficients[states.with_open_blinds[h]].beams;
+    std::size_t sunlit = 0;
+    for (std::size_t s = 0; s < in_area.size(); ++s)
+      sunlit += in_area[s] && is_sunlit(year.hours[h], beams.of(s));
+    if (static_cast<double>(sunlit) > most_sunlit * all) states.of_hours[h] = closed;
+  }
+  return states;
+}
+
 SensorYear sensor_year(const SkyYear& year, const NearSuns& near,
-                       const std::vector<StateCoefficients>& coefficients,
-                       const std::vector<std::size_t>& states, std::size_t sensor,
-                       const CountedHours& counted, const FigureSettings& settings) {
+                       const std::vector<StateCoefficients>& coefficients, const StatesOfYear& states,
+                       std::size_t sensor, const CountedHours& counted, const FigureSettings& settings) {
   std::vector<SensorState> of_states;
   for (const StateCoefficients& c : coefficients)
     of_states.emplace_back(c, near, sensor, mix(sensor * coefficients.size() + of_states.size()));
@@ -183,10 +226,20 @@ SensorYear sensor_year(const SkyYear& year, const NearSuns& near,
   const auto figure = [&](Figure f) -> auto& { return result.figures[static_cast<std::size_t>(f)]; };
   const auto uses = static_cast<double>(std::ranges::count(counted.use, true)),
              daylight = static_cast<double>(std::ranges::count(counted.daylight, true));
+  const SensorState& usual = of_states[states.usual];
+  for (std::size_t i = 0; i < usual.patches.size(); ++i)
+    for (std::size_t r = 0; r < years; ++r)
+      figure(Figure::daylight_factor)[r] +=
+          static_cast<double>(year.overcast[usual.patches[i]] * usual.sky[i][r]);
   const double a_use = uses > 0 ? 1 / uses : 0, a_daylight = daylight > 0 ? 1 / daylight : 0;
   for (std::size_t h = 0; h < year.hours.size(); ++h) {
-    const HourLux lux = hour_lux(year, year.hours[h], of_states[states[h]]);
-    result.lux.push_back(lux.lux[0]), result.error.push_back(lux.error), result.beam.push_back(lux.beam);
+    const HourLux lux = hour_lux(year, year.hours[h], of_states[states.of_hours[h]]);
+    result.lux.push_back(lux.lux[0]), result.error.push_back(lux.error);
+    result.melanopic.push_back(std::max(lux.melanopic, 0.0f));
+    // The other years have the hour's ratio.
+    const double melanopic_of_lx =
+        lux.lux[0] > 0 ? static_cast<double>(result.melanopic.back() / lux.lux[0]) : 0;
+    const bool sunlit = is_sunlit(year.hours[h], of_states[states.with_open_blinds[h]].beams);
     for (std::size_t r = 0; r < years; ++r) {
       const auto lx = static_cast<double>(lux.lux[r]);
       if (counted.use[h]) {
@@ -198,7 +251,9 @@ SensorYear sensor_year(const SkyYear& year, const NearSuns& near,
                            : lx < 3000 ? Figure::useful_enough
                                        : Figure::useful_too_high;
         figure(bin)[r] += a_use;
-        figure(Figure::sun_hours)[r] += static_cast<double>(lux.beam) > enough_sun_lx ? 1 : 0;
+        figure(Figure::sun_hours)[r] += sunlit ? 1 : 0;
+        figure(Figure::glare_hours)[r] += lx > glare_lx ? 1 : 0;
+        figure(Figure::melanopic_250)[r] += lx * melanopic_of_lx >= enough_melanopic_lx ? a_use : 0;
       }
       if (!counted.daylight[h]) continue;
       figure(Figure::daylight_100)[r] += lx >= 100 ? a_daylight : 0;
@@ -240,9 +295,14 @@ Estimate share_of(const std::vector<SensorYear>& sensors, const std::vector<bool
 
 }  // namespace
 
-AreaFigures area_figures(const std::vector<SensorYear>& sensors, const std::vector<bool>& counts) {
+AreaFigures area_figures(const std::vector<SensorYear>& sensors, const std::vector<bool>& counts,
+                         double median_diffuse_lx) {
   const auto half = [](double share) { return share >= 0.5 ? 1.0 : 0.0; };
   const auto share = [&](Figure figure) { return share_of(sensors, counts, figure, half); };
+  const auto by_factor = [&](double lx) {
+    return share_of(sensors, counts, Figure::daylight_factor,
+                    [&](double factor) { return factor * median_diffuse_lx >= lx ? 1.0 : 0.0; });
+  };
   AreaFigures area;
   area.autonomy = share(Figure::autonomy);
   area.sunlight = share_of(sensors, counts, Figure::sun_hours,
@@ -251,7 +311,26 @@ AreaFigures area_figures(const std::vector<SensorYear>& sensors, const std::vect
   area.provision = {{"minimum", 300, 100, share(Figure::daylight_300), share(Figure::daylight_100)},
                     {"medium", 500, 300, share(Figure::daylight_500), share(Figure::daylight_300)},
                     {"high", 750, 500, share(Figure::daylight_750), share(Figure::daylight_500)}};
+  for (AreaFigures::Level& level : area.provision)
+    level.target_by_factor = by_factor(level.target_lx),
+    level.minimum_by_factor = by_factor(level.minimum_lx);
+  area.median_diffuse_lx = median_diffuse_lx;
   return area;
+}
+
+std::vector<double> sunlight_hours(const Coefficients& minutes) {
+  std::vector<double> hours;
+  for (std::size_t s = 0; s < minutes.sensors; ++s) {
+    const std::span<const float> of = minutes.of(s);
+    hours.push_back(static_cast<double>(std::ranges::count_if(of, [](float lx) { return lx > 0; })) / 60);
+  }
+  return hours;
+}
+
+std::string_view sunlight_level(double hours) {
+  if (hours >= 4) return "high";
+  if (hours >= 3) return "medium";
+  return hours >= 1.5 ? "minimum" : "";
 }
 
 }  // namespace vitrail

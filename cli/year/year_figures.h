@@ -62,6 +62,9 @@ enum class Figure : std::size_t {
   daylight_300,
   daylight_500,
   daylight_750,
+  daylight_factor,
+  glare_hours,    // of use, in which the simplified glare probability is above 0.40
+  melanopic_250,  // share of the hours of use with 250 lx of melanopic EDI
   count
 };
 inline constexpr std::size_t figure_count = static_cast<std::size_t>(Figure::count);
@@ -70,7 +73,7 @@ inline constexpr std::size_t figure_count = static_cast<std::size_t>(Figure::cou
 // may be.
 inline constexpr std::size_t replicas = 15;
 struct SensorYear {
-  std::vector<float> lux, error, beam;                                   // an hour each, lx
+  std::vector<float> lux, error, melanopic;                              // an hour each, lx
   std::array<std::array<double, 1 + replicas>, figure_count> figures{};  // the first is the estimate
   Estimate estimate(Figure figure) const;
 };
@@ -81,12 +84,23 @@ struct CountedHours {
   std::vector<bool> use, daylight;
 };
 CountedHours counted_hours(const SkyYear& year, const FigureSettings& settings);
+// The illuminance of the sky on the ground that half of the daylight hours exceed.
+double median_diffuse_lx(const SkyYear& year, const CountedHours& counted);
 
-// `states`: of each hour, which of `coefficients` the glass is in.
+// Which of the states each hour has. Sunlight is counted in that which it has with open blinds, and the
+// daylight factor is that of the state `usual`.
+struct StatesOfYear {
+  std::vector<std::size_t> of_hours, with_open_blinds;
+  std::size_t usual = 0;
+};
+// Closes the blinds, which is the state `closed`, in each hour in which more than 2 % of the area's sensors
+// have more than 1000 lx of the sun alone while they are open (IES LM-83-12).
+StatesOfYear close_blinds(const SkyYear& year, const std::vector<StateCoefficients>& coefficients,
+                          StatesOfYear states, std::size_t closed, const std::vector<bool>& in_area);
+
 SensorYear sensor_year(const SkyYear& year, const NearSuns& near,
-                       const std::vector<StateCoefficients>& coefficients,
-                       const std::vector<std::size_t>& states, std::size_t sensor,
-                       const CountedHours& counted, const FigureSettings& settings);
+                       const std::vector<StateCoefficients>& coefficients, const StatesOfYear& states,
+                       std::size_t sensor, const CountedHours& counted, const FigureSettings& settings);
 // The same without errors and figures: lx of each hour.
 std::vector<float> lux_of_sensor(const SkyYear& year, const StateCoefficients& coefficients,
                                  std::size_t sensor);
@@ -96,16 +110,26 @@ struct AreaFigures {
   Estimate autonomy;  // sDA: share of the sensors that have the target in half of the hours of use
   Estimate sunlight;  // ASE: share of those that have more than 250 hours of sun
   Estimate mean_autonomy;
-  // EN 17037, daylight provision by method 2: of the levels minimum, medium, high the share of sensors that
-  // have the target, and the minimum target, in half of the daylight hours.
+  // EN 17037, daylight provision: of the levels minimum, medium, high the share of sensors that have the
+  // target, and the minimum target. By method 2 in half of the daylight hours. By method 1 their daylight
+  // factors are large enough that they have it at `median_diffuse_lx` outdoors.
   struct Level {
     std::string_view name;
     double target_lx, minimum_lx;
-    Estimate target, minimum;
+    Estimate target, minimum, target_by_factor, minimum_by_factor;
     bool holds() const { return target.value >= 0.5 && minimum.value >= 0.95; }
+    bool holds_by_factor() const { return target_by_factor.value >= 0.5 && minimum_by_factor.value >= 0.95; }
   };
   std::vector<Level> provision;
+  double median_diffuse_lx = 0;
 };
-AreaFigures area_figures(const std::vector<SensorYear>& sensors, const std::vector<bool>& counts);
+AreaFigures area_figures(const std::vector<SensorYear>& sensors, const std::vector<bool>& counts,
+                         double median_diffuse_lx);
+
+// EN 17037, exposure to sunlight: the hours of a day in which a place gets sun, by the coefficients of its
+// minutes (suns_of_day), of each sensor.
+std::vector<double> sunlight_hours(const Coefficients& minutes);
+// Returns the level that so many hours reach; empty below the first.
+std::string_view sunlight_level(double hours);
 
 }  // namespace vitrail

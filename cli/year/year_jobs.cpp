@@ -25,8 +25,8 @@ namespace vitrail {
 
 namespace {
 
-constexpr CoefficientKind kinds[] = {CoefficientKind::sky, CoefficientKind::reflected,
-                                     CoefficientKind::beams};
+constexpr CoefficientKind kinds[] = {CoefficientKind::sky, CoefficientKind::reflected, CoefficientKind::beams,
+                                     CoefficientKind::sunlight};
 
 constexpr const char* name_of(CoefficientKind kind) {
   switch (kind) {
@@ -36,6 +36,8 @@ constexpr const char* name_of(CoefficientKind kind) {
       return "reflected";
     case CoefficientKind::beams:
       return "beam";
+    case CoefficientKind::sunlight:
+      return "sunlight";
   }
   return "";
 }
@@ -49,7 +51,7 @@ ProgressMode progress_mode(const YearArguments& a) {
 // What all films of a state have in common.
 RenderOptions options_of(Transport& transport, const YearArguments& a, const YearState& state) {
   RenderOptions o;
-  o.bundle = a.bundle;
+  o.bundle = state.bundle;
   o.resources = a.resources;
   o.outputs.command = a.command, o.outputs.force = a.force, o.outputs.quiet = true;
   o.outputs.progress = progress_mode(a);
@@ -68,7 +70,7 @@ RenderOptions options_of(Transport& transport, const YearArguments& a, const Yea
   picture.edits.push_back(lamps_off());
   agree_on_root(transport, [&] {
     if (!glazing.empty())
-      picture.sheets = sheets_under(parse_settings(glazing), a.bundle, read_manifest(a.bundle));
+      picture.sheets = sheets_under(parse_settings(glazing), o.bundle, read_manifest(o.bundle));
   });
   share_from_root(transport, picture.sheets);
   take_limits_of_job(transport, o);
@@ -87,11 +89,14 @@ void trace(Transport& transport, const YearArguments& a, RenderOptions o, const 
   o.picture.samples_per_pixel =
       even(share * (kind == CoefficientKind::sky         ? a.sky_paths / static_cast<double>(rows)
                     : kind == CoefficientKind::reflected ? a.sun_paths
-                                                         : beam_samples));
-  if (kind == CoefficientKind::beams) o.picture.max_depth = 0;
+                    : kind == CoefficientKind::beams     ? beam_samples
+                                                         : 2));
+  if (kind == CoefficientKind::beams || kind == CoefficientKind::sunlight) o.picture.max_depth = 0;
   if (transport.rank() == 0 && !a.quiet)
     say("vitrail: {}, state {}: {} {}\n", name_of(kind), state.name, rows,
-        kind == CoefficientKind::sky ? "patches" : "hours of sun");
+        kind == CoefficientKind::sky        ? "patches"
+        : kind == CoefficientKind::sunlight ? "minutes of a day"
+                                            : "hours of sun");
   const RenderStats stats = render(transport, o);
   agree(transport, [&] { require_unsaturated(stats.refused, o.outputs.film); });
   if (stats.ending == Ending::interrupted || stats.ending == Ending::terminated)
@@ -103,6 +108,8 @@ void trace(Transport& transport, const YearArguments& a, RenderOptions o, const 
 }  // namespace
 
 std::filesystem::path film_of(const YearArguments& a, const std::string& state, CoefficientKind kind) {
+  if (kind == CoefficientKind::sunlight)
+    return a.output / fmt::format("{}.sunlight-{}-{:g}.film", state, a.sun_day, a.sun_above_deg);
   return a.output / fmt::format("{}.{}.film", state, name_of(kind));
 }
 
@@ -133,8 +140,9 @@ SkyFrame sky_frame(const YearArguments& a, const Manifest& manifest) {
 }
 
 void trace_coefficients(Transport& transport, const YearArguments& a, const SkyFrame& sky,
-                        const std::vector<Vector3d>& suns, double share) {
-  for (const YearState& state : states_of(a)) {
+                        const TracedSuns& suns, double share) {
+  const std::vector<YearState> states = states_of(a);
+  for (const YearState& state : states) {
     RenderOptions o;
     agree(transport, [] {
       if (stop_signal()) throw Interrupted(stop_signal(), "interrupted before tracing began");
@@ -145,8 +153,10 @@ void trace_coefficients(Transport& transport, const YearArguments& a, const SkyF
       rows.sky = sky.frame;
       if (kind == CoefficientKind::sky)
         rows.patches.emplace(a.division);
-      else
-        for (const Vector3d to_sun : suns) rows.suns.push_back(sky.frame.to_world(to_sun));
+      else if (kind != CoefficientKind::sunlight)
+        for (const Vector3d to_sun : suns.hours) rows.suns.push_back(sky.frame.to_world(to_sun));
+      else if (&state == &states[suns.state_of_minutes])
+        for (const Vector3d to_sun : suns.minutes) rows.suns.push_back(sky.frame.to_world(to_sun));
       rows.reflected_alone = kind == CoefficientKind::reflected;
       if (!rows.any()) continue;
       o.picture.daylight = std::move(rows);

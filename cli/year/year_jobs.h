@@ -8,9 +8,9 @@
 
 namespace vitrail {
 
-enum class CoefficientKind : std::uint8_t { sky, reflected, beams };
+enum class CoefficientKind : std::uint8_t { sky, reflected, beams, sunlight };
 
-// NAME.sky.film, NAME.reflected.film and NAME.beam.film in the output's folder.
+// NAME.sky.film, NAME.reflected.film, NAME.beam.film and NAME.sunlight-DAY-ABOVE.film in the output's folder.
 std::filesystem::path film_of(const YearArguments& arguments, const std::string& state, CoefficientKind kind);
 
 // Says how the sky stands over the bundle.
@@ -24,9 +24,16 @@ SkyFrame sky_frame(const YearArguments& arguments, const Manifest& manifest);
 // Returns whether some of those films are there, or were begun.
 bool has_films(const YearArguments& arguments);
 
-// Traces on all ranks what is not there yet of a share, in (0, 1], of the paths. `suns`: in the sky's frame.
-// Throws Interrupted where a signal ended it, with a checkpoint.
+// The suns that are traced, in the sky's frame: those of the hours, in all states, and those of a day's
+// minutes, in one.
+struct TracedSuns {
+  std::vector<Vector3d> hours, minutes;
+  std::size_t state_of_minutes = 0;
+};
+
+// Traces on all ranks what is not there yet of a share, in (0, 1], of the paths. Throws Interrupted where a
+// signal ended it, with a checkpoint.
 void trace_coefficients(Transport& transport, const YearArguments& arguments, const SkyFrame& sky,
-                        const std::vector<Vector3d>& suns, double share);
+                        const TracedSuns& suns, double share);
 
 }  // namespace vitrail

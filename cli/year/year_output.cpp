@@ -23,20 +23,20 @@ void write(const std::filesystem::path& file, const Buffer& buffer) {
   write_whole(file, {buffer.data(), buffer.size()});
 }
 
-void write_hours_of(const std::filesystem::path& file, const YearReport& r, bool errors) {
+void write_hours_of(const std::filesystem::path& file, const YearReport& r, const char* unit,
+                    std::vector<float> SensorYear::*values) {
   Buffer text;
   add(text,
       "month,day,hour,sun_elevation_deg,sun_azimuth_deg,direct_normal_lx,diffuse_horizontal_lx,global_"
       "horizontal_lx,state");
-  for (std::size_t s = 0; s < r.sensor_years.size(); ++s)
-    add(text, ",sensor_{}_{}", s + 1, errors ? "error_lx" : "lx");
+  for (std::size_t s = 0; s < r.sensor_years.size(); ++s) add(text, ",sensor_{}_{}", s + 1, unit);
   add(text, "\n");
   for (std::size_t h = 0; h < r.year.hours.size(); ++h) {
     const YearHour& hour = r.year.hours[h];
     add(text, "{},{},{},{:.3f},{:.3f},{:.1f},{:.1f},{:.1f},{}", hour.middle.month, hour.middle.day,
         hour.clock_hour(), hour.elevation_deg, hour.azimuth_deg, hour.direct_normal_lx, hour.diffuse_lx,
-        hour.global_lx, r.state_names[r.states[h]]);
-    for (const SensorYear& s : r.sensor_years) add(text, ",{:.1f}", errors ? s.error[h] : s.lux[h]);
+        hour.global_lx, r.state_names[r.states.of_hours[h]]);
+    for (const SensorYear& s : r.sensor_years) add(text, ",{:.1f}", (s.*values)[h]);
     add(text, "\n");
   }
   write(file, text);
@@ -49,8 +49,9 @@ std::string percent(const Estimate& e) {
 }  // namespace
 
 void write_hours(const std::filesystem::path& folder, const YearReport& report) {
-  write_hours_of(folder / "hours.csv", report, false);
-  write_hours_of(folder / "hours-error.csv", report, true);
+  write_hours_of(folder / "hours.csv", report, "lx", &SensorYear::lux);
+  write_hours_of(folder / "hours-error.csv", report, "error_lx", &SensorYear::error);
+  write_hours_of(folder / "hours-melanopic.csv", report, "melanopic_edi_lx", &SensorYear::melanopic);
 }
 
 void write_figures(const std::filesystem::path& folder, const YearReport& r) {
@@ -75,10 +76,11 @@ void write_figures(const std::filesystem::path& folder, const YearReport& r) {
 std::vector<AreaRow> area_rows(const YearReport& r) {
   const AreaFigures& a = r.area;
   const double target = r.settings.target_lx;
+  const char* const blinds = r.blinds_move ? "" : " without blinds";
   std::vector<AreaRow> rows{
-      {fmt::format("sDA {:g},50% without blinds", target),
+      {fmt::format("sDA {:g},50%{}", target, blinds),
        fmt::format("share of the area with {:g} lx or more in half of the hours of use", target), a.autonomy},
-      {"ASE 1000,250h without blinds",
+      {fmt::format("ASE 1000,250h{}", blinds),
        "share of the area with more than 1000 lx of the sun alone in more than 250 hours of use", a.sunlight},
       {fmt::format("mean DA {:g}", target), "daylight autonomy, the mean over the area", a.mean_autonomy}};
   for (const AreaFigures::Level& level : a.provision) {
@@ -87,6 +89,19 @@ std::vector<AreaRow> area_rows(const YearReport& r) {
                     level.target});
     rows.push_back({fmt::format("EN 17037 {}: {:g} lx", level.name, level.minimum_lx),
                     "the same; 95 % are asked for", level.minimum});
+  }
+  for (const AreaFigures::Level& level : a.provision) {
+    const auto row = [&](double lx, const char* asked, const Estimate& estimate) {
+      const double percent = a.median_diffuse_lx > 0 ? 100 * lx / a.median_diffuse_lx : 0;
+      rows.push_back(
+          {fmt::format("EN 17037 {}: factor {:.2f} %", level.name, percent),
+           fmt::format("share of the area with such a daylight factor, {:g} lx over the median {:.0f} lx "
+                       "of the sky outdoors; {} are asked for",
+                       lx, a.median_diffuse_lx, asked),
+           estimate, false});
+    };
+    row(level.target_lx, "50 %", level.target_by_factor);
+    row(level.minimum_lx, "95 %", level.minimum_by_factor);
   }
   return rows;
 }
@@ -102,11 +117,56 @@ void write_area(const std::filesystem::path& folder, const YearReport& report) {
 std::string words_of_area(const YearReport& report) {
   std::string text;
   for (const AreaRow& row : area_rows(report))
-    text += fmt::format("{:34} {:>16}\n", row.name, percent(row.estimate));
-  std::string reached = "none";
-  for (const AreaFigures::Level& level : report.area.provision)
+    if (row.is_printed) text += fmt::format("{:34} {:>16}\n", row.name, percent(row.estimate));
+  std::string_view reached = "none", by_factor = "none";
+  for (const AreaFigures::Level& level : report.area.provision) {
     if (level.holds()) reached = level.name;
-  return text + fmt::format("{:34} {:>16}\n", "EN 17037 daylight provision", reached);
+    if (level.holds_by_factor()) by_factor = level.name;
+  }
+  text += fmt::format("{:34} {:>16}\n{:34} {:>16}\n", "EN 17037 daylight provision", reached,
+                      "the same by daylight factors", by_factor);
+  if (const auto s = sunniest(report)) {
+    const double hours = report.sunlight_h[*s];
+    const std::string_view level = sunlight_level(hours);
+    text += fmt::format("EN 17037 sunlight on {}: {:.1f} h at sensor {}, {}\n", report.sun_day, hours, *s + 1,
+                        level.empty() ? "none" : level);
+  }
+  if (report.heat)
+    text += fmt::format("{:34} {:.1f} ± {:.1f} kWh/m² of glass\n", "solar heat let in",
+                        report.heat->year_kwh.value, report.heat->year_kwh.error);
+  return text;
+}
+
+void write_heat(const std::filesystem::path& folder, const YearReport& r) {
+  if (!r.heat) return;
+  Buffer text;
+  add(text, "month,day,hour,state,on_the_pane_w_m2,let_in_w_m2\n");
+  for (std::size_t h = 0; h < r.year.hours.size(); ++h) {
+    const YearHour& hour = r.year.hours[h];
+    add(text, "{},{},{},{},{:.1f},{:.1f}\n", hour.middle.month, hour.middle.day, hour.clock_hour(),
+        r.state_names[r.states.of_hours[h]], r.heat->on_the_pane[h], r.heat->let_in[h]);
+  }
+  write(folder / "heat.csv", text);
+}
+
+std::optional<std::size_t> sunniest(const YearReport& r) {
+  std::optional<std::size_t> most;
+  for (std::size_t s = 0; s < r.sunlight_h.size(); ++s)
+    if (!r.in_area[s] && (!most || r.sunlight_h[s] > r.sunlight_h[*most])) most = s;
+  return most;
+}
+
+void write_sunlight(const std::filesystem::path& folder, const YearReport& r) {
+  if (!sunniest(r)) return;
+  Buffer text;
+  add(text, "sensor,x,y,z,nx,ny,nz,sunlight_h,level\n");
+  for (std::size_t s = 0; s < r.sunlight_h.size(); ++s) {
+    const auto& [p, n] = r.sensors[s];
+    if (!r.in_area[s])
+      add(text, "{},{},{},{},{:.6g},{:.6g},{:.6g},{:.3f},{}\n", s + 1, p.x, p.y, p.z, n.x, n.y, n.z,
+          r.sunlight_h[s], sunlight_level(r.sunlight_h[s]));
+  }
+  write(folder / "sunlight.csv", text);
 }
 
 void write_coefficients_table(const std::filesystem::path& file, const Coefficients& c, const char* unit) {

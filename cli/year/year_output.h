@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/year/year_figures.h"
+#include "cli/year/solar_heat.h"
 #include "scene/records/camera.h"
 
 namespace vitrail {
@@ -22,16 +22,27 @@ struct YearReport {
   std::vector<Sensor> sensors;
   std::vector<bool> in_area;  // which of them the figures over the area count
   std::vector<std::string> state_names;
-  std::vector<std::size_t> states;  // of each hour
+  StatesOfYear states;
+  bool blinds_move = false;
   std::vector<SensorYear> sensor_years;
   CountedHours counted;
   AreaFigures area;
+  // EN 17037's exposure to sunlight: hours of that day, of each sensor; empty where none looks sideways.
+  std::string sun_day;
+  double sun_above_deg = 0;
+  std::vector<double> sunlight_h;
+  std::optional<SolarHeat> heat;
 };
 
-// hours.csv: an hour a row, lx of the sensors; hours-error.csv: their standard errors.
+// hours.csv: an hour a row, lx of the sensors; hours-error.csv: their standard errors; hours-melanopic.csv:
+// lx of melanopic EDI.
 void write_hours(const std::filesystem::path& folder, const YearReport& report);
 // figures.csv: a sensor a row.
 void write_figures(const std::filesystem::path& folder, const YearReport& report);
+// sunlight.csv: the hours of sun of each sensor that does not face up.
+void write_sunlight(const std::filesystem::path& folder, const YearReport& report);
+// heat.csv: an hour a row, the sun's heat on the glass and through it.
+void write_heat(const std::filesystem::path& folder, const YearReport& report);
 // area.csv: a figure a row.
 void write_area(const std::filesystem::path& folder, const YearReport& report);
 // SENSOR by LIGHT as text.
@@ -40,13 +51,16 @@ void write_coefficients_table(const std::filesystem::path& file, const Coefficie
 // index.html, which needs no other file.
 void write_page(const std::filesystem::path& folder, const YearReport& report);
 
-// The figures over the area as they are printed, a line each.
+// The figures over the area as they are printed, a line each, and the longest sunlight of a sensor.
 std::string words_of_area(const YearReport& report);
+// Of the sensors that do not face up the one that has most hours of sun; none: there is none.
+std::optional<std::size_t> sunniest(const YearReport& report);
 
 // A figure over the area, for tables and pages.
 struct AreaRow {
   std::string name, words;
   Estimate estimate;
+  bool is_printed = true;
 };
 std::vector<AreaRow> area_rows(const YearReport& report);
 

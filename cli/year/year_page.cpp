@@ -170,14 +170,16 @@ std::string head_of(const YearReport& r) {
       report_style, style, escaped(r.bundle), escaped(r.weather), r.place.latitude_deg, r.place.longitude_deg,
       r.year.hours.size(), hours_with([](const YearHour& h) { return h.sky.has_value(); }),
       hours_with([](const YearHour& h) { return h.sun.has_value(); }),
-      r.missing_hours > 0 ? fmt::format("; {} without measurements count as dark", r.missing_hours) : "",
+      (r.missing_hours > 0 ? fmt::format("; {} without measurements count as dark", r.missing_hours) : "") +
+          (is_whole_year(r.year) ? "" : "; they are no year, and the figures are of these hours alone"),
       r.settings.first_hour, r.settings.last_hour, r.sensors.size(), std::ranges::count(r.in_area, true),
       r.year.patches - 1, escaped(r.command));
   if (r.state_names.size() < 2) return text;
   text += "<h2>States of the glass</h2>\n<table><tr><th>state<th>hours of use</tr>\n";
   for (std::size_t state = 0; state < r.state_names.size(); ++state) {
     std::size_t hours = 0;
-    for (std::size_t h = 0; h < r.states.size(); ++h) hours += r.states[h] == state && r.counted.use[h];
+    for (std::size_t h = 0; h < r.states.of_hours.size(); ++h)
+      hours += r.states.of_hours[h] == state && r.counted.use[h];
     text += fmt::format("<tr><td>{}<td>{}</tr>\n", escaped(r.state_names[state]), hours);
   }
   return text + "</table>\n";
@@ -188,13 +190,43 @@ std::string area_of(const YearReport& r) {
   for (const AreaRow& row : area_rows(r))
     text += fmt::format("<tr><td>{}<td>{:.1f} ± {:.1f} %<td>{}</tr>\n", escaped(row.name),
                         100 * row.estimate.value, 100 * row.estimate.error, escaped(row.words));
-  text += "</table>\n<p>Daylight provision (EN 17037:2018, method 2) is ";
-  std::string reached = "below the minimum";
-  for (const AreaFigures::Level& level : r.area.provision)
+  std::string reached = "below the minimum", by_factor = reached;
+  for (const AreaFigures::Level& level : r.area.provision) {
     if (level.holds()) reached = fmt::format("of the level <b>{}</b>", level.name);
-  return text + reached +
+    if (level.holds_by_factor()) by_factor = fmt::format("of the level <b>{}</b>", level.name);
+  }
+  return text + "</table>\n<p>Daylight provision (EN 17037:2018, method 2) is " + reached +
+         "; by daylight factors (method 1) it is " + by_factor +
          ". Behind ± is the standard error of what was traced; the weather and the model have their "
          "own.</p>\n";
+}
+
+std::string heat_of(const YearReport& r) {
+  if (!r.heat) return "";
+  return fmt::format(
+      "<h2>Solar heat</h2>\n<p>Sun and sky bring {:.1f} ± {:.1f} kWh/m² of glass into the room, by the "
+      "weather's "
+      "W/m² and the glass's SHGC at each angle (heat.csv).</p>\n",
+      r.heat->year_kwh.value, r.heat->year_kwh.error);
+}
+
+std::string sunlight_of(const YearReport& r) {
+  if (!sunniest(r)) return "";
+  std::string text = fmt::format(
+      "<h2>Sunlight</h2>\n<p>Exposure to sunlight (EN 17037:2018) on {}, as if there were no clouds: minutes "
+      "in "
+      "which the sun, higher than {:g}°, shines on a sensor that does not face up. 1.5 h are the minimum, 3 "
+      "h "
+      "medium, 4 h high. It is exact to two minutes each time that the sun comes or goes.</p>\n"
+      "<table><tr><th>sensor<th>hours<th>level</tr>\n",
+      r.sun_day, r.sun_above_deg);
+  for (std::size_t s = 0; s < r.sunlight_h.size(); ++s) {
+    const std::string_view level = sunlight_level(r.sunlight_h[s]);
+    if (!r.in_area[s])
+      text += fmt::format("<tr><td>{}<td>{:.2f}<td>{}</tr>\n", s + 1, r.sunlight_h[s],
+                          level.empty() ? "none" : level);
+  }
+  return text + "</table>\n";
 }
 
 std::string maps_of(const YearReport& r) {
@@ -226,17 +258,21 @@ std::string legend_of(const YearReport& r) {
          fmt::format(
              "</table>\n<p>The target is {:g} lx. The daylight hours of EN 17037 are the half of all hours "
              "in which "
-             "the sky gives most light on the ground. sDA and ASE are those of IES LM-83, but that blinds "
-             "do not move. hours.csv has the illuminance of each hour, hours-error.csv its standard "
+             "the sky gives most light on the ground. sDA and ASE are those of IES LM-83{}. hours.csv has "
+             "the illuminance of each hour, hours-error.csv its standard "
              "error.</p>\n",
-             r.settings.target_lx);
+             r.settings.target_lx,
+             r.blinds_move
+                 ? ": blinds are closed in the hours in which more than 2 % of the area would have more "
+                   "than 1000 lx of the sun alone. ASE counts with open blinds"
+                 : ", but that blinds do not move");
 }
 
 }  // namespace
 
 void write_page(const std::filesystem::path& folder, const YearReport& report) {
-  write_whole(folder / "index.html",
-              head_of(report) + area_of(report) + maps_of(report) + legend_of(report) + "</html>\n");
+  write_whole(folder / "index.html", head_of(report) + area_of(report) + sunlight_of(report) +
+                                         heat_of(report) + maps_of(report) + legend_of(report) + "</html>\n");
 }
 
 }  // namespace vitrail

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -18,6 +19,7 @@ namespace vitrail::test::year_test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 using Table = std::vector<std::vector<std::string>>;
 
@@ -83,6 +85,14 @@ TEST_F(Year, IsTheWeatherInTheOpen) {
     EXPECT_NEAR(lux, global, 0.01 * global) << h;
     days += lux > 0;
   }
+  // Sky and sun are D65, whose melanopic EDI is its lux.
+  const Table melanopic = table(directory_ / "year" / "hours-melanopic.csv");
+  double all_melanopic = 0, all_lux = 0;
+  for (std::size_t h = 1; h < hours.size(); ++h) {
+    EXPECT_NEAR(std::stod(melanopic[h][9]), std::stod(hours[h][9]), 0.04 * std::stod(hours[h][9])) << h;
+    all_melanopic += std::stod(melanopic[h][9]), all_lux += std::stod(hours[h][9]);
+  }
+  EXPECT_NEAR(all_melanopic / all_lux, 1, 0.005);
   EXPECT_EQ(days, 20);
   EXPECT_THAT(done.output, HasSubstr("sDA 300,50% without blinds"));
   const Table figures = table(directory_ / "year" / "figures.csv");
@@ -104,8 +114,18 @@ TEST_F(Year, GoesOnFromWhatIsThere) {
   std::ofstream(directory_ / "up.txt") << "0 0 1  0 0 1\n";
   const CommandResult other = year();
   EXPECT_EQ(other.status, 3) << other.output;
+  EXPECT_THAT(other.output, HasSubstr("of other sensors"));
   EXPECT_EQ(text_of(directory_ / "year" / "hours.csv"), before);
   EXPECT_EQ(year("--force").status, 0);
+  // Another day's sunlight, and the same weather under another name, trace no hour again.
+  std::filesystem::copy_file(directory_ / "w.epw", directory_ / "same.epw");
+  EXPECT_EQ(year("--sun-day 02-01 --weather same.epw").status, 0);
+  std::ofstream(directory_ / "same.epw", std::ios::app)
+      << "2001,3,23,12,60,?,1,1,70,101325,0,0,300,0,500,100,1\n";
+  const CommandResult weather = year("--weather same.epw");
+  EXPECT_EQ(weather.status, 3) << weather.output;
+  EXPECT_THAT(weather.output, HasSubstr("its weather was same.epw"));
+  EXPECT_THAT(year("--weather same.epw --force").output, HasSubstr("49 hours are no year"));
 }
 
 // Ranks, threads and sub-domains: one matrix, to the bit.
@@ -156,9 +176,56 @@ TEST_F(Year, StatesFollowRules) {
   EXPECT_EQ(seen.size(), 3u);
 }
 
+// A room in which blinds are closed is another bundle: here a sheet above the sensors. By the sheet nothing
+// comes through, but for what comes from the side below it.
+TEST_F(Year, BlindsCloseByTheRuleOfLm83) {
+  std::ofstream(directory_ / "closed.pbrt")
+      << "LookAt 0 -9 5  0 0 0  0 0 1\nCamera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
+         "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n"
+         "Shape \"trianglemesh\" \"point3 P\" [-1e4 -1e4 1  1e4 -1e4 1  1e4 1e4 1  -1e4 1e4 1] \"integer "
+         "indices\" [0 1 2 0 2 3]\n";
+  ASSERT_EQ(verb("partition", "closed.pbrt -o closed.vit").status, 0);
+  const CommandResult done = year("--state open= --state closed=closed.vit --blinds closed");
+  ASSERT_EQ(done.status, 0) << done.output;
+  EXPECT_THAT(done.output, HasSubstr("sDA 300,50% "));
+  EXPECT_THAT(done.output, Not(HasSubstr("without blinds")));
+  const Table hours = table(directory_ / "year" / "hours.csv");
+  int closed = 0;
+  for (std::size_t h = 1; h < hours.size(); ++h) {
+    const double on_the_ground = std::stod(hours[h][5]) * std::sin(std::stod(hours[h][3]) * 3.14159265 / 180);
+    EXPECT_EQ(hours[h][8], on_the_ground > 1000 ? "closed" : "open") << h;
+    if (hours[h][8] != "closed") continue;
+    ++closed;
+    EXPECT_LT(std::stod(hours[h][9]), 1) << h;
+  }
+  EXPECT_GT(closed, 5);
+}
+
+// The sensor that looks south on the equinox has the sun from 6 to 18 h of the sun's time: above 10° that is
+// while the sine of its height, which is that of the noon times the cosine of its hour, is more than that of
+// 10°.
+TEST_F(Year, SunlightIsThatOfTheDay) {
+  const CommandResult done = year();
+  ASSERT_EQ(done.status, 0) << done.output;
+  const double half_deg =
+      std::acos(std::sin(10 * 3.14159265 / 180) / std::cos(48.86 * 3.14159265 / 180)) * 180 / 3.14159265;
+  const Table sunlight = table(directory_ / "year" / "sunlight.csv");
+  ASSERT_EQ(sunlight.size(), 2u);  // the sensor that looks up is not among them
+  EXPECT_EQ(sunlight[1][0], "2");
+  EXPECT_NEAR(std::stod(sunlight[1][7]), 2 * half_deg / 15, 0.1);
+  EXPECT_EQ(sunlight[1][8], "high");
+  EXPECT_THAT(done.output, HasSubstr("EN 17037 sunlight on 03-21"));
+  // The overcast sky, too, is seen whole.
+  const Table figures = table(directory_ / "year" / "figures.csv");
+  const auto column = std::ranges::find(figures[0], "daylight_factor") - figures[0].begin();
+  EXPECT_NEAR(std::stod(figures[1][static_cast<std::size_t>(column)]), 1, 0.01);
+}
+
 TEST_F(Year, MistakesAreNamed) {
   EXPECT_EQ(year("--use 18-8").status, 2);
   EXPECT_EQ(year("--patches 3").status, 2);
+  EXPECT_EQ(year("--sun-day 02-30").status, 2);
+  EXPECT_EQ(year("--state a= --state b= --blinds c").status, 2);
   EXPECT_EQ(year("--state clear=window.state=1").status, 2);  // the scene has no such glass
   EXPECT_EQ(year("--rules rules.json").status, 2);
   EXPECT_EQ(year("--up z --north -z").status, 2);

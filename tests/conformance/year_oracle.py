@@ -82,9 +82,9 @@ class Radiance:
         bright = 1 / DISC
         (self.work / "s.rad").write_text(f"void light sun 0 0 3 {bright} {bright} {bright}\nsun source s 0 0 4 {x} {y} {z} 0.533\n")
         (self.work / "s.oct").write_bytes(self.run(["oconv", self.room / "room.rad", self.work / "s.rad"])[0])
-        text, _ = self.run(["rtrace", "-n", 1, "-h", "-I+", "-ab", 8, "-ad", divisions, "-lw", "1e-6", "-aa", 0, "-dj", 0, "-ds", 0,
+        text, seconds = self.run(["rtrace", "-n", 1, "-h", "-I+", "-ab", 8, "-ad", divisions, "-lw", "1e-6", "-aa", 0, "-dj", 0, "-ds", 0,
                             "-dt", 0, "-dc", 1, self.work / "s.oct"], input=points)
-        return np.array(text.split(), float).reshape(-1, 3)[:, 1]
+        return np.array(text.split(), float).reshape(-1, 3)[:, 1], seconds
 
     def suns(self, weather):
         """Of each hour with sun: its number in the year, where gendaymtx has the sun, and lx across its direction."""
@@ -112,12 +112,12 @@ class Radiance:
         return np.concatenate(found).T
 
 
-def compare_sun_hours(year, radiance, weather, grid):
+def compare_sun_hours(room, radiance, weather, grid):
     """ASE 1000,250h: sensors with more than 250 hours of use above 1000 lx of the sun alone."""
     columns, rows = map(int, grid.split("x"))
     points = "".join(f"{4 * (i + .5) / columns} {6 * (j + .5) / rows} 0.8 0 0 1\n" for j in range(rows) for i in range(columns))
     (radiance.work / "grid.txt").write_text(points)
-    run([*year, "--sensors", radiance.work / "grid.txt", "-o", radiance.work / "a", "--patches", "1", "--paths", "2", "--sun-paths", "2"])
+    room.year(weather, radiance.work / "grid.txt", radiance.work / "a", "--patches", "1", "--paths", "2", "--sun-paths", "2")
     hours = table(radiance.work / "a" / "hours.csv")
     use = np.array([8 <= int(row[2]) < 18 for row in hours])
     direct = np.array([float(row[5]) for row in hours])
@@ -142,12 +142,53 @@ def compare_sun_hours(year, radiance, weather, grid):
               f"{100 * np.mean(ours == other):.3f} % of the sensors' hours agree", flush=True)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+class Room:
+    """The corpus' room without glass in `work`, and years of ours in it."""
+    def __init__(self, binaries, room, work):
+        self.bin, self.work, self.sensors = binaries, work, room / "sensors.txt"
+        run([binaries / "vitrail-partition", room / "room.pbrt", "-o", work / "room.vit", "--quiet"])
+
+    def year(self, weather, sensors, output, *more):
+        """Returns the seconds of processor."""
+        return run([self.bin / "vitrail-year", self.work / "room.vit", "--weather", weather, "--quiet", "--up", "z", "--north", "y",
+                    "--sensors", sensors, "-o", output, *more])[1]
+
+
+def radiance_of(args, work):
+    found = args.radiance or importlib.util.find_spec("pyradiance")
+    if not found:
+        raise SystemExit("there is no Radiance: give --radiance, or install pyradiance")
+    return Radiance(args.radiance or pathlib.Path(found.origin).parent, args.room, work)
+
+
+def add_arguments(parser):
     parser.add_argument("--bin", type=pathlib.Path, required=True)
     parser.add_argument("--weather", type=pathlib.Path, required=True)
     parser.add_argument("--room", type=pathlib.Path, required=True)
     parser.add_argument("--radiance", type=pathlib.Path)
+
+
+def bright_hours(rows, their_sky):
+    """Those with the sun above 10° and 50 lx of the sky at the mean sensor."""
+    return (np.array([float(row[3]) for row in rows]) > 10) & (their_sky.sum(1) > 50 * their_sky.shape[1])
+
+
+def sunny_hours(room, weather, count):
+    """A weather file of so many hours of sun, those hours of the year, and three sensors: near, in the middle, at the back."""
+    rows = table(room.work / "y" / "hours.csv")
+    random.seed(5)
+    chosen = sorted(random.sample([h for h, row in enumerate(rows) if float(row[5]) > 20000], count))
+    lines = room.sensors.read_bytes().splitlines(keepends=True)
+    points = b"".join([lines[1], lines[9], lines[17]])
+    (room.work / "three.txt").write_bytes(points)
+    hours = weather.read_text(encoding="latin-1").splitlines(keepends=True)
+    (room.work / "some.epw").write_text("".join(hours[:8] + [hours[8 + h] for h in chosen]), encoding="latin-1")
+    return [rows[h] for h in chosen], points
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    add_arguments(parser)
     parser.add_argument("--divisions", type=int, default=32768)
     parser.add_argument("--paths", default="128k")
     parser.add_argument("--sun-paths", default="16")
@@ -156,17 +197,10 @@ def main():
     parser.add_argument("--hour-paths", default="64k")
     parser.add_argument("--hour-divisions", type=int, default=65536)
     args = parser.parse_args()
-    found = args.radiance or importlib.util.find_spec("pyradiance")
-    if not found:
-        raise SystemExit("there is no Radiance: give --radiance, or install pyradiance")
-    folder = args.radiance or pathlib.Path(found.origin).parent
     with tempfile.TemporaryDirectory() as name:
         work = pathlib.Path(name)
-        radiance = Radiance(folder, args.room, work)
-        run([args.bin / "vitrail-partition", args.room / "room.pbrt", "-o", work / "room.vit", "--quiet"])
-        sensors = args.room / "sensors.txt"
-        year = [args.bin / "vitrail-year", work / "room.vit", "--weather", args.weather, "--quiet", "--up", "z", "--north", "y"]
-        _, ours_s = run([*year, "--sensors", sensors, "-o", work / "y", "--paths", args.paths, "--sun-paths", args.sun_paths, "-t", "1"])
+        radiance, room = radiance_of(args, work), Room(args.bin, args.room, work)
+        ours_s = room.year(args.weather, room.sensors, work / "y", "--paths", args.paths, "--sun-paths", args.sun_paths, "-t", "1")
         rows, ours = hours_of(work / "y")
         theirs, their_sky, traced_s, multiplied_s = radiance.year(args.weather, args.divisions)
         our_sky = ours - sun_part(rows, work / "y")
@@ -174,7 +208,7 @@ def main():
         ratio = our_sky[lit] / their_sky[lit]
         print(f"sky, {lit.sum()} values above 50 lx: median {np.median(ratio):.4f}, 5 to 95 % {np.percentile(ratio, 5):.4f} "
               f"to {np.percentile(ratio, 95):.4f}, within 2 %: {100 * np.mean(abs(ratio - 1) < .02):.1f} %")
-        high = (np.array([float(row[3]) for row in rows]) > 10) & (their_sky.sum(1) > 50 * their_sky.shape[1])
+        high = bright_hours(rows, their_sky)
         ratio = our_sky[high].sum(1) / their_sky[high].sum(1)
         print(f"sky, mean of the sensors, sun above 10°: within 2 % in {100 * np.mean(abs(ratio - 1) < .02):.1f} % of {high.sum()} hours")
         use = np.array([8 <= int(row[2]) < 18 for row in rows])
@@ -184,25 +218,17 @@ def main():
                   f"sDA {np.mean(mine >= .5):.3f} beside {np.mean(other >= .5):.3f}")
         print(f"seconds of processor: {ours_s:.1f} beside {traced_s:.1f} of rfluxmtx and {multiplied_s:.1f} of dctimestep")
         if args.grid != "0":
-            compare_sun_hours(year, radiance, args.weather, args.grid)
+            compare_sun_hours(room, radiance, args.weather, args.grid)
         if args.hours == 0:
             return
-        lines = sensors.read_bytes().splitlines(keepends=True)
-        points = b"".join([lines[1], lines[9], lines[17]])
-        (work / "three.txt").write_bytes(points)
-        random.seed(5)
-        sunny = [h for h, row in enumerate(rows) if float(row[5]) > 20000]
-        chosen = sorted(random.sample(sunny, args.hours))
-        weather = args.weather.read_text(encoding="latin-1").splitlines(keepends=True)
-        (work / "some.epw").write_text("".join(weather[:8] + [weather[8 + h] for h in chosen]), encoding="latin-1")
-        year[year.index(args.weather)] = work / "some.epw"
-        run([*year, "--sensors", work / "three.txt", "-o", work / "h", "--patches", "1", "--paths", "2", "--sun-paths",
-             args.hour_paths, "--sun-blur", "0"])
+        chosen, points = sunny_hours(room, args.weather, args.hours)
+        room.year(work / "some.epw", work / "three.txt", work / "h", "--patches", "1", "--paths", "2", "--sun-paths", args.hour_paths,
+                  "--sun-blur", "0")
         off = []
-        for hour, mine in zip(chosen, np.load(work / "h" / "as-it-is.sun.npy").T):
-            other = radiance.sun(float(rows[hour][3]), float(rows[hour][4]), points, args.hour_divisions)
+        for row, mine in zip(chosen, np.load(work / "h" / "as-it-is.sun.npy").T):
+            other, _ = radiance.sun(float(row[3]), float(row[4]), points, args.hour_divisions)
             off.append(mine / np.maximum(other, 1e-9))
-            print("/".join(rows[hour][:3]), *(f"{m:.5f} {o:.5f}" for m, o in zip(mine, other)), flush=True)
+            print("/".join(row[:3]), *(f"{m:.5f} {o:.5f}" for m, o in zip(mine, other)), flush=True)
         off = np.array(off)
         print(f"sun by rtrace, {off.size} values: median {np.median(off):.4f}, within 2 %: {100 * np.mean(abs(off - 1) < .02):.1f} %")
 

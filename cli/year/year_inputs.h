@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the films of a folder were traced for: inputs.json.
+#pragma once
+
+#include <vector>
+
+#include "cli/year/year_arguments.h"
+#include "scene/records/camera.h"
+
+namespace vitrail {
+
+// What a year's rows and columns are.
+struct YearInputs {
+  const std::vector<Vector3d>& suns;
+  const std::vector<Sensor>& sensors;
+};
+// Throws Error where the folder holds a year of other suns, sensors or patches, with the files' names, unless
+// --force is given; else notes these.
+void require_same_inputs(const YearArguments& arguments, const YearInputs& inputs);
+
+}  // namespace vitrail
