@@ -213,6 +213,21 @@ TEST(SolarHeat, IsOfTheAngleAndTheWeather) {
   EXPECT_EQ(gain.at(-0.1), 0.25);
 }
 
+// Under constant light the equation comes to its equilibrium; at night it fades by its rate.
+TEST(SolarHeat, PhotochromicGlassFollowsItsKinetics) {
+  PhotochromicLight light{{1e-5, 1e-4, 0}, 0, 0, 20, {}};
+  const double uv = 20, equilibrium = 1e-5 * uv / (1e-5 * uv + 1e-4);
+  std::vector<float> day(30, static_cast<float>(uv / ultraviolet_share));
+  day.resize(34, 0.0f);
+  std::vector<double> states;
+  for (int s = 0; s <= 1000; ++s) states.push_back(s / 1000.0);
+  const std::vector<std::size_t> found = photochromic_states(light, states, day);
+  EXPECT_NEAR(states[found[0]], equilibrium * (1 - std::exp(-3600 * (1e-5 * uv + 1e-4))), 0.001);
+  EXPECT_NEAR(states[found[29]], equilibrium, 0.001);
+  EXPECT_NEAR(states[found[33]], equilibrium * std::exp(-4 * 3600 * 1e-4), 0.001);
+  EXPECT_EQ(photochromic_states(light, {0, 1}, day)[29], 1u);  // the nearest of them
+}
+
 TEST(NearSuns, WeighThoseThatAreClose) {
   const std::vector<Vector3d> suns{direction_of({30, 180}), direction_of({31, 180}), direction_of({40, 180})};
   const NearSuns near = near_suns(suns, 3);

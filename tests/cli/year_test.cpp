@@ -225,6 +225,8 @@ TEST_F(Year, MistakesAreNamed) {
   EXPECT_EQ(year("--use 18-8").status, 2);
   EXPECT_EQ(year("--patches 3").status, 2);
   EXPECT_EQ(year("--sun-day 02-30").status, 2);
+  EXPECT_EQ(year("--heat window=panes.json@3").status, 2);  // there are two sensors
+  EXPECT_EQ(year("--photochromic").status, 2);
   EXPECT_EQ(year("--state a= --state b= --blinds c").status, 2);
   EXPECT_EQ(year("--state clear=window.state=1").status, 2);  // the scene has no such glass
   EXPECT_EQ(year("--rules rules.json").status, 2);

@@ -27,6 +27,37 @@ std::vector<std::vector<std::string>> table(const std::filesystem::path& file) {
   return rows;
 }
 
+// Glass that is dark when it dazzles lets less heat in than clear glass, and no glass lets all of it in.
+TEST(HotelRoom, OverAYear) {
+  const TemporaryDirectory directory;
+  const std::string front = vitrail("");
+  const CommandResult made = run(fmt::format(
+      "cd '{0}' && /usr/bin/python3 '{1}/examples/frames/made_up_weather.py' --place 48.86,2.35 --zone 1 > "
+      "w.epw && "
+      "/usr/bin/python3 '{1}/examples/hotel-room/year.py' -o year --weather w.epw --quick --vitrail {2}",
+      directory.path().string(), source_dir(), front.substr(0, front.find_last_not_of(' ') + 1)));
+  ASSERT_EQ(made.status, 0) << made.output;
+  std::map<std::string, double> heat, glare;
+  std::ifstream in(directory / "year" / "year.md");
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream cells(line);
+    std::vector<std::string> row;
+    for (std::string cell; std::getline(cells, cell, '|');) row.push_back(cell);
+    ASSERT_EQ(row.size(), 7u) << line;
+    if (row[4].find("±") == std::string::npos) continue;
+    heat[row[1]] = std::stod(row[6]), glare[row[1]] = std::stod(row[4]);
+  }
+  ASSERT_EQ(heat.size(), 3u);
+  EXPECT_LT(heat[" electrochromic "], heat[" clear "]);
+  EXPECT_LT(heat[" photochromic "], heat[" clear "]);
+  EXPECT_LT(glare[" electrochromic "], glare[" clear "]);
+  double on_the_pane = 0, let_in = 0;
+  for (const auto& row : table(directory / "year" / "photochromic" / "heat.csv"))
+    if (row[0] != "month") on_the_pane += std::stod(row[4]), let_in += std::stod(row[5]);
+  EXPECT_GT(let_in / on_the_pane, 0.25);
+  EXPECT_LT(let_in / on_the_pane, 0.753);  // the SHGC of the clear state at the normal
+}
+
 // The states see the same paths, so that the light differs as the glass does: T_vis 0.787 and 0.114.
 TEST(HotelRoom, OverADay) {
   const TemporaryDirectory directory;
