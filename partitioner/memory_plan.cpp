@@ -21,8 +21,8 @@ constexpr std::uint32_t most_named_domains = 999'999;  // six digits in a file n
 // A domain's share of triangles may be exceeded by this much (kd_plan.h), and some of them are cut.
 constexpr double fullest = 1.3;
 
-// Resident before there is a scene, and what reads images.
-constexpr double program_bytes = 12 * mib;
+// Resident before there is a scene, with the pages of its code, and what reads images.
+constexpr double program_bytes = 13 * mib;
 
 // A piece in memory: its polygon, with the room that vectors keep, and twice where a leaf is gathered; and
 // its line in the census.

@@ -151,6 +151,9 @@ std::string_view everyday_options(std::string_view verb) {
            "dry-run quiet";
   if (verb == "partition") return "input output domains memory threads sky force quiet";
   if (verb == "convert") return "files output to check report sky camera quiet";
+  if (verb == "year")
+    return "bundle weather sensors output state rules blinds heat up north paths use target memory threads "
+           "force quiet";
   return {};
 }
 
