@@ -15,7 +15,7 @@ namespace vitrail {
 struct HeldInstance {
   std::uint64_t place = 0;  // a hash of where it stands
   std::uint32_t first_triangle = 0, object = 0;
-  auto operator<=>(const HeldInstance&) const = default;  // NOLINT(modernize-use-nullptr): its own 0
+  auto operator<=>(const HeldInstance&) const = default;
 };
 
 class HeldIds {

@@ -40,7 +40,7 @@ struct KdNode {
 struct PackPlace {
   std::uint32_t pack = 0;
   std::uint64_t offset = 0;                            // bytes
-  auto operator<=>(const PackPlace&) const = default;  // NOLINT(modernize-use-nullptr): its own 0
+  auto operator<=>(const PackPlace&) const = default;
 };
 
 // What the manifest knows of a domain's file.

@@ -18,7 +18,6 @@ namespace vitrail {
 struct VerifyFinding {
   std::string file;  // below the bundle's directory
   std::string what;
-  // NOLINTNEXTLINE(modernize-use-nullptr): of what the compiler writes
   auto operator<=>(const VerifyFinding&) const = default;
 };
 

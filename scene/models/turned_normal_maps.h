@@ -20,7 +20,6 @@ namespace vitrail {
 // Which of a normal map's axes run against those of a Scene's maps.
 struct AgainstAxes {
   bool first = false, second = false;
-  // NOLINTNEXTLINE(modernize-use-nullptr): the 0 that a comparison is compared with is no pointer
   auto operator<=>(const AgainstAxes&) const = default;
 };
 
