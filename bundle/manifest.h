@@ -39,7 +39,7 @@ struct KdNode {
 // Where in the packs (packs.h) a domain is.
 struct PackPlace {
   std::uint32_t pack = 0;
-  std::uint64_t offset = 0;                            // bytes
+  std::uint64_t offset = 0;  // bytes
   auto operator<=>(const PackPlace&) const = default;
 };
 

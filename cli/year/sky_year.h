@@ -34,7 +34,7 @@ struct SkyYear {
   }
 };
 
-// Whether there are all hours of a year.
+// Says whether there are all hours of a year.
 bool is_whole_year(const SkyYear& year);
 
 // Makes of each hour the all-weather sky of Perez (sky_distribution.h) and the sun where it stands in the
@@ -42,8 +42,8 @@ bool is_whole_year(const SkyYear& year);
 // illuminance. Where the sun is below the horizon then, there is the hour's sky without sun.
 SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double ground);
 
-// Where the sun stands in the middle of each minute of a day of the weather's year, while it is higher than
-// `above_deg`.
+// Returns where the sun stands in the middle of each minute of a day of the weather's year, while it is
+// higher than `above_deg`.
 std::vector<Vector3d> suns_of_day(const WeatherYear& weather, int month, int day, double above_deg);
 
 }  // namespace vitrail

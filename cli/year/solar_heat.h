@@ -18,7 +18,8 @@ struct SolarGain {
   // Linear between those angles; behind the pane that of the hemisphere.
   double at(double cosine) const;
 };
-// Of the glazing in the state that it is in. Throws Error where its file does not say what heat needs.
+// Returns that of the glazing in the state that it is in. Throws Error where its file does not say what heat
+// needs.
 SolarGain solar_gain(GlazingSystem system);
 
 // W/m² of glass.

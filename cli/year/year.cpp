@@ -228,7 +228,7 @@ int year_job(Transport& transport, YearArguments& a) {
   now_doing("reading the weather");
   agree(transport, [&] { known = read_all(a); });
   agree(transport, [&] {
-    if (first) require_same_inputs(a, {known.year.suns, known.sensors});
+    if (first) require_same_inputs(a, known.year.suns, known.sensors);
   });
   if (first) say_what_is_known(a, known);
   // A page is there soon, and again with all paths.

@@ -25,8 +25,7 @@ void declare(CLI::App& app, YearArguments& a) {
       ->allow_extra_args(false);
   app.add_option("--state", a.states,
                  "NAME=SETTING,SETTING…: a state of the glass under a name, as in dark=window.state=1, or of "
-                 "the room: "
-                 "closed=with-blinds.vit; each is traced; may repeat")
+                 "the room: closed=with-blinds.vit; each is traced; may repeat")
       ->allow_extra_args(false);
   app.add_option("--rules", a.rules,
                  "JSON that tells the state of each hour; default: the first state, always");

@@ -38,7 +38,7 @@ struct YearArguments {
 
 void declare(CLI::App& app, YearArguments& arguments);
 
-// What --heat asks for: "window=glazing.json@3".
+// --heat asks for the sun's heat through a glass, as in "window=glazing.json@3".
 struct HeatThrough {
   std::string glass, file;
   std::size_t sensor = 0;  // from 0

@@ -23,11 +23,12 @@ std::string hash_of(const std::vector<T>& values) {
 
 }  // namespace
 
-void require_same_inputs(const YearArguments& a, const YearInputs& inputs) {
+void require_same_inputs(const YearArguments& a, const std::vector<Vector3d>& suns,
+                         const std::vector<Sensor>& sensors) {
   const nlohmann::json now = {{"weather", a.weather.string()},
-                              {"suns", hash_of(inputs.suns)},
+                              {"suns", hash_of(suns)},
                               {"sensors file", a.sensors.string()},
-                              {"sensors", hash_of(inputs.sensors)},
+                              {"sensors", hash_of(sensors)},
                               {"patches", a.division}};
   const std::filesystem::path file = a.output / "inputs.json";
   std::ifstream in(file);

@@ -9,13 +9,9 @@
 
 namespace vitrail {
 
-// What a year's rows and columns are.
-struct YearInputs {
-  const std::vector<Vector3d>& suns;
-  const std::vector<Sensor>& sensors;
-};
 // Throws Error where the folder holds a year of other suns, sensors or patches, with the files' names, unless
 // --force is given; else notes these.
-void require_same_inputs(const YearArguments& arguments, const YearInputs& inputs);
+void require_same_inputs(const YearArguments& arguments, const std::vector<Vector3d>& suns,
+                         const std::vector<Sensor>& sensors);
 
 }  // namespace vitrail

@@ -53,7 +53,7 @@ void write_page(const std::filesystem::path& folder, const YearReport& report);
 
 // The figures over the area as they are printed, a line each, and the longest sunlight of a sensor.
 std::string words_of_area(const YearReport& report);
-// Of the sensors that do not face up the one that has most hours of sun; none: there is none.
+// Returns which of the sensors that do not face up has most hours of sun; none: there is none.
 std::optional<std::size_t> sunniest(const YearReport& report);
 
 // A figure over the area, for tables and pages.

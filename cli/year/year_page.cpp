@@ -205,8 +205,7 @@ std::string heat_of(const YearReport& r) {
   if (!r.heat) return "";
   return fmt::format(
       "<h2>Solar heat</h2>\n<p>Sun and sky bring {:.1f} ± {:.1f} kWh/m² of glass into the room, by the "
-      "weather's "
-      "W/m² and the glass's SHGC at each angle (heat.csv).</p>\n",
+      "weather's W/m² and the glass's SHGC at each angle (heat.csv).</p>\n",
       r.heat->year_kwh.value, r.heat->year_kwh.error);
 }
 
@@ -214,10 +213,8 @@ std::string sunlight_of(const YearReport& r) {
   if (!sunniest(r)) return "";
   std::string text = fmt::format(
       "<h2>Sunlight</h2>\n<p>Exposure to sunlight (EN 17037:2018) on {}, as if there were no clouds: minutes "
-      "in "
-      "which the sun, higher than {:g}°, shines on a sensor that does not face up. 1.5 h are the minimum, 3 "
-      "h "
-      "medium, 4 h high. It is exact to two minutes each time that the sun comes or goes.</p>\n"
+      "in which the sun, higher than {:g}°, shines on a sensor that does not face up. 1.5 h are the minimum, "
+      "3 h medium, 4 h high. It is exact to two minutes each time that the sun comes or goes.</p>\n"
       "<table><tr><th>sensor<th>hours<th>level</tr>\n",
       r.sun_day, r.sun_above_deg);
   for (std::size_t s = 0; s < r.sunlight_h.size(); ++s) {

@@ -7,7 +7,7 @@
 //   (metallic) and of the tinted reflectance at normal incidence;
 //   0.25·clearcoat: GTR₁ of width lerp(0.1, 0.001, gloss), Schlick's F₀ = 0.04;
 //   (1 − metallic)·spec_trans·√base_color: GGX refraction.
-// With `below` the diffuse part is Lambert's, of what the GGX reflection leaves (principled::below), as in
+// The diffuse part with `below` is Lambert's, of what the GGX reflection leaves (principled::below), as in
 // glTF.
 // Not reciprocal: the refraction by more than 1/η² (Fresnel factors of Schlick's kind depend on the side),
 // and the reflection behind, which has no metal. What reflects at the front is reciprocal.

@@ -32,8 +32,8 @@ struct DaylightRows {
   }
 };
 
-// What a film of such rows has as X, Y and Z: x̄ and ȳ of the CIE, and in the place of z̄ the melanopic action
-// spectrum (scene/daylight/photometry.h). Else the observer of the CIE.
+// Returns what films have as X, Y and Z: x̄ and ȳ of the CIE, and in the place of z̄ the melanopic action
+// spectrum (scene/daylight/photometry.h). Without such rows it is the observer of the CIE.
 const std::array<std::array<float, 3>, table_size>& observer_of(const DaylightRows& rows);
 
 struct RenderScene;
