@@ -227,7 +227,8 @@ def main():
         off = []
         for row, mine in zip(chosen, np.load(work / "h" / "as-it-is.sun.npy").T):
             other, _ = radiance.sun(float(row[3]), float(row[4]), points, args.hour_divisions)
-            off.append(mine / np.maximum(other, 1e-9))
+            lit = np.maximum(mine, other) > 1e-6  # else the sun is behind the walls for both
+            off += list(mine[lit] / np.maximum(other[lit], 1e-9))
             print("/".join(row[:3]), *(f"{m:.5f} {o:.5f}" for m, o in zip(mine, other)), flush=True)
         off = np.array(off)
         print(f"sun by rtrace, {off.size} values: median {np.median(off):.4f}, within 2 %: {100 * np.mean(abs(off - 1) < .02):.1f} %")
