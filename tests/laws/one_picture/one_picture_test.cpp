@@ -45,7 +45,7 @@ nlohmann::json render(const TemporaryDirectory& directory, const Bundle& bundle,
                       const std::string& more) {
   const auto stats = directory / "stats.json";
   const CommandResult done = run(fmt::format(
-      "{} '{}' -o '{}' --force --crop 0,48,0,32 --spp 2 --threads {} --stats '{}' {}",
+      "{} '{}' -o '{}' --force --crop 0,48,0,32 --threads {} --stats '{}' {}",
       bundle.domains == 1 ? mpi_vitrail("render", ranks) : vitrail_on(ranks, "render"), bundle.path.string(),
       (directory / "picture.film").string(), threads, stats.string(), more));
   EXPECT_EQ(done.status, 0) << done.output;
@@ -68,7 +68,12 @@ std::vector<int> threads_with(int domains, int ranks) {
   return {(domains == 8) == (ranks == 2) ? 1 : 2};
 }
 
-void expect_one_picture(const TemporaryDirectory& directory, const std::filesystem::path& scene) {
+// `samples`: enough that rays wait on the disk, however the ranks take turns.
+void expect_one_picture(const TemporaryDirectory& directory, const std::filesystem::path& scene,
+                        int samples = 2) {
+  const auto trace = [&](const Bundle& bundle, int ranks, int threads, const std::string& more) {
+    return render(directory, bundle, ranks, threads, fmt::format("--spp {} {}", samples, more));
+  };
   std::string hash;
   int runs = 0;
   std::uint64_t forwarded = 0, evictions = 0, spilled = 0;
@@ -92,7 +97,7 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
     for (const int ranks : {1, 2, 4})
       for (const int threads : threads_with(domains, ranks)) {
         const std::string what = fmt::format("{} domains, {} ranks, {} threads", domains, ranks, threads);
-        const nlohmann::json all = render(directory, bundle, ranks, threads, "");
+        const nlohmann::json all = trace(bundle, ranks, threads, "");
         check(all, what);
         if (all.is_null()) return;
         if (crossings.is_null()) crossings = all["crossings"];
@@ -100,35 +105,35 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
         EXPECT_EQ(all["forwarded_rays"], 0) << what;
         const std::string memory = quarter(bundle, all, threads);
         if (threads == 1 || std::getenv("VITRAIL_LONG_TESTS")) {
-          const nlohmann::json little = render(directory, bundle, ranks, threads, memory);
+          const nlohmann::json little = trace(bundle, ranks, threads, memory);
           check(little, what + ", a quarter of the memory");
           EXPECT_EQ(little["crossings"], crossings) << what;
         }
         if (domains == 64 && ranks == 2 && threads == 2)
           for (const int seed : {1, 2})
-            check(render(directory, bundle, ranks, threads,
-                         fmt::format("{} --shuffle-delivery {}", memory, seed)),
+            check(trace(bundle, ranks, threads, fmt::format("{} --shuffle-delivery {}", memory, seed)),
                   what + ", shuffled");
       }
   }
   // Cut anew for the rays that were seen.
   const auto profile = (directory / "profile.json").string();
-  render(directory, make_bundle(directory, scene, 8), 2, 1, fmt::format("--profile '{}'", profile));
+  trace(make_bundle(directory, scene, 8), 2, 1, fmt::format("--profile '{}'", profile));
   const Bundle recut = make_bundle(directory, scene, 8, fmt::format("--profile '{}'", profile));
-  check(render(directory, recut, 1, 2, ""), "cut by a profile");
+  check(trace(recut, 1, 2, ""), "cut by a profile");
   // Domains shared out otherwise, by the rays of the bundle itself.
   const Bundle shared = make_bundle(directory, scene, 8);
-  render(directory, shared, 1, 2, fmt::format("--profile '{}'", profile));
+  trace(shared, 1, 2, fmt::format("--profile '{}'", profile));
   for (const char* how : {"decompose", "decompose --homes", "replicate"}) {
     const bool homes = std::string(how).ends_with("homes");
-    check(render(directory, shared, 4, 1,
-                 fmt::format("--distribution {}{}", how, homes ? fmt::format(" '{}'", profile) : "")),
+    check(trace(shared, 4, 1,
+                fmt::format("--distribution {}{}", how, homes ? fmt::format(" '{}'", profile) : "")),
           how);
   }
   EXPECT_GT(forwarded, 0u) << "no run ever sent a ray";
   EXPECT_GT(evictions, 0u) << "no run ever evicted a domain";
   EXPECT_GT(spilled, 0u) << "no ray ever waited on the disk";
-  fmt::print("{} runs, film {}, {} rays forwarded, {} evictions\n", runs, hash, forwarded, evictions);
+  fmt::print("{} runs, film {}, {} rays forwarded, {} evictions, {} bytes spilled\n", runs, hash, forwarded,
+             evictions, spilled);
 }
 
 std::filesystem::path generate(const TemporaryDirectory& directory, const std::string& example,
@@ -148,7 +153,7 @@ TEST(OnePicture, HotelRoom) {
 // With instances of objects.
 TEST(OnePicture, City) {
   const TemporaryDirectory directory;
-  expect_one_picture(directory, generate(directory, "city", "--triangles 80000 --width 48 --height 32"));
+  expect_one_picture(directory, generate(directory, "city", "--triangles 80000 --width 48 --height 32"), 6);
 }
 
 TEST(OnePicture, CornellBox) {
