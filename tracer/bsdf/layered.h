@@ -29,6 +29,8 @@ struct LayerVolume {
   int samples = 1;       // walks an eval
   bool balanced = true;  // false: ways out are weighed as pbrt-v4 weighs them
 };
+// The same with numbers that a walk can use: thickness > 0, |g| < 1, samples ≥ 1.
+LayerVolume bounded(LayerVolume volume);
 
 struct CoatedDiffuseBsdf {
   SampledSpectrum reflectance;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracer/bsdf/layer_random.h"
+#include "tracer/bsdf/layer_random_lanes.h"
 #include "tracer/bsdf/local.h"
 
 namespace vitrail {
@@ -36,13 +36,14 @@ double straight_chance(const SlabBsdf& b, double cosine) {
 SampledSpectrum straight_transmittance(const SlabBsdf& b, double cosine) {
   SampledSpectrum t;
   for (std::size_t i = 0; i < hero_count; ++i)
-    t.v[i] = static_cast<float>(slab_transmittance(static_cast<double>(b.depth.v[i]), {0, 0, cosine}));
+    t.v[i] = static_cast<float>(
+        lanes::slab_transmittance<double>(static_cast<double>(b.depth.v[i]), {0, 0, cosine}));
   return t;
 }
 
 BsdfValue eval(const SlabBsdf& b, Vector3d out, Vector3d in) {
   if (out.z == 0 || in.z == 0) return {};
-  const double p = henyey_greenstein(b.g, -dot(out, in));
+  const double p = lanes::henyey_greenstein(b.g, -dot(out, in));
   BsdfValue result{.value = {}, .pdf = p * (1 - straight_chance(b, std::abs(out.z)))};
   for (std::size_t i = 0; i < hero_count; ++i)
     result.value.v[i] = static_cast<float>(
@@ -58,7 +59,8 @@ std::optional<BsdfSample> sample(const SlabBsdf& b, Vector3d out, float u_lobe, 
   if (u_lobe < chance)
     return BsdfSample{
         .in = -out, .weight = straight_transmittance(b, std::abs(out.z)) * (1 / chance), .specular = true};
-  const Vector3d in = sample_henyey_greenstein(b.g, -out, u);
+  const Vector3d in =
+      lanes::lane(lanes::sample_henyey_greenstein<double>(b.g, lanes::fill<double>(-out), u.x, u.y), 0);
   const BsdfValue value = eval(b, out, in);
   if (!(value.pdf > 0)) return std::nullopt;
   return BsdfSample{.in = in, .weight = value.value * static_cast<float>(1 / value.pdf), .pdf = value.pdf};

@@ -18,13 +18,6 @@ VITRAIL_LANES FloatsLike<D> density_beside(D pdf, std::uint32_t light_samples) {
   return rounded_pdf(to_floats(light_samples == 1 ? pdf : pdf / static_cast<double>(light_samples)));
 }
 
-// As vitrail's (tracer/sampling/power_heuristic.h).
-template <class D>
-VITRAIL_LANES D power_heuristic(D chosen, D other) {
-  const D ratio = other / chosen;
-  return 1.0 / (1.0 + ratio * ratio);
-}
-
 template <class F>
 VITRAIL_LANES F rounded_radiance(F value) {
   const auto code = (cast_bits<std::uint32_t>(value) << 1) + 0x80u;

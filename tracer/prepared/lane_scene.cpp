@@ -70,6 +70,27 @@ void set(const FinishMaterial& m, LaneMaterial& s) {
   set_spectra({&m.reflectance, &m.highlight}, s);
 }
 
+// A walk has an event of its own: parameters for each path.
+bool is_textured(const Roughness& r) { return !width_of(r) || !std::holds_alternative<float>(r.alpha_v); }
+bool is_textured(const CoatingVolume& v) {
+  return !std::holds_alternative<float>(v.thickness) || !std::holds_alternative<float>(v.g) ||
+         !is_constant(v.albedo);
+}
+
+void set(const CoatedDiffuseMaterial& m, LaneMaterial& s) {
+  s.kind = LaneKind::coated_diffuse;
+  s.is_textured = !is_constant(m.reflectance) || is_textured(m.roughness) || is_textured(m.volume);
+}
+
+void set(const CoatedConductorMaterial& m, LaneMaterial& s) {
+  s.kind = LaneKind::coated_conductor;
+  const auto* index = std::get_if<ComplexIndex>(&m.metal);
+  const auto* normal = std::get_if<NormalReflectance>(&m.metal);
+  s.is_textured = (index && (!is_constant(index->eta) || !is_constant(index->k))) ||
+                  (normal && !is_constant(normal->reflectance)) || is_textured(m.conductor_roughness) ||
+                  is_textured(m.interface_roughness) || is_textured(m.volume);
+}
+
 void set(const DielectricMaterial& m, LaneMaterial& s) {
   const auto *behind = std::get_if<ConstantSpectrum>(&m.eta),
              *before = std::get_if<ConstantSpectrum>(&m.exterior_eta);
@@ -119,6 +140,8 @@ LaneMaterial lane_material(const Manifest& manifest, const Textures& images, con
   if (const auto* plastic = std::get_if<PlasticMaterial>(&material.model)) set(*plastic, s);
   if (const auto* principled = std::get_if<PrincipledMaterial>(&material.model)) set(*principled, s);
   if (const auto* finish = std::get_if<FinishMaterial>(&material.model)) set(*finish, s);
+  if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&material.model)) set(*coated, s);
+  if (const auto* coated = std::get_if<CoatedConductorMaterial>(&material.model)) set(*coated, s);
   if (const auto* glass = std::get_if<DielectricMaterial>(&material.model)) set(*glass, s);
   if (const auto* sheet = std::get_if<ThinDielectricMaterial>(&material.model)) set(*sheet, s);
   s.is_raised = material.displacement.has_value();
@@ -196,6 +219,11 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf) {
   } else if (const auto* finish = std::get_if<FinishBsdf>(&bsdf)) {
     l.spectra[0] = finish->reflectance, l.spectra[1] = finish->highlight;
     l.finish = *finish;
+  } else if (const auto* diffuse = std::get_if<CoatedDiffuseBsdf>(&bsdf)) {
+    l.spectra[0] = diffuse->reflectance;
+  } else if (const auto* coated = std::get_if<CoatedConductorBsdf>(&bsdf)) {
+    l.spectra[0] = coated->eta, l.spectra[1] = coated->k;
+    l.microfacets = coated->conductor;
   } else if (const auto* glass = std::get_if<DielectricBsdf>(&bsdf)) {
     l.spectra[0] = glass->reflectance_factor, l.spectra[1] = glass->transmittance_factor;
     l.eta = glass->eta;
@@ -204,6 +232,13 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf) {
     l.spectra[0] = sheet->reflectance_factor, l.spectra[1] = sheet->transmittance_factor;
   }
   return l;
+}
+
+LaneCoating lane_coating(const Bsdf& bsdf, std::uint64_t event) {
+  if (const auto* diffuse = std::get_if<CoatedDiffuseBsdf>(&bsdf))
+    return {diffuse->eta, diffuse->interface, bounded(diffuse->volume), event};
+  const auto& metal = std::get<CoatedConductorBsdf>(bsdf);
+  return {metal.interface_eta, metal.interface, bounded(metal.volume), event};
 }
 
 LaneScene::LaneScene(const Manifest& manifest, const Textures& images, const Interiors& interiors,

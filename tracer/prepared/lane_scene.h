@@ -21,13 +21,15 @@ enum class LaneKind : std::uint8_t {
   metal,    // and rough
   plastic,  // PlasticBsdf
   rough_plastic,
-  principled,   // PrincipledBsdf
-  finish,       // FinishBsdf
+  principled,  // PrincipledBsdf
+  finish,      // FinishBsdf
+  coated_diffuse,
+  coated_conductor,
   rough_glass,  // DielectricBsdf, rough, of one index
   glass,        // smooth, of one index
   sheet         // ThinDielectricBsdf, of one index
 };
-inline constexpr std::size_t lane_kinds = 11;
+inline constexpr std::size_t lane_kinds = 13;
 
 // An image that lanes look up: by (u,v), bilinear, the finest level.
 struct LaneTexture {
@@ -54,6 +56,16 @@ struct LaneBsdf {
 // Of a surface of that kind.
 LaneBsdf lane_bsdf(const Bsdf& bsdf);
 
+// What a CoatedDiffuseBsdf or CoatedConductorBsdf has above its base, whose spectra and facets are those of a
+// LaneBsdf.
+struct LaneCoating {
+  double eta = 1;
+  Microfacets interface;
+  LayerVolume volume;
+  std::uint64_t event = 0;
+};
+LaneCoating lane_coating(const Bsdf& bsdf, std::uint64_t event);
+
 struct LaneMaterial {
   LaneKind kind = LaneKind::none;
   bool two_sided = false;
@@ -71,6 +83,7 @@ struct LaneMaterial {
   float eta_behind = 1, eta_before = 1;
   bool is_tinted = false;
 
+  bool is_coated() const { return kind == LaneKind::coated_diffuse || kind == LaneKind::coated_conductor; }
   bool is_diffuse() const { return kind == LaneKind::diffuse || kind == LaneKind::finish; }
   bool is_specular() const { return kind == LaneKind::mirror || kind >= LaneKind::glass; }
 };

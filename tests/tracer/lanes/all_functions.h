@@ -91,8 +91,8 @@ constexpr LaneFunctions functions_of(const char* set) {
             interaction_with_both, offset_origin, depart, choose_of_few_lights, choose_of_many_lights,
             choose_of_two_lights, draw_emitter, choose_by_power, choose_of_none, aim, shadow_radiance,
             draw_triangle, sample_sphere, sphere_crossings, aim_at_sphere, quick_math, microfacets, phase,
-            conductor, rough_dielectric, sheet, plastic, principled, finish, portable_math, sphere_map,
-            look_up_image, sample_environment, see_environment>;
+            conductor, layer_random, coating, rough_dielectric, sheet, plastic, principled, finish,
+            portable_math, sphere_map, look_up_image, sample_environment, see_environment>;
   return {set, W, all, sizeof all / sizeof all[0]};
 }
 

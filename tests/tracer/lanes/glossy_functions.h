@@ -4,9 +4,11 @@
 
 #include "tests/tracer/lanes/context.h"
 #include "tests/tracer/lanes/lane_table.h"
+#include "tracer/bsdf/coating_lanes.h"
 #include "tracer/bsdf/conductor_lanes.h"
 #include "tracer/bsdf/dielectric_lanes.h"
 #include "tracer/bsdf/finish_lanes.h"
+#include "tracer/bsdf/layer_random_lanes.h"
 #include "tracer/bsdf/plastic_lanes.h"
 #include "tracer/bsdf/principled_lanes.h"
 #include "tracer/bsdf/principled_lobes.h"
@@ -60,6 +62,40 @@ LANE_FUNCTION(conductor, 25, 25) {
   out.four(f.value), out.number(f.pdf);
   put_sample(lanes::sample(bsdf, in.vector(17), in.f(23), in.f(24)), out);
   put_sample(lanes::sample_mirror(bsdf, in.vector(17)), out);
+}
+// Two words of an event, a number that it is about, whether it is asked, asymmetry, a direction, depth, two
+// numbers.
+LANE_FUNCTION(layer_random, 11, 12) {
+  using D = lanes::Doubles<W>;
+  lanes::WalkRandom<D> random(in.l(0), 3);
+  random << in.d(2);
+  const lanes::Mask<D> on = in.d(3) > 0;
+  const auto pair = random.uniform_pair(on);
+  out.number(pair.x), out.number(pair.y);
+  out.number(random.uniform(on)), out.number(random.uniform(on | lanes::no(on)));
+  const auto next = lanes::sample_henyey_greenstein<D>(in.d(4), in.vector(5), in.f(9), in.f(10));
+  out.vector(next), out.number(lanes::henyey_greenstein<D>(in.d(4), lanes::dot(in.vector(5), next)));
+  out.number(lanes::slab_transmittance<D>(in.d(8), in.vector(5)));
+  out.number(lanes::sin_pi<D>(in.d(8))), out.number(lanes::sin_pi<D>(in.d(8) + 0.5));
+  out.number(lanes::portable_log<D>(1.0 - in.d(9)));
+}
+// Widths and kinds, index, smooth or not, two directions, three numbers.
+LANE_FUNCTION(coating, 15, 22) {
+  using D = lanes::Doubles<W>;
+  const lanes::Coating<D> coating{in.d(4), microfacets_of(in, 0), in.d(5) > 0};
+  const auto from = in.vector(6), to = in.vector(9);
+  out.number(lanes::coating_reflection(coating, from, to));
+  out.number(lanes::coating_transmission(coating, from, to));
+  out.number(lanes::coating_reflected_pdf(coating, from, to));
+  out.number(lanes::coating_transmitted_pdf(coating, from, to));
+  const auto put = [&](const lanes::CoatingSample<D>& s) {
+    const auto kept = [&](D x) { return lanes::select<D>(s.found, x, lanes::fill<D>(0)); };
+    out.mask(s.found), out.vector(lanes::Vector<D>{kept(s.in.x), kept(s.in.y), kept(s.in.z)});
+    out.number(kept(s.weight)), out.number(kept(s.pdf));
+  };
+  put(lanes::sample_coating_reflection(coating, from, in.f(13), in.f(14)));
+  put(lanes::sample_coating_transmission(coating, from, in.f(13), in.f(14)));
+  put(lanes::sample_coating(coating, from, in.d(12), in.f(13), in.f(14)));
 }
 // A cosine, an index.
 LANE_FUNCTION(sheet, 2, 1) { out.number(lanes::sheet_reflectance(in.d(0), in.d(1))); }

@@ -2,9 +2,11 @@
 #include "tests/tracer/lanes/fixtures.h"
 #include "tests/tracer/lanes/results.h"
 #include "tests/tracer/lanes/scalar_functions.h"
+#include "tracer/bsdf/coating_lanes.h"
 #include "tracer/bsdf/conductor.h"
 #include "tracer/bsdf/dielectric.h"
 #include "tracer/bsdf/finish.h"
+#include "tracer/bsdf/layer_random_lanes.h"
 #include "tracer/bsdf/plastic.h"
 #include "tracer/bsdf/principled.h"
 #include "tracer/media/phase.h"
@@ -60,6 +62,9 @@ std::vector<ScalarFunction> glossy_functions() {
   std::vector<Argument> microfacets = facets(), conductor = facets(), plastic = facets(),
                         principled = reflectances(), finish = reflectances(), dielectric = facets();
   add(microfacets, {direction_above(), direction(), unit_number(), unit_number()});
+  std::vector<Argument> coating = facets();
+  add(coating, {number(0.4, 2.5, {1, 1.5, 1 / 1.5}), word(2), direction(), direction(), unit_number(),
+                unit_number(), unit_number()});
   add(conductor, std::vector<Argument>(4, float_number(0.05, 4, {0.2, 1})));
   add(conductor, std::vector<Argument>(4, float_number(0, 8, {0.5, 3})));
   add(conductor, reflectances());
@@ -111,6 +116,47 @@ std::vector<ScalarFunction> glossy_functions() {
          put(sample(bsdf, from, 0, numbers_of(in + 23)), results);
          bsdf.microfacets = {};
          put(sample(bsdf, from, 0, {}), results);
+       }},
+      {"layer_random",
+       {long_word(), number(-1, 1, {0, -0.0, 1}), word(2), number(-0.99, 0.99, {0, 1e-3, -1e-3, 0.5}),
+        direction(), number(0, 3, {0, 0.5, 1, 1.25, 2}), unit_number(), unit_number()},
+       [](const Context&, const double* in, double* out) {
+         lanes::WalkRandom<double> random(
+             static_cast<std::uint64_t>(in[0]) | static_cast<std::uint64_t>(in[1]) << 32, 3);
+         random << in[2];
+         const auto [x, y] = random.uniform_pair(in[3] > 0);
+         const double masked = random.uniform(in[3] > 0), all = random.uniform(true);
+         const Vector3d w = vector_of(in + 5);
+         const Point2f u = numbers_of(in + 9);
+         const Vector3d next =
+             lanes::lane(lanes::sample_henyey_greenstein<double>(in[4], lanes::fill<double>(w), u.x, u.y), 0);
+         Results{out} << static_cast<double>(x) << static_cast<double>(y) << masked << all << next
+                      << lanes::henyey_greenstein<double>(in[4], dot(w, next))
+                      << lanes::slab_transmittance<double>(in[8], lanes::fill<double>(w)) << sin_pi(in[8])
+                      << sin_pi(in[8] + 0.5) << portable_log(1 - in[9]);
+       }},
+      {"coating", coating,
+       [](const Context&, const double* in, double* out) {
+         const lanes::Coating<double> coated{in[4], lanes::fill(microfacets_of(in)), in[5] > 0};
+         const auto from = lanes::fill<double>(vector_of(in + 6)),
+                    to = lanes::fill<double>(vector_of(in + 9));
+         Results results{out};
+         results << lanes::coating_reflection(coated, from, to)
+                 << lanes::coating_transmission(coated, from, to)
+                 << lanes::coating_reflected_pdf(coated, from, to)
+                 << lanes::coating_transmitted_pdf(coated, from, to);
+         const auto put = [&](const lanes::CoatingSample<double>& s) {
+           const double kept = s.found ? 1 : 0;
+           results << kept;
+           if (s.found)
+             results << s.in << s.weight << s.pdf;
+           else
+             results << Vector3d{} << 0 << 0;
+         };
+         const Point2f u = numbers_of(in + 13);
+         put(lanes::sample_coating_reflection(coated, from, u.x, u.y));
+         put(lanes::sample_coating_transmission(coated, from, u.x, u.y));
+         put(lanes::sample_coating(coated, from, in[12], u.x, u.y));
        }},
       {"rough_dielectric", dielectric,
        [](const Context&, const double* in, double* out) {

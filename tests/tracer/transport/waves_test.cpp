@@ -75,6 +75,18 @@ void add_points(Scene& scene) {
   scene.settings.direct_only = true;
 }
 
+// Of a clear or cloudy coat over grey or gold, wide or smooth both.
+Material coated(float coat, float base, bool is_metal = false, float albedo = 0) {
+  CoatingVolume volume{.thickness = 0.3f, .g = 0.4f, .albedo = ConstantSpectrum{albedo}};
+  volume.samples = albedo > 0 ? 2 : 1;
+  Roughness on_top, below;
+  on_top.alpha_u = on_top.alpha_v = coat, below.alpha_u = below.alpha_v = base;
+  if (is_metal)
+    return material(CoatedConductorMaterial{gold_index(), below, ConstantSpectrum{1.5f}, on_top, volume});
+  return material(CoatedDiffuseMaterial{Spectrum{reflectance_from_rgb({0.2f, 0.4f, 0.8f})},
+                                        ConstantSpectrum{1.5f}, on_top, volume});
+}
+
 Material principled(float metallic) {
   PrincipledMaterial p;
   p.base_color = Spectrum{reflectance_from_rgb({0.7f, 0.4f, 0.1f})};
@@ -193,6 +205,17 @@ std::vector<Case> cases() {
        }},
       {"plastic", block(plastic(0))},
       {"rough plastic", block(plastic(0.2f))},
+      {"coated", block(coated(0, 0))},
+      {"coated, rough", block(coated(0.2f, 0))},
+      {"coated, cloudy", block(coated(0, 0, false, 0.8f))},
+      {"coated, rough and cloudy, beside a smooth one",
+       [](Scene& s) {
+         add_block(s, coated(0.3f, 0, false, 0.8f));
+         add_ball(s, coated(0, 0));
+       }},
+      {"coated gold, smooth", block(coated(0, 0, true))},
+      {"coated gold, rough", block(coated(0, 0.2f, true))},
+      {"coated gold, all rough and cloudy", block(coated(0.2f, 0.1f, true, 0.5f))},
       {"principled", block(principled(0.3f))},
       {"principled as glTF has it", block(material(PrincipledMaterial{.metallic = 0.3f, .below = true}))},
       {"glass", block(material(DielectricMaterial{ConstantSpectrum{1.5f}}))},

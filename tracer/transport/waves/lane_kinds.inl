@@ -155,6 +155,58 @@ struct ReadFinish {
   }
 };
 
+// Widths of 1 for those that are smooth, whose facets nobody asks for: no loop waits for a 0.
+VITRAIL_LANES Microfacets<D> rough_alone(Microfacets<D> mf, Mask<D> smooth) {
+  mf.alpha_u = select<D>(smooth, fill<D>(1), mf.alpha_u);
+  mf.alpha_v = select<D>(smooth, fill<D>(1), mf.alpha_v);
+  return mf;
+}
+template <class Base>
+VITRAIL_LANES Layer<D, Base> layer_over(const Base& base, const LaneWork& work, const Group& g) {
+  const auto of = [&](int j) __attribute__((always_inline))->const LaneCoating& {
+    return work.coatings[g.place[j]];
+  };
+  Layer<D, Base> layer{base};
+  layer.coating.eta = gather<D>(VITRAIL_EACH(of(j).eta));
+  const Microfacets<D> facets =
+      gather_microfacets<D>([&](int j) __attribute__((always_inline))->const vitrail::Microfacets& {
+        return of(j).interface;
+      });
+  layer.coating.smooth = (facets.alpha_u == 0) & (facets.alpha_v == 0);
+  layer.coating.smooth = layer.coating.smooth | (layer.coating.eta == 1);
+  layer.coating.facets = rough_alone(facets, layer.coating.smooth);
+  layer.volume.thickness = gather<D>(VITRAIL_EACH(of(j).volume.thickness));
+  layer.volume.g = gather<D>(VITRAIL_EACH(of(j).volume.g));
+  for (int i = 0; i < 4; ++i)
+    layer.volume.albedo[i] = gather<F>(VITRAIL_EACH(of(j).volume.albedo.v.data()[i]));
+  layer.volume.max_depth = gather<D>(VITRAIL_EACH(of(j).volume.max_depth));
+  layer.volume.samples = gather<D>(VITRAIL_EACH(of(j).volume.samples));
+  layer.volume.balanced = gather_mask<D>(VITRAIL_EACH(of(j).volume.balanced));
+  layer.event = gather<L>(VITRAIL_EACH(of(j).event));
+  return layer;
+}
+struct ReadCoatedDiffuse {
+  static constexpr bool is_specular = false;
+  static constexpr bool may_transmit = false;
+  static constexpr bool takes_any_normal = false;
+  VITRAIL_LANES static CoatedDiffuse<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
+    return layer_over(LambertBase<D>{spectrum_of(g, 0)}, work, g);
+  }
+};
+struct ReadCoatedConductor {
+  static constexpr bool is_specular = false;
+  static constexpr bool may_transmit = false;
+  static constexpr bool takes_any_normal = false;
+  VITRAIL_LANES static CoatedConductor<D> read(const LaneWork& work, const Group& g, const Interaction<D>&) {
+    const Microfacets<D> facets = microfacets_of(g);
+    const Mask<D> smooth = (facets.alpha_u == 0) & (facets.alpha_v == 0);
+    CoatedConductor<D> layer = layer_over(ConductorBase<D>{}, work, g);
+    layer.base = {spectrum_of(g, 0), spectrum_of(g, 1), layer.coating.eta, rough_alone(facets, smooth),
+                  smooth};
+    return layer;
+  }
+};
+
 struct ReadRoughGlass {
   static constexpr bool is_specular = false;
   static constexpr bool may_transmit = true;

@@ -47,7 +47,7 @@ static_assert(std::is_trivially_destructible_v<Interaction>);
 }  // namespace
 
 LaneLists::LaneLists(std::size_t most)
-    : surface_(most), material_(most), next_(most), bsdfs_(most), placed_(most) {
+    : surface_(most), material_(most), next_(most), bsdfs_(most), coatings_(most), placed_(most) {
   for (auto& kind : lists_)
     for (auto& placing : kind)
       for (auto& list : placing) list.reserve(most);
@@ -93,10 +93,12 @@ void LaneLists::enlist(const Tracing& tracing, const CameraPath& path, std::uint
   const Material& material = tracing.manifest().materials[material_[place]];
   is_placed = is_placed || of.is_tilted;
   if (is_placed) placed_[place] = placed_hit(materials, material, of, *at);
-  if (of.is_textured)
-    bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, at->texture_point(), path.wavelengths));
-  else if (of.has_parameters)
-    bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, {}, path.wavelengths));
+  if (of.has_parameters) {
+    const TexturePoint point = of.is_textured ? at->texture_point() : TexturePoint{};
+    const Bsdf bsdf = materials.bsdf_at(material, point, path.wavelengths);
+    bsdfs_[place] = lane_bsdf(bsdf);
+    if (of.is_coated()) coatings_[place] = lane_coating(bsdf, stream_of(path, RayRandom::layers));
+  }
   if (domains_.size() < tracing.resident.size()) domains_.resize(tracing.resident.size());
   domains_[path.hit_domain] = lanes::tables_of(*tracing.resident[path.hit_domain]);
   const std::uint32_t candidates = of.is_specular() ? 1 : candidates_of(tracing, path, place, is_placed, of);
@@ -165,6 +167,7 @@ void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
                 .surface = surface_.data(),
                 .material = material_.data(),
                 .bsdfs = bsdfs_.data(),
+                .coatings = coatings_.data(),
                 .placed = placed_.data(),
                 .domains = domains_.data(),
                 .roulette_worth = has_roulette ? worth_going_on(roulette) : 0,

@@ -38,6 +38,7 @@ class LaneLists {
   std::array<std::array<std::array<std::vector<std::uint32_t>, 2>, 2>, lane_kinds> lists_;
   std::vector<std::uint32_t> surface_, material_, next_;  // by place, by place; places
   std::vector<LaneBsdf> bsdfs_;                           // by place
+  std::vector<LaneCoating> coatings_;                     // by place
   std::vector<PlacedHit> placed_;                         // by place
   std::vector<lanes::DomainTables> domains_;            // by number; of those where paths in lists have hits
   std::vector<std::uint32_t> leaving_;                  // places

@@ -33,6 +33,7 @@ struct LaneWork {
   const std::uint32_t* surface;        // of a path's hit, in Manifest::surfaces
   const std::uint32_t* material;       // that it has met there, in LaneScene::materials
   const LaneBsdf* bsdfs;               // of those whose surface has one
+  const LaneCoating* coatings;         // of those whose material is coated
   const PlacedHit* placed;             // of hits that are in a list of such
   const lanes::DomainTables* domains;  // of hits' domains
   float roulette_worth;                // what a path is worth going on for; 0: no roulette

@@ -250,9 +250,10 @@ void begin(const NewPaths& work) {
   }
 }
 
-constexpr LaneStages stages{begin,
-                            leave_scene,
-                            scatter_in_media,
-                            {nullptr, scatter<ReadLambert>, scatter<ReadMirror>, scatter<ReadMetal>,
-                             scatter<ReadPlastic>, scatter<ReadRoughPlastic>, scatter<ReadPrincipled>,
-                             scatter<ReadFinish>, scatter<ReadRoughGlass>, scatter_glass, scatter_sheet}};
+constexpr LaneStages stages{
+    begin,
+    leave_scene,
+    scatter_in_media,
+    {nullptr, scatter<ReadLambert>, scatter<ReadMirror>, scatter<ReadMetal>, scatter<ReadPlastic>,
+     scatter<ReadRoughPlastic>, scatter<ReadPrincipled>, scatter<ReadFinish>, scatter<ReadCoatedDiffuse>,
+     scatter<ReadCoatedConductor>, scatter<ReadRoughGlass>, scatter_glass, scatter_sheet}};

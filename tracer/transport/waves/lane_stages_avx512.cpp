@@ -3,6 +3,7 @@
 #include "tracer/bsdf/dielectric_lanes.h"
 #include "tracer/bsdf/diffuse_lanes.h"
 #include "tracer/bsdf/finish_lanes.h"
+#include "tracer/bsdf/layered_lanes.h"
 #include "tracer/bsdf/plastic_lanes.h"
 #include "tracer/bsdf/principled_lanes.h"
 #include "tracer/lanes/interaction.h"
@@ -14,6 +15,7 @@
 #include "tracer/lights/point_emitter_lanes.h"
 #include "tracer/lights/sphere_light_lanes.h"
 #include "tracer/media/phase_lanes.h"
+#include "tracer/sampling/power_heuristic_lanes.h"
 #include "tracer/transport/waves/lane_stages.h"
 
 namespace vitrail {
