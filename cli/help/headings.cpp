@@ -28,7 +28,7 @@ const std::vector<Heading> of_render{
     {"How long",
      "time=SECONDS dry-run checkpoint-every=SECONDS resume force restarts=TIMES launcher=COMMAND "
      "retries=TIMES"},
-    {"On how many", "threads distribution homes=FILE patience=SECONDS"},
+    {"On how many", "threads distribution traversal homes=FILE patience=SECONDS"},
     {"In how much memory", "memory=SIZE"},
     {"What to write",
      "film=FILE preview=FILE display-server=HOST:PORT aov=LAYERS aov-space alpha light-groups "

@@ -114,6 +114,14 @@ void declare_resources(CLI::App& app, RenderArguments& a) {
                  "threads a rank, at most 64 or four a processor; default: one a processor allowed")
       ->check(CLI::Range(1, 4096));
   declare_distribution(app, o.resources.distribution, o.resources.homes);
+  app.add_option_function<std::string>(
+         "--traversal",
+         [&o](const std::string& whose) {
+           o.resources.traversal = whose == "embree" ? Traversal::embree : Traversal::own;
+         },
+         "own (default): rays go through the bundle's trees. embree: through trees that Embree builds as a "
+         "domain is loaded, for a second opinion: slower, and the same picture to the bit")
+      ->check(CLI::IsMember({"own", "embree"}));
 }
 
 // What the film keeps.

@@ -8,6 +8,7 @@
 #include "farm/plan/job_manifest.h"
 #include "film/picture_memory.h"
 #include "scene/system/machine_limits.h"
+#include "tracer/intersect/embree_domain.h"
 #include "tracer/photons/photon_map.h"
 #include "tracer/photons/sensor_discs.h"
 
@@ -36,6 +37,7 @@ std::uint64_t base_bytes(const Manifest& m, const RenderOptions& options, const 
   const WorkPlan work = make_work_plan(m.film.crop, plan.goal.samples, {}, plan.goal.one_by_one);
   return plan.scene.resident + (plan.goal.adaptive ? map_bytes(m.film.crop) : 0) + list_bytes(work, ranks) +
          table_bytes(m.domains.size(), plan.threads) + connection_bytes(ranks) + disc_bytes(m, plan.key) +
+         (options.resources.traversal == Traversal::embree ? embree_bytes(bytes_of_all(m)) : 0) +
          (options.outputs.profile.empty() ? 0 : profile_bytes(m.domains.size(), plan.threads)) +
          (options.outputs.trace.empty() ? 0 : Timeline::most_bytes(ranks));
 }

@@ -13,6 +13,7 @@
 #include "farm/plan/view_edit.h"
 #include "farm/scheduler/residency.h"
 #include "scene/records/scene.h"
+#include "tracer/intersect/traversal.h"
 #include "tracer/prepared/daylight_rows.h"
 
 namespace vitrail {
@@ -68,6 +69,7 @@ struct JobResources {
   std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
   int threads = 0;                 // a rank; 0: one a processor allowed
   Distribution distribution = Distribution::automatic;
+  Traversal traversal = Traversal::own;
   std::filesystem::path homes;      // a RayProfile: ranks answer for equal work; empty: for equal bytes
   double checkpoint_every_s = 600;  // 0: only when asked by a signal
   // From `start` to the end of what comes after the film; 0: none. The film then holds what was done. At

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 
+#include "tracer/intersect/embree_domain.h"
+
 namespace vitrail {
 
-ResidentDomains::ResidentDomains(const Manifest& manifest, std::filesystem::path bundle)
+ResidentDomains::ResidentDomains(const Manifest& manifest, std::filesystem::path bundle, Traversal traversal)
     : manifest_(manifest),
       bundle_(std::move(bundle)),
+      traversal_(traversal),
       touched_(manifest.domains.size()),
       objects_(manifest.objects.size()),
       objects_touched_(manifest.objects.size()),
@@ -48,7 +51,7 @@ SharedDomain ResidentDomains::counted(SharedDomain mapped, std::uint64_t bytes) 
           }};
 }
 
-std::shared_ptr<const LoadedDomain> ResidentDomains::load(const Reservation& reservation) {
+std::shared_ptr<const DomainView> ResidentDomains::load(const Reservation& reservation) {
   const auto object = [&](std::uint32_t number) {
     if (const auto held = reservation.held.find(number); held != reservation.held.end()) return held->second;
     std::uint8_t& touched = objects_touched_[number];
@@ -61,13 +64,17 @@ std::shared_ptr<const LoadedDomain> ResidentDomains::load(const Reservation& res
   const std::uint32_t domain = reservation.load.domain;
   SharedDomain mapped = counted(map_domain(manifest_, bundle_, domain, &packs_, reservation.again),
                                 bytes_loaded(manifest_, domain));
-  return std::make_shared<const LoadedDomain>(manifest_, domain, std::move(mapped), object);
+  auto loaded = std::make_shared<const LoadedDomain>(manifest_, domain, std::move(mapped), object);
+  const DomainView* const view = &loaded->view();
+  if (traversal_ == Traversal::own) return {std::move(loaded), view};
+  const auto* const tree = new EmbreeDomain(*view, EmbreeDomain::Instances::by_kernel);
+  return {tree, [loaded = std::move(loaded)](const EmbreeDomain* it) { delete it; }};
 }
 
-void ResidentDomains::insert(std::uint32_t domain, std::shared_ptr<const LoadedDomain> loaded) {
+void ResidentDomains::insert(std::uint32_t domain, std::shared_ptr<const DomainView> loaded) {
   touched_[domain] = true;
   auto next = std::make_shared<ResidentTable>(*table_);
-  next->views[domain] = &loaded->view();
+  next->views[domain] = loaded.get();
   next->domains[domain] = std::move(loaded);
   table_ = std::move(next);
 }

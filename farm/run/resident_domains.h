@@ -10,13 +10,14 @@
 
 #include "bundle/loaded_domain.h"
 #include "farm/scheduler/residency.h"
+#include "tracer/intersect/traversal.h"
 
 namespace vitrail {
 
 // The resident domains at one moment. A worker keeps its own reference while it traces, so a domain that is
 // evicted meanwhile is unmapped when the last worker lets go of it.
 struct ResidentTable {
-  std::vector<std::shared_ptr<const LoadedDomain>> domains;
+  std::vector<std::shared_ptr<const DomainView>> domains;  // with their files
   std::vector<const DomainView*> views;
 };
 
@@ -30,7 +31,7 @@ struct Reservation {
 // Not synchronised, except `load`: the rank's mutex guards it. No two loads under way bring the same object.
 class ResidentDomains {
  public:
-  ResidentDomains(const Manifest& manifest, std::filesystem::path bundle);
+  ResidentDomains(const Manifest& manifest, std::filesystem::path bundle, Traversal traversal);
 
   std::shared_ptr<const ResidentTable> table() const { return table_; }
   // A bit a domain: it was loaded at least once.
@@ -38,9 +39,9 @@ class ResidentDomains {
 
   // Lets the evicted go, keeps what the load needs of them.
   std::optional<Reservation> begin(LoadStep step);
-  // Maps and verifies; may be called without the mutex.
-  std::shared_ptr<const LoadedDomain> load(const Reservation& reservation);
-  void insert(std::uint32_t domain, std::shared_ptr<const LoadedDomain> loaded);
+  // Maps and verifies, and builds Embree's tree if that is wanted; may be called without the mutex.
+  std::shared_ptr<const DomainView> load(const Reservation& reservation);
+  void insert(std::uint32_t domain, std::shared_ptr<const DomainView> loaded);
   // Bytes unmapped since it was asked last. Workers let go without a notice.
   std::uint64_t take_released() { return released_->exchange(0); }
 
@@ -49,6 +50,7 @@ class ResidentDomains {
 
   const Manifest& manifest_;
   std::filesystem::path bundle_;
+  Traversal traversal_;
   OpenPacks packs_;
   std::vector<bool> touched_;
   std::vector<std::weak_ptr<const MappedDomain>> objects_;  // by number

@@ -11,6 +11,7 @@
 #include "scene/system/diagnostics.h"
 #include "scene/system/resource_usage.h"
 #include "scene/system/underway.h"
+#include "tracer/intersect/embree_domain.h"
 
 namespace vitrail {
 
@@ -100,14 +101,19 @@ const KernelFunctions& walking_kernel() {
   return kernel;
 }
 
+const KernelFunctions& kernel_for(Traversal traversal, Profiling::Manner manner) {
+  if (traversal == Traversal::embree) return embree_kernel();
+  return manner == Profiling::Manner::walking ? walking_kernel() : best_kernel();
+}
+
 // Returns seconds of the processor.
 double trace(RankState& s, Task& task, Profiling::Manner manner, Hands& hands) {
   const double start = thread_cpu_seconds();
   const bool recorded = hands.traffic && manner == Profiling::Manner::recorded;
-  Tracer tracer({s.scene, task.table->views, s.film, hands.outbox, hands.counters,
-                 recorded ? &*hands.traffic : nullptr, s.photons ? &s.photons->pass() : nullptr,
-                 manner == Profiling::Manner::walking ? walking_kernel() : best_kernel()},
-                hands.wave);
+  Tracer tracer(
+      {s.scene, task.table->views, s.film, hands.outbox, hands.counters, recorded ? &*hands.traffic : nullptr,
+       s.photons ? &s.photons->pass() : nullptr, kernel_for(s.traversal, manner)},
+      hands.wave);
   perform(task, s.plan, tracer, [&] {
     if (hands.outbox.size() < most_rays_in_hand) return;
     const Locked locked(s);
@@ -187,7 +193,7 @@ void load(RankState& s, int thread) {
     }
     s.load_wanted.notify_one();  // the next one may have something to load as well
     Clock::time_point start, end;
-    std::shared_ptr<const LoadedDomain> loaded;
+    std::shared_ptr<const DomainView> loaded;
     ++s.loads_under_way;
     locked.without([&] {
       const Underway underway("loading a domain");

@@ -8,6 +8,7 @@
 
 #include "tests/bench/embree_triangles.h"
 #include "tests/bench/timing.h"
+#include "tracer/intersect/embree_domain.h"
 
 namespace vitrail::test {
 namespace {
@@ -152,13 +153,13 @@ void compare_traversals(const Triangles& triangles, const DomainView& domain, RT
                                variant("embree robust", [&](const Ray& r) { return robust.closest(r); }),
                                variant("ours through embree", [&](const Ray& r) {
                                  Hit hit;
-                                 through_embree.closest(r, hit);
+                                 through_embree.closest(prepare(r), hit);
                                  return answer(hit);
                                })};
   std::vector<Variant> shadow{
       variant("embree triangles", [&](const Ray& r) { return fast.occluded(r, 1); }),
       variant("embree robust", [&](const Ray& r) { return robust.occluded(r, 1); }),
-      variant("ours through embree", [&](const Ray& r) { return through_embree.occluded(r, 1); })};
+      variant("ours through embree", [&](const Ray& r) { return through_embree.occluded(prepare(r), 1); })};
   for (const Kernel kernel : available_kernels()) {
     const KernelFunctions& functions = kernel_functions(kernel);
     closest.push_back(variant(name(kernel).data(), [&](const Ray& r) {

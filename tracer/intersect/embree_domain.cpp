@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tracer/intersect/embree_domain.h"
+
 #include <embree3/rtcore.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 
 #include "scene/system/diagnostics.h"
 #include "tracer/intersect/instance_ray.h"
-#include "tracer/intersect/intersector.h"
 #include "tracer/quadrics/quadric_hits.h"
 
 namespace vitrail {
@@ -18,7 +19,7 @@ using Device = std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)>;
 using EmbreeScene = std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)>;
 
 RTCDevice shared_device() {
-  static const Device device(rtcNewDevice(nullptr), &rtcReleaseDevice);
+  static const Device device(rtcNewDevice("threads=1"), &rtcReleaseDevice);
   if (!device) throw MachineError("embree cannot start: error " + std::to_string(rtcGetDeviceError(nullptr)));
   return device.get();
 }
@@ -70,14 +71,19 @@ double enter_box(const Bounds3f& box, const Point3f& origin, const Vector3d& dir
 }
 
 // Embree's ray as far as tmax. False when it has no part in the box of the domain.
-bool begin_query(Query& query, const Ray& ray, const Bounds3f& box, double tmax, RTCRay& r) {
+bool begin_query(Query& query, const Bounds3f& box, double tmax, RTCRay& r) {
+  const RayConstants& ray = query.ray;
   rtcInitIntersectContext(&query.context);
-  query.power = power_of_two_below(query.ray.direction_z);
-  const Vector3d direction = cast<double>(ray.direction) * (1 / query.power);
-  query.entry = enter_box(box, ray.origin, direction);
+  query.power = power_of_two_below(ray.direction_z);
+  const Point3f start{ray.origin[0], ray.origin[1], ray.origin[2]};
+  Vector3d direction;
+  direction[ray.x] = ray.exact_shear_x * ray.direction_z / query.power;
+  direction[ray.y] = ray.exact_shear_y * ray.direction_z / query.power;
+  direction[ray.z] = ray.direction_z / query.power;
+  query.entry = enter_box(box, start, direction);
   r.tfar = embree_tfar(query, tmax);
   if (!(r.tfar >= 0)) return false;
-  const Point3f origin = cast<float>(cast<double>(ray.origin) + direction * query.entry);
+  const Point3f origin = cast<float>(cast<double>(start) + direction * query.entry);
   r.org_x = origin.x;
   r.org_y = origin.y;
   r.org_z = origin.z;
@@ -239,48 +245,70 @@ void attach(RTCScene scene, std::vector<RTCBounds>& bounds, RTCIntersectFunction
 }  // namespace
 
 struct EmbreeDomain::Implementation {
-  const DomainView& domain;
   Bounds3f box;
   EmbreeScene scene;
   const KernelFunctions& kernel;
+  bool has_instances;  // that the kernel meets
 };
 
-EmbreeDomain::EmbreeDomain(const DomainView& domain) {
-  std::vector<RTCBounds> clusters = leaf_bounds(domain, domain.nodes, domain.clusters.size()),
-                         instances = leaf_bounds(domain, domain.instance_nodes, domain.instances.size());
+EmbreeDomain::EmbreeDomain(const DomainView& domain, Instances how) : DomainView(domain) {
+  const bool by_kernel = how == Instances::by_kernel;
+  std::vector<RTCBounds> leaves = leaf_bounds(domain, domain.nodes, domain.clusters.size()), placed;
+  if (!by_kernel) placed = leaf_bounds(domain, domain.instance_nodes, domain.instances.size());
   Bounds3f box;
-  for (const auto& bounds : {clusters, instances})
+  for (const auto& bounds : {leaves, placed})
     for (const RTCBounds& b : bounds)
       extend(box, Bounds3f{{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}});
   const RTCDevice device = shared_device();
   EmbreeScene scene(rtcNewScene(device), &rtcReleaseScene);
-  attach(scene.get(), clusters, closest_in_cluster, occluded_in_cluster);
-  if (!instances.empty()) attach(scene.get(), instances, closest_in_instance, occluded_in_instance);
+  attach(scene.get(), leaves, closest_in_cluster, occluded_in_cluster);
+  if (!placed.empty()) attach(scene.get(), placed, closest_in_instance, occluded_in_instance);
   rtcCommitScene(scene.get());
   if (const RTCError error = rtcGetDeviceError(device))
-    throw MachineError("embree cannot build a hierarchy over " + std::to_string(clusters.size()) +
+    throw MachineError("embree cannot build a hierarchy over " + std::to_string(leaves.size()) +
                        " clusters: error " + std::to_string(error));
-  implementation_.reset(new Implementation{domain, box, std::move(scene), best_kernel()});
+  implementation_.reset(
+      new Implementation{box, std::move(scene), best_kernel(), by_kernel && !domain.instance_nodes.empty()});
 }
 
 EmbreeDomain::~EmbreeDomain() = default;
 
-void EmbreeDomain::closest(const Ray& ray, Hit& hit, double time_s) const {
+void EmbreeDomain::closest(const RayConstants& ray, Hit& hit) const {
   const Implementation& self = *implementation_;
-  Query query{{}, &self.kernel, &self.domain, prepare(ray, time_s), &hit};
+  Query query{{}, &self.kernel, this, ray, &hit};
   RTCRayHit r{};
-  if (!begin_query(query, ray, self.box, hit.t, r.ray)) return;
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(self.scene.get(), &query.context, &r);
+  if (begin_query(query, self.box, hit.t, r.ray)) rtcIntersect1(self.scene.get(), &query.context, &r);
+  if (self.has_instances) self.kernel.instances_closest(*this, ray, hit);
 }
 
-bool EmbreeDomain::occluded(const Ray& ray, float tmax, double time_s) const {
+bool EmbreeDomain::occluded(const RayConstants& ray, float tmax) const {
   const Implementation& self = *implementation_;
-  Query query{{}, &self.kernel, &self.domain, prepare(ray, time_s), nullptr, tmax};
+  Query query{{}, &self.kernel, this, ray, nullptr, tmax};
   RTCRay r{};
-  if (!begin_query(query, ray, self.box, double{tmax}, r)) return false;
-  rtcOccluded1(self.scene.get(), &query.context, &r);
-  return r.tfar < 0;
+  const bool enters = begin_query(query, self.box, double{tmax}, r);
+  if (enters) rtcOccluded1(self.scene.get(), &query.context, &r);
+  return (enters && r.tfar < 0) || (self.has_instances && self.kernel.instances_occluded(*this, ray, tmax));
+}
+
+// Measured of 980,000 triangles, while trees are built: .54 of one domain's bytes, .30 of those of 64.
+std::uint64_t embree_bytes(std::uint64_t domain_bytes) { return domain_bytes / 8 * 5 + (2 << 20); }
+
+const KernelFunctions& embree_kernel() {
+  static const KernelFunctions kernel = [] {
+    KernelFunctions embree = best_kernel();
+    embree.by_domain = true;
+    embree.domain_closest = [](const DomainView& domain, const RayConstants& ray, Hit& hit) {
+      static_cast<const EmbreeDomain&>(domain).closest(ray, hit);
+    };
+    embree.domain_occluded = [](const DomainView& domain, const RayConstants& ray, float tmax) {
+      return static_cast<const EmbreeDomain&>(domain).occluded(ray, tmax);
+    };
+    embree.domains_closest = [](auto...) { return false; };
+    embree.domains_occluded = [](auto...) { return Passage::unknown; };
+    return embree;
+  }();
+  return kernel;
 }
 
 }  // namespace vitrail

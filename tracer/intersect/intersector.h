@@ -4,7 +4,6 @@
 // bits.
 #pragma once
 
-#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -26,19 +25,19 @@ struct KernelFunctions {
   // Lowers `hit` to the least (t, triangle) among it and the domain's triangles; t in (0, hit.t]. Of equals
   // the one already there stays.
   void closest(const DomainView& domain, const RayConstants& ray, Hit& hit) const {
-    if (!domain.instance_nodes.empty()) return domain_closest(domain, ray, hit);
+    if (by_domain || !domain.instance_nodes.empty()) return domain_closest(domain, ray, hit);
     if (!domain.nodes.empty()) tree_closest(domain.nodes.data(), domain.clusters.data(), ray, hit);
   }
   // Whether any triangle is hit at t in (0, tmax).
   bool occluded(const DomainView& domain, const RayConstants& ray, float tmax) const {
-    if (!domain.instance_nodes.empty()) return domain_occluded(domain, ray, tmax);
+    if (by_domain || !domain.instance_nodes.empty()) return domain_occluded(domain, ray, tmax);
     return !domain.nodes.empty() && tree_occluded(domain.nodes.data(), domain.clusters.data(), ray, tmax);
   }
 
   // The same of many rays, each with its hit.
   void closest_of_many(const DomainView& domain, const RayConstants* rays, Hit* const* hits,
                        std::size_t count) const {
-    if (domain.nodes.size() != 1) {
+    if (by_domain || domain.nodes.size() != 1) {
       for (std::size_t i = 0; i < count; ++i) closest(domain, rays[i], *hits[i]);
       return;
     }
@@ -49,7 +48,7 @@ struct KernelFunctions {
   // Of each whether it is blocked.
   void occluded_of_many(const DomainView& domain, const RayConstants* rays, const float* tmax, bool* blocked,
                         std::size_t count) const {
-    if (domain.nodes.size() != 1) {
+    if (by_domain || domain.nodes.size() != 1) {
       for (std::size_t i = 0; i < count; ++i) blocked[i] = occluded(domain, rays[i], tmax[i]);
       return;
     }
@@ -82,6 +81,9 @@ struct KernelFunctions {
                           Hit& hit, std::uint32_t& holder);
   Passage (*domains_occluded)(const BvhNode* tree, const DomainView* const* domains, const RayConstants& ray,
                               float tmax);
+  // Whether domains without instances are asked for as wholes, too: they have another tree than that of
+  // theirs.
+  bool by_domain = false;
 };
 
 // Throws Error when this CPU cannot run the kernel.
@@ -90,22 +92,5 @@ const KernelFunctions& kernel_functions(Kernel kernel);
 // cannot be run here throws Error.
 const KernelFunctions& best_kernel();
 Kernel best_kernel_kind();
-
-// The same through Embree over user geometry: an independent traversal of the same clusters and instances,
-// built when the domain is loaded; within instances it tries every cluster. It refers to what the view shows,
-// which, like the view, has to outlive it. Throws MachineError when Embree fails.
-class EmbreeDomain {
- public:
-  explicit EmbreeDomain(const DomainView& domain);
-  ~EmbreeDomain();
-  EmbreeDomain(const EmbreeDomain&) = delete;
-  EmbreeDomain& operator=(const EmbreeDomain&) = delete;
-  void closest(const Ray& ray, Hit& hit, double time_s = 0) const;
-  bool occluded(const Ray& ray, float tmax, double time_s = 0) const;
-
- private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
-};
 
 }  // namespace vitrail

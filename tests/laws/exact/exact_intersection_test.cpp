@@ -12,6 +12,7 @@
 #include "tests/laws/exact/exact_oracle.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"
+#include "tracer/intersect/embree_domain.h"
 #include "tracer/rays/domain_tree.h"
 #include "tracer/rays/walk.h"
 
@@ -151,9 +152,9 @@ void expect_one_answer(const AwkwardScene& scene) {
       by_kernel[k].count(kernel_functions(kernels[k]).occluded(scene.whole(), constants, tmax), shadowed);
     }
     Hit hit;
-    embree.closest(ray, hit);
+    embree.closest(prepare(ray), hit);
     by_embree.count(hit, nearest);
-    by_embree.count(embree.occluded(ray, tmax), shadowed);
+    by_embree.count(embree.occluded(prepare(ray), tmax), shadowed);
     by_eight.count(scene.eight.closest(best, ray), nearest);
     by_eight.count(scene.eight.occluded(best, ray, tmax), shadowed);
     by_many.count(scene.many.closest(best, ray), nearest);

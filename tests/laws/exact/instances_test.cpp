@@ -9,6 +9,7 @@
 
 #include "bundle/triangle_number.h"
 #include "tests/laws/exact/awkward_rays.h"
+#include "tracer/intersect/embree_domain.h"
 
 namespace vitrail::test::instances_test {
 namespace {
@@ -162,8 +163,8 @@ void expect_equal(const Parts& parts, std::size_t ray_count, bool reference = tr
     }
     if (!reference || i % 20 != 1) return;
     Hit hit;
-    embree.closest(ray, hit);
-    check(hit, embree.occluded(ray, tmax));
+    embree.closest(prepare(ray), hit);
+    check(hit, embree.occluded(prepare(ray), tmax));
   });
   EXPECT_GT(hits, rays.size() / 10);
   EXPECT_GT(instance_hits, hits);

@@ -12,8 +12,8 @@
 #include "scene/shapes/tessellate.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
+#include "tracer/intersect/embree_domain.h"
 #include "tracer/intersect/instance_ray.h"
-#include "tracer/intersect/intersector.h"
 #include "tracer/quadrics/quadric_hits.h"
 #include "tracer/rays/walk.h"
 
@@ -285,7 +285,7 @@ void expect_the_least_of_all(Scene scene) {
       });
       differ += hit.t != least.t || hit.triangle != least.triangle;
     }
-    const Hit hit = walked([&](std::uint32_t d, Hit& h) { embree[d]->closest(ray, h); });
+    const Hit hit = walked([&](std::uint32_t d, Hit& h) { embree[d]->closest(prepare(ray), h); });
     differ += hit.t != least.t || hit.triangle != least.triangle;
     const float tmax = static_cast<float>(least.t * (i % 2 ? 1 + 1e-6 : 1 - 1e-6));
     bool occluded = false;

@@ -10,6 +10,7 @@
 #include "tests/laws/exact/soup_bundle.h"
 #include "tests/laws/exact/soup_rays.h"
 #include "tests/support/temporary_directory.h"
+#include "tracer/intersect/embree_domain.h"
 #include "tracer/rays/walk.h"
 
 namespace vitrail::test {
@@ -193,9 +194,9 @@ class RayJudge {
   void by_embree(const EmbreeDomain& embree) {
     ++findings_.embree_rays;
     Hit hit;
-    embree.closest(ray_, hit);
+    embree.closest(prepare(ray_), hit);
     expect(hit, "hit, Embree");
-    expect(embree.occluded(ray_, tmax_), "shadow, Embree");
+    expect(embree.occluded(prepare(ray_), tmax_), "shadow, Embree");
   }
 
   // docs/why/exact-intersection.md states by how much a hit may deviate.

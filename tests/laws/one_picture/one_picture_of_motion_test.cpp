@@ -15,7 +15,7 @@
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"
-#include "tracer/intersect/intersector.h"
+#include "tracer/intersect/embree_domain.h"
 
 namespace vitrail::test::one_picture_of_motion_test {
 namespace {
@@ -194,9 +194,9 @@ TEST_F(OnePictureOfMotion, TheReferenceTraversalSeesTheSame) {
     const Ray ray{cast<float>(Point3d{} + from), cast<float>(to)};
     const double time = 0.5 + random.number(0.7);
     Hit reference;
-    embree.closest(ray, reference, time);
+    embree.closest(prepare(ray, time), reference);
     Hit earlier;
-    embree.closest(ray, earlier, time - 0.1);
+    embree.closest(prepare(ray, time - 0.1), earlier);
     hits += reference.triangle != no_triangle;
     moved += reference.t != earlier.t;
     for (const Kernel kernel : available_kernels()) {
@@ -206,7 +206,7 @@ TEST_F(OnePictureOfMotion, TheReferenceTraversalSeesTheSame) {
       ASSERT_EQ(hit.t, reference.t);
       const float beyond = static_cast<float>(std::min(reference.t * 1.001, 1e30));
       ASSERT_EQ(kernel_functions(kernel).occluded(domain->view(), prepare(ray, time), beyond),
-                embree.occluded(ray, beyond, time));
+                embree.occluded(prepare(ray, time), beyond));
     }
   }
   EXPECT_GT(hits, 100);

@@ -9,6 +9,7 @@
 
 #include "scene/system/diagnostics.h"
 #include "tests/partitioner/hierarchy/clustered_mesh.h"
+#include "tracer/intersect/embree_domain.h"
 
 namespace vitrail::test::intersect_test {
 namespace {
@@ -20,7 +21,7 @@ const Triangle unit_triangle{Point3f{0, 0, 0}, Point3f{1, 0, 0}, Point3f{0, 1, 0
 Hit closest(const ClusteredTriangles& clustered, const Ray& ray, const Hit& before = {}) {
   const DomainView domain = view_of(clustered);
   Hit reference = before;
-  EmbreeDomain(domain).closest(ray, reference);
+  EmbreeDomain(domain).closest(prepare(ray), reference);
   for (const Kernel kernel : available_kernels()) {
     Hit hit = before;
     kernel_functions(kernel).closest(domain, prepare(ray), hit);
@@ -37,7 +38,7 @@ Hit closest(const ClusteredTriangles& clustered, const Ray& ray, const Hit& befo
 
 bool occluded(const ClusteredTriangles& clustered, const Ray& ray, float tmax) {
   const DomainView domain = view_of(clustered);
-  const bool reference = EmbreeDomain(domain).occluded(ray, tmax);
+  const bool reference = EmbreeDomain(domain).occluded(prepare(ray), tmax);
   for (const Kernel kernel : available_kernels()) {
     const RayConstants constants = prepare(ray);
     EXPECT_EQ(kernel_functions(kernel).occluded(domain, constants, tmax), reference) << name(kernel);
@@ -296,10 +297,10 @@ TEST(Intersect, SameAsTestingEveryTriangle) {
       const float beyond = static_cast<float>(reference.t * (1 + 1e-6)),
                   before = static_cast<float>(reference.t * (1 - 1e-6));
       Hit by_embree;
-      embree.closest(ray, by_embree);
+      embree.closest(prepare(ray), by_embree);
       ASSERT_TRUE(same(by_embree, reference));
-      ASSERT_EQ(embree.occluded(ray, beyond), reference.triangle != no_triangle);
-      ASSERT_FALSE(embree.occluded(ray, before));
+      ASSERT_EQ(embree.occluded(prepare(ray), beyond), reference.triangle != no_triangle);
+      ASSERT_FALSE(embree.occluded(prepare(ray), before));
       for (const Kernel kernel : available_kernels()) {
         const KernelFunctions& functions = kernel_functions(kernel);
         Hit hit;
