@@ -13,8 +13,10 @@
 #include "film/cryptomatte.h"
 #include "film/exr_file.h"
 #include "film/fixed_date.h"
+#include "film/jpeg_file.h"
 #include "film/picture_attributes.h"
 #include "film/png_file.h"
+#include "film/radiance_file.h"
 #include "film/srgb_integers.h"
 #include "images/image_codec.h"
 #include "scene/system/atomic_file.h"
@@ -132,23 +134,6 @@ bool is_tiff(const std::filesystem::path& file) {
   return file.extension() == ".tif" || file.extension() == ".tiff";
 }
 
-// Radiance's RGBE: 8 bits a component and 8 of their common exponent; what is below 0 is 0. OpenImageIO
-// leaves out who made it: a line of the header, after its first.
-void write_hdr(const std::filesystem::path& path, const Picture& picture) {
-  std::vector<float> pixels(picture.rgb.values.size());
-  std::ranges::transform(picture.rgb.values, pixels.begin(), [](float v) { return std::max(v, 0.0f); });
-  PictureFile file = file_of(picture);
-  file.channels = {{"R"}, {"G"}, {"B"}};
-  std::vector<std::byte> bytes = encoded(path, file, pixels.data());
-  if (!picture.origin.software.empty()) {
-    const std::string line = "SOFTWARE=" + picture.origin.software + "\n";
-    const auto first_end = std::ranges::find(bytes, std::byte{'\n'});
-    const auto text = std::as_bytes(std::span(line));
-    if (first_end != bytes.end()) bytes.insert(first_end + 1, text.begin(), text.end());
-  }
-  write_bytes(path, bytes);
-}
-
 template <class Integer>
 void write_integers(const std::filesystem::path& path, const Picture& picture) {
   std::vector<Integer> pixels(picture.rgb.values.size());
@@ -229,8 +214,9 @@ void write_picture(const std::filesystem::path& file, const Picture& picture, in
     exr.add(picture);
     return exr.commit();
   }
-  if (format == ".hdr") return write_hdr(file, picture);
+  if (format == ".hdr") return write_radiance(file, picture);
   if (format == ".png") return write_png(file, picture, chosen);
+  if (format == ".jpg" || format == ".jpeg") return write_jpeg(file, picture);
   if (chosen == 16) return write_integers<std::uint16_t>(file, picture);
   write_integers<std::uint8_t>(file, picture);
 }

@@ -6,6 +6,7 @@
 #include "farm/run/checkpoint.h"
 #include "film/alpha.h"
 #include "film/develop.h"
+#include "film/jpeg_file.h"
 #include "film/own_picture.h"
 #include "film/png_file.h"
 #include "film/tone_curves.h"
@@ -20,13 +21,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_png(const fs::path& picture) { return picture.extension() == ".png"; }
+// Pictures of the colours alone that render writes itself. Other formats, and denoising, need libraries that
+// take time and memory to load: another program writes them.
+bool writes_itself(const fs::path& picture) {
+  return picture.extension() == ".png" || picture.extension() == ".jpg" || picture.extension() == ".jpeg";
+}
 
-// Other formats than PNG, and denoising, need libraries that take time and memory to load: another program
-// writes them.
 void develop_film(const RenderArguments& a, const fs::path& file, const fs::path& picture,
                   int spectral_bins) {
-  if (is_png(picture) && !a.denoised) {
+  if (writes_itself(picture) && !a.denoised) {
     const FilmRows film(file, nullptr);
     require_samples(film.samples(), file);
     Picture developed = develop_colors(film);
@@ -39,6 +42,7 @@ void develop_film(const RenderArguments& a, const fs::path& file, const fs::path
             picture.string(), ev);
     }
     make_straight(developed);
+    if (picture.extension() != ".png") return write_jpeg(picture, developed);
     return write_png(picture, developed);
   }
   std::vector<std::string> arguments{file.string(), "-o", picture.string(), "--quiet"};
@@ -77,8 +81,8 @@ void require_denoiser(const RenderArguments& a) {
 AfterFilm developing(const RenderArguments& a) {
   const fs::path& picture = a.options.outputs.picture;
   if (picture.empty()) return {};
-  if (a.denoised) return {0.7, 1.2e-7};       // docs/why/denoising.md
-  return {is_png(picture) ? 0 : 0.19, 4e-9};  // the image library is loaded; the film read, converted, packed
+  if (a.denoised) return {0.7, 1.2e-7};              // docs/why/denoising.md
+  return {writes_itself(picture) ? 0 : 0.19, 4e-9};  // a program starts; the film read, converted, packed
 }
 
 void write_picture_of_film(const RenderArguments& a, const RenderStats& stats,

@@ -51,14 +51,15 @@ std::uint64_t developing_bytes(const std::filesystem::path& picture, const Pixel
                                std::uint64_t film_bytes, bool denoises) {
   constexpr std::uint64_t denoiser = 70 << 20, denoising_a_pixel = 800;
   const std::string kind = picture.extension().string();
-  const bool by_library = kind != ".png" && kind != ".exr" && kind != ".csv";
+  constexpr const char* by_itself[] = {".png", ".jpg", ".jpeg", ".exr", ".hdr", ".csv"};
+  const bool by_library = std::ranges::find(by_itself, kind) == std::end(by_itself);
   return develop_bytes + (by_library ? image_library : 0) + film_bytes +
          (denoises ? denoiser + denoising_a_pixel * pixels_of(crop) : film_bytes / 8 * 5);
 }
 
-// Of rank 0 while it makes the picture, for which it reads the film again, a PNG and an .exr row by row. A
-// PNG it makes itself: the colours as numbers, and as bytes. For others and for what is denoised it runs
-// vitrail-develop.
+// Of rank 0 while it makes the picture, for which it reads the film again, an .exr, a PNG or a JPEG row by
+// row. The latter two it makes itself: the colours as numbers, and as bytes. For others and for what is
+// denoised it runs vitrail-develop.
 std::uint64_t picture_bytes(const Manifest& m, const RenderOptions& options, const JobPlan& plan) {
   const std::filesystem::path& picture = options.outputs.picture;
   if (picture.empty() || options.outputs.dry_run) return 0;
@@ -67,7 +68,8 @@ std::uint64_t picture_bytes(const Manifest& m, const RenderOptions& options, con
   const std::uint64_t by_rows = exr_memory(m.film, plan.key);
   const std::string kind = picture.extension().string();
   if (!options.outputs.denoises) {
-    if (kind == ".png") return plan.scene.resident + a_pixel * pixels_of(c) + encoder + by_rows;
+    if (kind == ".png" || kind == ".jpg" || kind == ".jpeg")
+      return plan.scene.resident + a_pixel * pixels_of(c) + encoder + by_rows;
     if (kind == ".exr") return plan.scene.resident + by_rows + develop_bytes;
   }
   return plan.scene.resident + developing_bytes(picture, c, plan.film.bytes, options.outputs.denoises);

@@ -128,7 +128,7 @@ TEST_F(Pictures, AreWrittenInOtherFormats) {
 }
 
 // The usual picture starts no second program and no library of images.
-TEST_F(Pictures, ARenderWritesPngItself) {
+TEST_F(Pictures, ARenderWritesPngAndJpegItself) {
   ASSERT_EQ(run(vitrail("partition") + " " + path("in.pbrt") + " -o " + path("in.vit") + " --quiet").status,
             0);
   std::filesystem::create_directory(directory_ / "alone");
@@ -141,6 +141,9 @@ TEST_F(Pictures, ARenderWritesPngItself) {
   const CommandResult png = alone(path("a.png") + " --film " + path("a.film"));
   EXPECT_EQ(png.status, 0) << png.output;
   EXPECT_EQ(png.output, "");
+  const CommandResult jpeg = alone(path("b.jpg"));
+  EXPECT_EQ(jpeg.status, 0) << jpeg.output;
+  EXPECT_EQ(spec("b.jpg").width, 25);
   const CommandResult exr = alone(path("b.exr"));
   EXPECT_EQ(exr.status, 4) << exr.output;
   EXPECT_THAT(exr.output, HasSubstr("vitrail-develop is missing"));

@@ -123,14 +123,14 @@ TEST(ImageIo, ExrHasLayersAsChannels) {
 
 TEST(ImageIo, EqualPicturesGiveEqualFilesAndNothingElse) {
   const test::TemporaryDirectory directory;
-  for (const char* extension : {".exr", ".png"}) {
+  for (const char* extension : {".exr", ".png", ".jpg", ".hdr"}) {
     write_picture(directory / (std::string("a") + extension), picture());
     write_picture(directory / (std::string("b") + extension), picture());
     EXPECT_EQ(bytes(directory / (std::string("a") + extension)),
               bytes(directory / (std::string("b") + extension)));
   }
   const auto files = std::filesystem::directory_iterator(directory.path());
-  EXPECT_EQ(std::distance(begin(files), end(files)), 4);
+  EXPECT_EQ(std::distance(begin(files), end(files)), 8);
 }
 
 TEST(ImageIo, TheDateIsFixed) {
@@ -208,19 +208,78 @@ TEST(ImageIo, PngHoldsWhatOpenImageIoWouldWrite) {
   }
 }
 
-// Rows leave the encoder while it works: what cannot be written is said, and nothing is left.
-TEST(ImageIo, PngOnAFullDisk) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  const test::TemporaryDirectory directory;
-  std::filesystem::create_symlink("/dev/full", directory / ("a.png.tmp" + std::to_string(::getpid())));
-  try {
-    write_picture(directory / "a.png", picture());
-    ADD_FAILURE();
-  } catch (const MachineError& e) {
-    EXPECT_THAT(e.what(),
-                ::testing::AllOf(::testing::HasSubstr("a.png"), ::testing::HasSubstr("No space left")));
+// Steps of colour that go on over many blocks.
+Picture wide_picture(int width, int height) {
+  Picture p = picture();
+  p.rgb = black_image(width, height, 3);
+  const auto columns = static_cast<std::size_t>(width);
+  for (std::size_t i = 0; i < p.rgb.pixels(); ++i) {
+    const double x = static_cast<double>(i % columns) / width, y = static_cast<double>(i / columns) / height;
+    const double colors[] = {x, y, 0.5 + 0.5 * std::sin(6 * (x + y))};
+    for (std::size_t c = 0; c < 3; ++c) p.rgb.values[3 * i + c] = static_cast<float>(colors[c]);
   }
-  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+  p.origin.software = "Vitrail, a test 1.2";
+  p.origin.denoiser = "nobody";
+  return p;
+}
+
+TEST(ImageIo, JpegIsReadByOpenImageIo) {
+  const test::TemporaryDirectory directory;
+  const Picture p = wide_picture(131, 70);
+  write_picture(directory / "a.jpg", p);
+  const Picture back = read_picture(directory / "a.jpg");
+  ASSERT_EQ(back.rgb.width, 131);
+  ASSERT_EQ(back.rgb.height, 70);
+  for (std::size_t i = 0; i < p.rgb.values.size(); ++i)
+    EXPECT_NEAR(srgb_encode(double{back.rgb.values[i]}), srgb_encode(double{p.rgb.values[i]}), 0.05) << i;
+  const auto in = OIIO::ImageInput::open((directory / "a.jpg").string());
+  ASSERT_TRUE(in);
+  const OIIO::ImageSpec& spec = in->spec();
+  EXPECT_EQ(spec.get_string_attribute("Software"), p.origin.software);
+  EXPECT_EQ(spec.get_string_attribute("ImageDescription"), "denoised by nobody");
+  EXPECT_EQ(spec.get_string_attribute("DateTime"), "1970:01:01 00:00:00");
+  EXPECT_EQ(spec.get_int_attribute("Exif:ColorSpace"), 1);
+  EXPECT_EQ(spec.get_string_attribute("jpeg:subsampling"), "4:4:4");
+}
+
+// Components are of eight bits beside the greatest; black, one colour, and what no number is.
+TEST(ImageIo, RadianceIsReadByOpenImageIo) {
+  for (const int width : {3, 7, 8, 500}) {
+    const test::TemporaryDirectory directory;
+    Picture p = wide_picture(width, 9);
+    for (std::size_t i = 0; i < 3 * static_cast<std::size_t>(width); ++i) p.rgb.values[i] = 0.25f;
+    const float special[] = {0, 0, 0, -1, 2, std::nanf(""), 1e30f, 1, 0, 1e-30f, 1e-33f, 0};
+    std::ranges::copy(special, p.rgb.values.end() - 12);
+    write_picture(directory / "a.hdr", p);
+    EXPECT_THAT(bytes(directory / "a.hdr"),
+                ::testing::StartsWith("#?RADIANCE\nSOFTWARE=Vitrail, a test 1.2\n"));
+    const Picture back = read_picture(directory / "a.hdr");
+    ASSERT_EQ(back.rgb.values.size(), p.rgb.values.size());
+    for (std::size_t i = 0; i < p.rgb.values.size(); ++i) {
+      const auto kept = [&](std::size_t at) { return p.rgb.values[at] > 0 ? p.rgb.values[at] : 0.0f; };
+      const std::size_t pixel = i / 3 * 3;
+      const float greatest = std::max({kept(pixel), kept(pixel + 1), kept(pixel + 2)});
+      EXPECT_LE(back.rgb.values[i], kept(i)) << width << ", " << i;
+      EXPECT_GE(back.rgb.values[i], kept(i) - greatest / 128) << width << ", " << i;
+    }
+  }
+}
+
+// Rows leave the encoder while it works: what cannot be written is said, and nothing is left.
+TEST(ImageIo, OnAFullDisk) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  for (const std::string name : {"a.png", "a.jpg", "a.hdr"}) {
+    const test::TemporaryDirectory directory;
+    std::filesystem::create_symlink("/dev/full", directory / (name + ".tmp" + std::to_string(::getpid())));
+    try {
+      write_picture(directory / name, picture());
+      ADD_FAILURE() << name;
+    } catch (const MachineError& e) {
+      EXPECT_THAT(e.what(),
+                  ::testing::AllOf(::testing::HasSubstr(name), ::testing::HasSubstr("No space left")));
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+  }
 }
 
 TEST(ImageIo, PlainExrNeedsNoImageLibrary) {
