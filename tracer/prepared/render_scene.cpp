@@ -58,6 +58,7 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
                          const SamplingChoices& the_sampling)
     : manifest(std::move(the_manifest)),
       domain_tree(vitrail::domain_tree(manifest)),
+      cell_ways(manifest),
       interiors(manifest),
       camera(manifest.camera, manifest.camera_motion, manifest.film),
       filter(manifest.film.filter, the_sampling.splat),

@@ -14,6 +14,7 @@
 #include "tracer/prepared/lane_scene.h"
 #include "tracer/prepared/matte_ids.h"
 #include "tracer/prepared/sampling_choices.h"
+#include "tracer/rays/cell_ways.h"
 #include "tracer/sampling/sampler.h"
 #include "tracer/surfaces/surface_materials.h"
 #include "tracer/view/camera_rays.h"
@@ -30,6 +31,7 @@ struct RenderScene {
 
   Manifest manifest;
   std::vector<BvhNode> domain_tree;
+  CellWays cell_ways;
   Interiors interiors;
   CameraSampler camera;
   FilterSampler filter;

@@ -79,6 +79,19 @@ bool DomainWalk::is_first(std::uint32_t reference) {
   return true;
 }
 
+// The near side reaches until ε behind the plane, the far side begins ε before it.
+DomainWalk::Sides DomainWalk::sides_of(const KdNode& node, const Pending& at) const {
+  const std::size_t axis = node.axis;
+  const double to_plane = static_cast<double>(node.split) - origin_[axis];
+  const double reciprocal = reciprocal_[axis];
+  const bool ascending = reciprocal > 0;
+  const double along = ascending ? to_plane : -to_plane, rate = std::abs(reciprocal);
+  Sides s{ascending ? node.below : node.above, ascending ? node.above : node.below, (along + epsilon_) * rate,
+          (along - epsilon_) * rate};
+  s.in_near = s.near_end >= at.t0, s.in_far = s.far_begin <= at.t1;
+  return s;
+}
+
 // The next one that the ray enters at tmax or before.
 bool DomainWalk::next_leaf(double tmax, Pending& leaf) {
   while (size_ > 0) {
@@ -92,22 +105,10 @@ bool DomainWalk::next_leaf(double tmax, Pending& leaf) {
         at.reference = node.below, at.shared = true;
         continue;
       }
-      const std::size_t axis = node.axis;
-      const double to_plane = static_cast<double>(node.split) - origin_[axis];
-      const double reciprocal = reciprocal_[axis];
-      const bool ascending = reciprocal > 0;
-      const std::uint32_t near = ascending ? node.below : node.above,
-                          far = ascending ? node.above : node.below;
-      // The near side reaches until ε behind the plane, the far side begins ε before it.
-      const double along = ascending ? to_plane : -to_plane, rate = std::abs(reciprocal);
-      const double near_end = (along + epsilon_) * rate, far_begin = (along - epsilon_) * rate;
-      const bool in_near = near_end >= at.t0, in_far = far_begin <= at.t1;
-      if (in_near && in_far)
-        stack_[static_cast<std::size_t>(size_++)] = {far, at.shared, std::max(at.t0, far_begin), at.t1};
-      if (in_near)
-        at = {near, at.shared, at.t0, std::min(at.t1, near_end)};
-      else
-        at = {far, at.shared, std::max(at.t0, far_begin), at.t1};
+      const Sides s = sides_of(node, at);
+      const Pending far{s.far, at.shared, std::max(at.t0, s.far_begin), at.t1};
+      if (s.in_near && s.in_far) stack_[static_cast<std::size_t>(size_++)] = far;
+      at = s.in_near ? Pending{s.near, at.shared, at.t0, std::min(at.t1, s.near_end)} : far;
     }
     if (at.t0 > tmax || (at.shared && !is_first(at.reference))) continue;
     leaf = at;
@@ -135,11 +136,48 @@ bool DomainWalk::next_of_many(double tmax, Visit& visit) {
   return false;
 }
 
-void DomainWalk::skip_past(std::uint32_t domain) {
-  only_one_ = false;
+void DomainWalk::skip_leaves(std::uint32_t domain) {
   Pending leaf;
   while (next_leaf(infinity, leaf))
     if ((leaf.reference & ~KdNode::leaf_bit) == domain) return;
+}
+
+// `at`: of the root, and then of the domain's cell; what comes behind it is on the stack. False where the ray
+// does not come there.
+bool DomainWalk::descend(std::uint32_t domain, const CellWays& ways, Pending& at) {
+  std::array<std::uint32_t, 64> way;  // from the cell to below the root
+  std::size_t count = 0;
+  way[count++] = ways.cell_of(domain);
+  for (std::uint32_t node = ways.above_cell(domain); node != CellWays::none; node = ways.above(node)) {
+    if (count == way.size()) return false;
+    way[count++] = node;
+  }
+  for (std::size_t i = count - 1; i-- > 0;) {
+    const Sides s = sides_of(manifest_.kd_nodes[at.reference], at);
+    const Pending far{s.far, false, std::max(at.t0, s.far_begin), at.t1};
+    if (way[i] == s.far) {
+      if (s.in_near && !s.in_far) return false;
+      at = far;
+      continue;
+    }
+    if (!s.in_near) return false;
+    if (s.in_far) stack_[static_cast<std::size_t>(size_++)] = far;
+    at = {s.near, false, at.t0, std::min(at.t1, s.near_end)};
+  }
+  return true;
+}
+
+void DomainWalk::skip_past(std::uint32_t domain, const CellWays& ways) {
+  only_one_ = false;
+  if (size_ == 0) return;
+  const Pending root = stack_[0];
+  size_ = 0;
+  Pending at = root;
+  const bool comes_there = descend(domain, ways, at);
+  if (comes_there && (at.reference & KdNode::leaf_bit)) return;
+  if (!comes_there) size_ = 0;
+  stack_[static_cast<std::size_t>(size_++)] = comes_there ? at : root;
+  skip_leaves(domain);
 }
 
 }  // namespace vitrail

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bundle/manifest.h"
+#include "tracer/rays/cell_ways.h"
 #include "tracer/rays/ray.h"
 
 namespace vitrail {
@@ -57,8 +58,9 @@ class DomainWalk {
     visit = {0, 0};
     return true;
   }
-  // Goes on behind `domain`, which the walk visits.
-  void skip_past(std::uint32_t domain);
+  // Goes on behind `domain`, which the walk visits, where none has been visited yet: down the tree to its
+  // cell, without the leaves before it.
+  void skip_past(std::uint32_t domain, const CellWays& ways);
 
  private:
   struct Pending {
@@ -66,7 +68,16 @@ class DomainWalk {
     bool shared;  // below a node without an axis
     double t0, t1;
   };
+  // What a plane parts, in the order in which the ray comes to it.
+  struct Sides {
+    std::uint32_t near, far;
+    double near_end, far_begin;
+    bool in_near, in_far;
+  };
   void begin(const Ray& ray);
+  Sides sides_of(const KdNode& node, const Pending& at) const;
+  bool descend(std::uint32_t domain, const CellWays& ways, Pending& at);
+  void skip_leaves(std::uint32_t domain);
   bool next_of_many(double tmax, Visit& visit);
   bool next_leaf(double tmax, Pending& leaf);
   void enter_shared(const KdNode& node);

@@ -40,7 +40,7 @@ std::optional<Elsewhere> find_hit(Tracing& tracing, Traveller& t, const std::opt
       const std::uint32_t carried = t.hit.triangle;
       intersect(tracing, t, constants, at->domain);
       located = carried == no_triangle || t.hit.triangle != carried || t.hit_domain == at->domain;
-      walk.skip_past(at->domain);
+      walk.skip_past(at->domain, tracing.scene.cell_ways);
     }
     bool first = !at;
     for (DomainWalk::Visit visit; walk.next(t.hit.t, visit);) {

@@ -48,7 +48,7 @@ Way follow(Tracing& tracing, const ShadowRay& s, std::optional<std::uint32_t> at
   DomainWalk walk(tracing.manifest(), s.ray, tracing.resident);
   if (at) {
     if (is_blocked_in(*at)) return Way::blocked;
-    walk.skip_past(*at);
+    walk.skip_past(*at, tracing.scene.cell_ways);
   }
   bool first = !at;
   for (DomainWalk::Visit visit; walk.next(static_cast<double>(s.tmax), visit);) {

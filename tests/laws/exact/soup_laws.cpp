@@ -102,10 +102,11 @@ Hit closest_sent_on(const Cut& cut, const KernelFunctions& kernel, const Ray& ra
   Hit hit;
   DomainWalk::Visit visit;
   if (!DomainWalk(cut.manifest, ray).next(hit.t, visit)) return hit;
+  const CellWays ways(cut.manifest);
   for (;;) {
     kernel.closest(cut.views[visit.domain], constants, hit);
     DomainWalk walk(cut.manifest, ray);
-    walk.skip_past(visit.domain);
+    walk.skip_past(visit.domain, ways);
     if (!walk.next(hit.t, visit)) return hit;
   }
 }

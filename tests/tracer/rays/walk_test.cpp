@@ -86,6 +86,7 @@ TEST(Walk, VisitsEachThatSharesACellOnce) {
   for (DomainInfo& d : cells.domains) d.tight_bounds = {{-1.1f, -1.1f, -1.1f}, {1.1f, 1.1f, 1.1f}};
   for (const std::uint32_t sharers : {3u, 100u}) {
     const Manifest shared = shared_by(cells, sharers);
+    const CellWays ways(shared);
     for (const Ray& ray : rays()) {
       std::vector<std::uint32_t> expected, visited;
       for (const DomainWalk::Visit& v : all_visits(cells, ray)) {
@@ -98,7 +99,7 @@ TEST(Walk, VisitsEachThatSharesACellOnce) {
       ASSERT_EQ(visited, expected);
       for (std::size_t i = 0; i < all.size(); ++i) {
         DomainWalk walk(shared, ray);
-        walk.skip_past(all[i].domain);
+        walk.skip_past(all[i].domain, ways);
         DomainWalk::Visit next;
         ASSERT_EQ(walk.next(std::numeric_limits<double>::infinity(), next), i + 1 < all.size());
         if (i + 1 < all.size()) {
@@ -154,11 +155,12 @@ TEST(Walk, VisitsEveryDomainThatThePointsOfARayLieIn) {
 
 TEST(Walk, GoesOnWhereItWasInterrupted) {
   const Manifest m = grid(6);
+  const CellWays ways(m);
   for (const Ray& ray : rays()) {
     const auto visits = all_visits(m, ray);
     for (std::size_t i = 0; i < visits.size(); ++i) {
       DomainWalk walk(m, ray);
-      walk.skip_past(visits[i].domain);
+      walk.skip_past(visits[i].domain, ways);
       DomainWalk::Visit v;
       const bool more = walk.next(std::numeric_limits<double>::infinity(), v);
       ASSERT_EQ(more, i + 1 < visits.size());
@@ -167,6 +169,46 @@ TEST(Walk, GoesOnWhereItWasInterrupted) {
       }
     }
   }
+}
+
+// Two cells, on either side of the plane x = 0.1, that four domains share each.
+Manifest two_shared_cells() {
+  Manifest cells = grid(5);
+  for (DomainInfo& d : cells.domains) d.tight_bounds = {{-1.1f, -1.1f, -1.1f}, {1.1f, 1.1f, 1.1f}};
+  const Manifest one = shared_by(cells, 3);
+  const auto nodes = static_cast<std::uint32_t>(one.kd_nodes.size()),
+             domains = static_cast<std::uint32_t>(one.domains.size());
+  Manifest two = one;
+  two.domains.insert(two.domains.end(), one.domains.begin(), one.domains.end());
+  two.kd_nodes = {{0.1f, 0, 1, 1 + nodes}};
+  for (const std::uint32_t cell : {0u, 1u})
+    for (KdNode node : one.kd_nodes) {
+      for (std::uint32_t KdNode::*side : {&KdNode::below, &KdNode::above})
+        node.*side += node.*side & KdNode::leaf_bit ? cell * domains : 1 + cell * nodes;
+      two.kd_nodes.push_back(node);
+    }
+  return two;
+}
+
+TEST(Walk, GoesOnInAndBehindCellsThatAreShared) {
+  const Manifest m = two_shared_cells();
+  const CellWays ways(m);
+  std::size_t behind = 0;
+  for (const Ray& ray : rays()) {
+    const auto all = all_visits(m, ray);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      DomainWalk walk(m, ray);
+      walk.skip_past(all[i].domain, ways);
+      DomainWalk::Visit next;
+      for (std::size_t k = i + 1; k < all.size(); ++k) {
+        ASSERT_TRUE(walk.next(std::numeric_limits<double>::infinity(), next));
+        ASSERT_EQ(next.domain, all[k].domain);
+        behind += all[k].domain / 4 != all[i].domain / 4;
+      }
+      ASSERT_FALSE(walk.next(std::numeric_limits<double>::infinity(), next));
+    }
+  }
+  EXPECT_GT(behind, 1000u) << "some go on in the other cell";
 }
 
 TEST(Walk, DirectionsOfAnyLength) {
@@ -217,7 +259,7 @@ TEST(Walk, VisitsTheOneDomainThatThereIs) {
   EXPECT_TRUE(all_visits(m, ray, {&absent, 1}).empty());
   EXPECT_EQ(all_visits(m, ray, {&here, 1}).size(), 1u);
   DomainWalk walk(m, ray, {&here, 1});
-  walk.skip_past(0);
+  walk.skip_past(0, CellWays(m));
   DomainWalk::Visit visit;
   EXPECT_FALSE(walk.next(1, visit));
 }
