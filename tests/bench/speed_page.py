@@ -3,10 +3,10 @@
 import math
 import textwrap
 
-COLOURS = {"vitrail": "#1b6f8a", "llvm_ad_spectral": "#d1762c", "scalar_spectral": "#8f8f8f", "cycles": "#5b8c3a", "pbrt": "#8a4f9e"}
+COLOURS = {"vitrail": "#1b6f8a", "llvm_ad_spectral": "#d1762c", "llvm_ad_rgb": "#b8a12c", "scalar_spectral": "#8f8f8f", "cycles": "#5b8c3a", "pbrt": "#8a4f9e"}
 LABELS = {"vitrail": "Vitrail", "llvm_ad_spectral": "Mitsuba, llvm_ad_spectral", "scalar_spectral": "Mitsuba, scalar_spectral",
-          "cycles": "Cycles", "pbrt": "pbrt-v4"}
-COLUMNS = LABELS | {"llvm_ad_spectral": "Mitsuba, llvm", "scalar_spectral": "Mitsuba, scalar"}
+          "llvm_ad_rgb": "Mitsuba, llvm_ad_rgb", "cycles": "Cycles", "pbrt": "pbrt-v4"}
+COLUMNS = LABELS | {"llvm_ad_spectral": "Mitsuba, llvm", "llvm_ad_rgb": "Mitsuba, llvm, RGB", "scalar_spectral": "Mitsuba, scalar"}
 
 TEXT = """# Speed
 

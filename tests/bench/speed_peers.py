@@ -15,7 +15,7 @@ from plain_scene import with_samplers
 
 HERE = pathlib.Path(__file__).resolve().parent
 # A peer's ways: what of its own one may choose for a scene. Its best is what Vitrail is compared with.
-WAYS_OF = {"llvm_ad_spectral": ("its sampler", "multijitter"), "scalar_spectral": ("its sampler", "multijitter"),
+WAYS_OF = {"llvm_ad_spectral": ("its sampler", "multijitter"), "llvm_ad_rgb": ("its sampler", "multijitter"), "scalar_spectral": ("its sampler", "multijitter"),
            "cycles": ("adaptive", "uniform"), "pbrt": ("zsobol",)}
 LONGEST_START_S = 60  # of a kernel: it would be made for each number of samples and each sampler
 

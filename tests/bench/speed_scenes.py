@@ -202,6 +202,16 @@ def of_mitsuba(name):
     return make
 
 
+def of_old_mitsuba(name):
+    """Of a version that Mitsuba 3 does not read: both get what `vitrail convert` makes of it."""
+    def make(bin_folder, folder, corpus, size):
+        new = converted(bin_folder, corpus / name, folder, pathlib.Path(name).stem)
+        file = new.with_name("plain.xml")
+        plain_scene(new, file, size)
+        return file, file
+    return make
+
+
 def written(make_text):
     def make(bin_folder, folder, corpus, size):
         file = folder / f"{make_text.__name__}.xml"
@@ -235,6 +245,8 @@ SCENES = {
     "Veach's plates": veach_plates,
     "10⁶ triangles, 100 lamps": written(million_room),
     "killeroo-simple": of_pbrt("pbrt/killeroo-simple/killeroo-simple.pbrt"),
+    "classroom, textured": of_old_mitsuba("real/classroom/scene.xml"),
+    "bathroom, textured": of_pbrt("real/bathroom2/bathroom2.pbrt"),
     "hotel room": hotel_room,
     "city, 10⁶ triangles": city,
 }
