@@ -16,7 +16,7 @@ std::string svg_picture(const std::vector<SvgAttribute>& size, double width, dou
   attributes.insert(attributes.end(), size.begin(), size.end());
   attributes.insert(attributes.end(), {{"font-family", "sans-serif"}, {"font-size", font_size}});
   const std::string ground = svg_element("rect", {{"width", width}, {"height", height}, {"fill", "white"}});
-  return svg_element("svg", attributes, fmt::format("\n{}\n{}", ground, content)) + "\n";
+  return svg_element("svg", attributes, fmt::format("\n<!-- by vitrail -->\n{}\n{}", ground, content)) + "\n";
 }
 
 }  // namespace vitrail

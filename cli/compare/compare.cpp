@@ -8,6 +8,7 @@
 #include "cli/common/input_kind.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/memory_budget.h"
+#include "cli/common/own_output.h"
 #include "cli/common/rectangle.h"
 #include "cli/common/within_memory.h"
 #include "cli/compare/compare_arguments.h"
@@ -18,6 +19,7 @@
 #include "compare/mask.h"
 #include "film/film_progress.h"
 #include "film/image_io.h"
+#include "film/own_picture.h"
 #include "film/picture_extent.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
@@ -87,6 +89,9 @@ int run(const CompareArguments& options) {
     throw UsageError("welch tests tiles of pixels that lie together: not with --ignore or --mask");
   for (const std::filesystem::path& file : {options.heatmap, options.signed_map, options.html})
     if (!file.empty()) require_place(file);
+  require_own(options.heatmap, is_own_picture, options.force);
+  require_own(options.signed_map, is_own_picture, options.force);
+  require_own_texts({options.html}, options.force);
   for (const std::string* file : {&options.image, &options.reference})
     require_input(*file, {InputKind::picture, InputKind::film});
   Picture image = load(options.image, options), reference = load(options.reference, options);

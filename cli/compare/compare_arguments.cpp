@@ -43,6 +43,7 @@ void declare(CLI::App& app, CompareArguments& o) {
       "--heatmap", o.heatmap,
       "write the error of each pixel: as numbers (.exr), or as colours (.png) from black (0) over red and "
       "yellow to white, for flip by magma. For ssim the error is 1 - ssim, for welch 1 - p");
+  app.add_flag("--force", o.force, "replace files that vitrail did not make");
   app.add_option("--html", o.html,
                  "write one page for a browser: both images and their errors, to flip, split, zoom and "
                  "expose, with all metrics");

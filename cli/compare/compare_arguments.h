@@ -20,7 +20,7 @@ struct CompareArguments {
   double pixels_per_degree = flip_pixels_per_degree;
   std::size_t worst = 3;
   bool resized = false;
-  bool json = false, quiet = false, strict = false;
+  bool json = false, quiet = false, strict = false, force = false;
 };
 
 void declare(CLI::App& app, CompareArguments& arguments);

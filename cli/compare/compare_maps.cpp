@@ -10,6 +10,7 @@
 #include "compare/error_images.h"
 #include "compare/web_page.h"
 #include "film/image_io.h"
+#include "film/renderer_version.h"
 
 namespace vitrail {
 
@@ -20,6 +21,7 @@ void write_map(const std::filesystem::path& file, const Image& numbers, const Im
                Palette palette) {
   Picture picture;
   picture.rgb = file.extension() == ".exr" ? numbers : with_legend(colors, scale, palette);
+  picture.origin.software = to_string(this_renderer());
   write_picture(file, picture);
 }
 

@@ -168,8 +168,13 @@ void write_conversion_report(const std::filesystem::path& file, const std::files
                              const std::vector<std::string>& options, const ConversionChecks& checks,
                              const std::vector<ConversionItem>& items) {
   const ConversionCounts counts = count(items);
-  Json report{{"input", in.string()},     {"output", out.string()}, {"options", options},
-              {"quadrics", quadrics},     {"exact", counts.exact},  {"approximated", counts.approximated},
+  Json report{{"program", "vitrail convert"},
+              {"input", in.string()},
+              {"output", out.string()},
+              {"options", options},
+              {"quadrics", quadrics},
+              {"exact", counts.exact},
+              {"approximated", counts.approximated},
               {"dropped", counts.dropped}};
   if (!checks.pictures.is_null()) report["pictures"] = checks.pictures;
   if (!checks.peer.is_null()) report["peer"] = checks.peer;

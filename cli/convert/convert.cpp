@@ -122,6 +122,7 @@ int run(const Arguments& a) {
   note_referenced_files(imported.scene);
   require_outputs(a);  // other than all that was read
   require_own(a.output, is_own_scene, a.force);
+  require_own_texts({a.report}, a.force);
   Diagnostics& diagnostics = imported.diagnostics;
   const bool refused = a.strict && !diagnostics.empty();
   const std::string quadrics = quadric_counts(imported.scene);

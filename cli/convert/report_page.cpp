@@ -89,7 +89,8 @@ void write_report_page(const std::filesystem::path& file, const std::filesystem:
   const std::string title = escaped(in.filename().string() + " → " + out.filename().string());
   const std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=en><meta "
-      "charset=utf-8><title>{0}</title><style>{1}</style>\n<h1>{0}</h1>\n"
+      "charset=utf-8><meta name=generator "
+      "content=vitrail><title>{0}</title><style>{1}</style>\n<h1>{0}</h1>\n"
       "<p>{2} items exact, {3} approximated, {4} dropped</p>\n{5}{6}{7}</html>\n",
       title, style, counts.exact, counts.approximated, counts.dropped, checks_in_words(checks),
       losses(diagnostics), items_table(items));

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "cli/common/main_guard.h"
+#include "cli/common/own_output.h"
 #include "cli/glazing/glazing_report.h"
 #include "cli/glazing/sheet_report.h"
 #include "compare/web_page.h"
@@ -28,7 +29,7 @@ struct Arguments {
   std::filesystem::path csv, report, energyplus;
   std::vector<std::string> gaps;
   std::optional<double> state, temperature_c;
-  bool polarised = false, json = false;
+  bool polarised = false, json = false, force = false;
 };
 
 void add_options(CLI::App& app, Arguments& a) {
@@ -56,6 +57,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--energyplus", a.energyplus,
                  "write a construction for EnergyPlus here (.idf), of each state");
   app.add_flag("--json", a.json, "print JSON");
+  app.add_flag("--force", a.force, "replace files that vitrail did not make");
 }
 
 double cosine_of(double theta_deg) {
@@ -121,6 +123,7 @@ ReadSystem read(const Arguments& a) {
 int run(const Arguments& a) {
   protect_inputs();
   const bool json_report = !a.report.empty() && is_json_report(a.report);
+  require_own_texts({a.csv, a.report, a.energyplus}, a.force);
   ReadSystem input = read(a);
   const GlazingSystem& system = input.system;
   const Standard standard = a.standard.empty() ? nfrc_2003() : read_standard(a.standard);

@@ -87,7 +87,7 @@ std::string sheet_json(const DataSheet& sheet, const std::vector<std::string>& n
   for (const GlazingLayer& layer : sheet.system.layers)
     panes.push_back(pane_json(layer, &layer == &sheet.system.layers.back()));
   for (const DataSheetState& state : sheet.states) states.push_back(state_json(state));
-  Json json{{"name", sheet.system.name}, {"panes", panes}, {"notes", notes}};
+  Json json{{"program", "vitrail glazing"}, {"name", sheet.system.name}, {"panes", panes}, {"notes", notes}};
   if (!sheet.why_no_heat.empty()) json["no_heat"] = sheet.why_no_heat;
   json["states"] = states;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -222,7 +222,8 @@ std::string sheet_page(const DataSheet& sheet, const std::vector<std::string>& n
   const std::string title = escaped(sheet.system.name.empty() ? "Glazing" : sheet.system.name);
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=en><meta "
-      "charset=utf-8><title>{0}</title><style>{1}{2}</style>\n<h1>{0}</h1>\n",
+      "charset=utf-8><meta name=generator "
+      "content=vitrail><title>{0}</title><style>{1}{2}</style>\n<h1>{0}</h1>\n",
       title, report_style, style);
   page += panes_table(sheet.system) + figures_table(sheet) + temperature_table(sheet) + spectrum_plot(sheet) +
           angle_plot(sheet);

@@ -63,7 +63,8 @@ const std::vector<Heading> of_compare{
     {"What to compare", "IMAGE=IMAGE REFERENCE=REFERENCE resize ignore=X0,X1,Y0,Y1 mask=IMAGE strict"},
     {"By what", "metric flip-range pixels-per-degree variance=FILE variance-samples"},
     {"When to fail", "fail-above=VALUE mean-within=FRACTION"},
-    {"What to write", "heatmap=FILE signed-map=FILE map-scale=ERROR html=FILE worst memory=SIZE json quiet"},
+    {"What to write",
+     "heatmap=FILE signed-map=FILE map-scale=ERROR html=FILE worst memory=SIZE json force quiet"},
 };
 
 const std::vector<Heading> of_develop{
@@ -94,13 +95,13 @@ const std::vector<Heading> of_plan{
      "ranks threads memory=SIZE latency=MICROSECONDS network=SIZE disk=SIZE disk-latency=MILLISECONDS "
      "scratch=SIZE "
      "ranks-a-disk ranks-a-link=N files-a-second=N slow-rank=X distribution homes=FILE"},
-    {"What to write", "svg=FILE json"},
+    {"What to write", "svg=FILE json force"},
 };
 
 const std::vector<Heading> of_glazing{
     {"Which panes", "files=FILE flip=PANE gap=MM[:GAS] state temperature=CELSIUS"},
     {"How to evaluate them", "theta=DEGREES standard=FILE sampling polarised"},
-    {"What to write", "report=FILE energyplus=FILE csv=FILE json"},
+    {"What to write", "report=FILE energyplus=FILE csv=FILE json force"},
 };
 
 const std::vector<Heading> of_sky{{"Where and when", "SKY=SKY"},
@@ -119,7 +120,7 @@ const std::vector<Heading> of_year{
 
 const std::vector<Heading> of_spectrum{
     {"Which colours", "rgb=R,G,B cube=SIDE picture=FILE"},
-    {"What to write", "csv=FILE plot=FILE json"},
+    {"What to write", "csv=FILE plot=FILE json force"},
 };
 
 const std::vector<Heading> of_verify{{"What to read", "bundle=BUNDLE threads strict"},

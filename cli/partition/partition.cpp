@@ -20,6 +20,7 @@
 #include "cli/common/main_guard.h"
 #include "cli/common/memory_budget.h"
 #include "cli/common/mesh_options.h"
+#include "cli/common/own_output.h"
 #include "cli/common/own_threads.h"
 #include "cli/common/sizes.h"
 #include "cli/common/switching_glazing.h"
@@ -123,6 +124,7 @@ void interpret(PartitionArguments& a) {
   require_short_name(bundle);
   require_no_other(a);
   if (!a.stats.empty()) require_place(a.stats);
+  require_own_texts({a.stats}, a.force);
   if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);
   if (!a.aov.empty()) a.layers = parse_layers(a.aov);
   if (const auto folder = cache_folder(); a.cached && !folder.empty()) {

@@ -12,7 +12,8 @@
 namespace vitrail {
 
 void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
-  const nlohmann::ordered_json json{{"input_triangles", s.input_triangles},
+  const nlohmann::ordered_json json{{"program", "vitrail partition"},
+                                    {"input_triangles", s.input_triangles},
                                     {"cut_triangles", s.cut_triangles},
                                     {"pieces", s.pieces},
                                     {"domains", s.domains},

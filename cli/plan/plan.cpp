@@ -7,6 +7,7 @@
 #include "cli/common/distribution.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/number_checks.h"
+#include "cli/common/own_output.h"
 #include "cli/common/sizes.h"
 #include "cli/plan/plan_svg.h"
 #include "farm/plan/memory.h"
@@ -32,7 +33,7 @@ struct Arguments {
   int threads = 16, ranks_of_a_disk = 1, ranks_of_a_link = 1;
   Distribution distribution = Distribution::automatic;
   std::filesystem::path homes;
-  bool json = false;
+  bool json = false, force = false;
   std::uint64_t domain_memory = 0;  // for tests, as render's: at most so much of it for domains; 0: no limit
 };
 
@@ -115,6 +116,7 @@ void warn_of_few_samples(const Arguments& a, const Manifest& m, const RayProfile
 }
 
 int plan(const Arguments& a) {
+  require_own_texts({a.svg}, a.force);
   const Manifest manifest = read_manifest(a.bundle);
   const RayProfile profile = read_ray_profile(a.profile);
   warn_of_few_samples(a, manifest, profile);
@@ -217,5 +219,6 @@ int main(int argc, char** argv) {
   app.add_option("--svg", a.svg, "write a plot of seconds and efficiency");
   app.add_option("--domain-memory", a.domain_memory)->group("");
   app.add_flag("--json", a.json, "print JSON");
+  app.add_flag("--force", a.force, "replace a file that vitrail did not make");
   return run_guarded(app, argc, argv, [&] { return plan(a); });
 }

@@ -71,6 +71,7 @@ void check_outputs(const RenderArguments& a) {
   // A film that is kept speaks for the picture beside it.
   if (!o.keeps_film || !fs::exists(o.film)) require_own(o.picture, is_own_picture, o.force);
   require_own(a.preview, is_own_picture, o.force);
+  require_own_texts({o.stats, o.profile, o.trace}, o.force);
   require_denoiser(a);
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "cli/common/main_guard.h"
+#include "cli/common/own_output.h"
 #include "cli/spectrum/spectrum_methods.h"
 #include "scene/system/atomic_file.h"
 #include "scene/system/say.h"
@@ -18,7 +19,7 @@ struct Arguments {
   std::vector<double> rgb;
   int cube = 33;
   std::filesystem::path csv, plot, picture;
-  bool json = false;
+  bool json = false, force = false;
 };
 
 struct Row {
@@ -84,6 +85,7 @@ void print_table(const std::vector<Row>& rows, const std::string& of) {
 }
 
 int run(const Arguments& a) {
+  require_own_texts({a.csv, a.plot}, a.force);
   if (!a.plot.empty()) write_text(a.plot, patches_svg());
   if (!a.rgb.empty()) {
     const std::string csv = spectra_csv({a.rgb[0], a.rgb[1], a.rgb[2]});
@@ -122,5 +124,6 @@ int main(int argc, char** argv) {
                  "use the colours of this picture in place of the cube's; linear, or sRGB of 8 or 16 bits");
   app.add_option("--plot", a.plot, "write the ColorChecker's spectra as SVG");
   app.add_flag("--json", a.json, "print JSON");
+  app.add_flag("--force", a.force, "replace files that vitrail did not make");
   return run_guarded(app, argc, argv, [&] { return run(a); });
 }

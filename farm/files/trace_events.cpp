@@ -88,7 +88,9 @@ Json about(const RankTimeline& t) {
 }  // namespace
 
 TraceFile::TraceFile(const std::filesystem::path& file, std::int64_t origin_ns)
-    : file_(file), origin_ns_(origin_ns), text_(R"({"displayTimeUnit":"ms","traceEvents":[)") {}
+    : file_(file),
+      origin_ns_(origin_ns),
+      text_(R"({"displayTimeUnit":"ms","otherData":{"program":"vitrail"},"traceEvents":[)") {}
 
 void TraceFile::write_out() {
   file_.write(std::as_bytes(std::span(text_)));

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "film/film_progress.h"
+#include "tests/glazing/glazing_files.h"
 #include "tests/support/background.h"
 #include "tests/support/partitioned_box.h"
 
@@ -135,6 +136,57 @@ TEST_F(NothingLost, SomebodysPictureIsKept) {
   EXPECT_EQ(read("holiday.png"), "a photograph");
   EXPECT_EQ(render("holiday.png", "--spp 1 --force").status, 0);
   EXPECT_NE(read("holiday.png"), "a photograph");
+}
+
+// Each verb's files beside what it is for: statistics, reports, tables, plots, pages.
+TEST_F(NothingLost, SomebodysTextIsKept) {
+  ASSERT_EQ(render("a.film", "--spp 1").status, 0);
+  ASSERT_EQ(
+      run(fmt::format("{} '{}' -o '{}' --quiet", vitrail("develop"), path("a.film"), path("a.exr"))).status,
+      0);
+  ASSERT_EQ(render("b.film", fmt::format("--spp 1 --profile '{}'", path("rays"))).status, 0);
+  write("a.pbrt", "WorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n");
+  const std::string render_it = fmt::format("{} '{}' -o '{}' --spp 1 --threads 1 --crop 0,8,0,8",
+                                            vitrail("render"), path("box.vit"), path("c.film"));
+  const std::string scene = fmt::format("'{}'", path("a.pbrt")), image = fmt::format("'{}'", path("a.exr"));
+  const std::vector<std::pair<std::string, std::string>> commands = {
+      {render_it, "--stats x.json"},
+      {render_it, "--profile x.json"},
+      {render_it, "--trace x.json"},
+      {vitrail("partition") + " " + scene + " -o d.vit --domains 1", "--stats x.json"},
+      {vitrail("convert") + " " + scene + " d.xml", "--report x.json"},
+      {vitrail("convert") + " " + scene + " d.xml", "--report x.html"},
+      {vitrail("plan") + fmt::format(" '{}' --profile '{}' --ranks 1", path("box.vit"), path("rays")),
+       "--svg x.svg"},
+      {vitrail("spectrum") + " --rgb .5,.2,.1", "--csv x.csv"},
+      {vitrail("spectrum") + " --cube 2", "--plot x.svg"},
+      {vitrail("compare") + fmt::format(" {0} {0}", image), "--html x.html"},
+      {vitrail("compare") + fmt::format(" {0} {0}", image), "--heatmap x.png"},
+      {vitrail("compare") + fmt::format(" {0} {0}", image), "--signed-map x.exr"},
+      {vitrail("glazing") + " pane.dat", "--csv x.csv"},
+      {vitrail("glazing") + " pane.dat", "--report x.json"},
+      {vitrail("glazing") + " pane.dat", "--report x.html"},
+      {vitrail("glazing") + " pane.dat", "--energyplus x.idf"}};
+  std::string pane = optics_text;
+  pane.replace(pane.find("{ }"), 3, "{ Emissivity, front back } Emis= 0.84 0.84");
+  write("pane.dat", pane);
+  for (const auto& [command, option] : commands) {
+    SCOPED_TRACE(command + " " + option);
+    const std::string file = option.substr(option.find(' ') + 1);
+    const auto type = [&](const std::string& more) {
+      return run(fmt::format("cd '{}' && {} {} {}", directory_.path().string(), command, option, more));
+    };
+    write(file, "somebody's");
+    const CommandResult refused = type("");
+    EXPECT_EQ(refused.status, 3) << refused.output;
+    EXPECT_THAT(refused.output, ::testing::AllOf(HasSubstr(file), HasSubstr("--force")));
+    EXPECT_EQ(read(file), "somebody's");
+    EXPECT_EQ(type("--force").status, 0);
+    EXPECT_NE(read(file), "somebody's");
+    const CommandResult again = type("");
+    EXPECT_THAT(again.output, Not(HasSubstr("does not say that vitrail made it"))) << "it is its own";
+    std::filesystem::remove(directory_ / file);
+  }
 }
 
 TEST_F(NothingLost, APreviewTakesNobodysPicture) {
