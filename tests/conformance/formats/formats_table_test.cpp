@@ -137,10 +137,10 @@ std::string cell(const Said& tried, const Said& without, bool changes, bool arou
   return fmt::format("{} {}", marks[static_cast<std::size_t>(worst)], fmt::join(numbers, " "));
 }
 
-std::string row(const std::string& name, const Tried& tried, const Tried& without, const Tried* around,
-                Notes& notes, Counts& counts) {
+std::string cells(const Tried& tried, const Tried& without, const Tried* around, Notes& notes,
+                  Counts& counts) {
   const bool changes = !tried.scene || !without.scene || !difference(*tried.scene, *without.scene).empty();
-  std::string line = "| " + name;
+  std::string line;
   for (std::size_t step = 0; step < steps.size(); ++step) {
     if (step > 0 && !tried.scene) {
       line += " |";
@@ -154,6 +154,33 @@ std::string row(const std::string& name, const Tried& tried, const Tried& withou
   return line + " |\n";
 }
 
+// Parameters of one plugin of which the same is said, in one row: "float xradius, yradius".
+class Rows {
+ public:
+  void add(const std::string& name, const std::string& cells) {
+    const auto found = std::ranges::find(rows_, cells, &Row::cells);
+    if (found == rows_.end()) {
+      rows_.push_back({name, cells, type_of(name)});
+      return;
+    }
+    const std::string type = type_of(name);
+    found->names += ", " + (type == found->type ? name.substr(type.size()) : name);
+    found->type = type;
+  }
+  std::string text() const {
+    std::string all;
+    for (const Row& row : rows_) all += "| " + row.names + row.cells;
+    return all;
+  }
+
+ private:
+  static std::string type_of(const std::string& name) { return name.substr(0, name.find(' ') + 1); }
+  struct Row {
+    std::string names, cells, type;  // the type of the last of the names
+  };
+  std::vector<Row> rows_;
+};
+
 std::string table_of(SceneFormat format, const std::string& cases, Trials& trials, Counts& counts) {
   const Tried host = trials.of(format, {}, "");
   EXPECT_TRUE(host.scene) << "the scene around the plugins is refused: " << host.said[0].begin()->first;
@@ -162,11 +189,13 @@ std::string table_of(SceneFormat format, const std::string& cases, Trials& trial
   Notes notes;
   for (const PluginCase& plugin : read_cases(project_file("tests/conformance/formats/") + cases)) {
     const Tried alone = trials.of(format, plugin, "");
-    table += row("**" + plugin.name + "**", alone, host, nullptr, notes, counts);
+    table += "| **" + plugin.name + "**" + cells(alone, host, nullptr, notes, counts);
     if (!alone.scene) continue;
+    Rows rows;
     for (const std::string& parameter : plugin.parameters)
-      table += row(parameter_name(format, parameter), trials.of(format, plugin, parameter), alone, &host,
-                   notes, counts);
+      rows.add(parameter_name(format, parameter),
+               cells(trials.of(format, plugin, parameter), alone, &host, notes, counts));
+    table += rows.text();
   }
   return table + "\n" + notes.list();
 }
