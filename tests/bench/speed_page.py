@@ -10,17 +10,16 @@ COLUMNS = LABELS | {"llvm_ad_spectral": "Mitsuba, llvm", "llvm_ad_rgb": "Mitsuba
 
 TEXT = """# Speed
 
-`tests/bench/speed.py` measured these numbers and wrote this page. All are of one run on one machine. Compare
-ratios; seconds are of that machine.
+`tests/bench/speed.py` measured these numbers in one run on one machine, and wrote this page. Compare ratios.
 
 ## To a given error, beside each peer's best
 
 One thread each, start-up left out, pictures of {size} × {size} pixels. A renderer's *noise* is the relative mean
-square error between two seeds, so differences of models do not count. Its *time* is processor time, the lesser of
-the two. Noise falls as 1/time, or faster, so time × noise measures a renderer.
+square error between two seeds, so differences of models do not count. Its *time* is processor time. Noise falls as
+1/time, or faster, so time × noise measures a renderer.
 
-The table has time × noise of the peer over that of Vitrail, at {spp} samples a pixel. **Above 1, Vitrail is sooner at
-the same error; below, the peer is.** Vitrail runs with its defaults.
+The table has time × noise of the peer over that of Vitrail with its defaults, at {spp} samples a pixel. **Above 1,
+Vitrail is sooner at the same error; below, the peer is.** The last column has Vitrail's nanoseconds a sample · noise.
 
 {peers}
 
@@ -32,27 +31,16 @@ the same error; below, the peer is.** Vitrail runs with its defaults.
 
 ![ratios](../images/speed-ratios.svg)
 
-Nanoseconds a sample · noise, of Vitrail with its defaults and of each peer at its best.
-{marks}
-
-{details}
-
 Each panel is one scene: noise against nanoseconds a pixel, from {least} to {spp} samples a pixel.
 
 ![noise against time](../images/speed-noise.svg)
 
 ### Other ways to sample
 
-Some scenes gain from another way than path tracing with the usual samples. The peers stay at their best, with path
-tracing:
-
-- `--integrator photon --photons N`, a photon a pixel and iteration, for light that glass and white walls gather;
-- `--one-sequence`, where the film need not know its error, as those of the peers do not;
-- `--splat`, where the scene's filter is wider than a pixel, which is how Mitsuba filters;
-- `--adaptive`, where a part of the picture has most of the noise.
-
-Photons have a bias, so their *error* counts in place of noise: the error to 4096 paths a pixel of Mitsuba, less the
-noise of those. The last row has the best way for each scene.
+Some scenes gain from another way than path tracing with the usual samples; the peers stay at path tracing. Photons
+(`--integrator photon`) have a bias, so their *error* to 4096 paths a pixel of Mitsuba counts in place of noise.
+[Better samples](sampling.md) has the other ways. The table has the best way of each scene, if it gains a tenth. The mean is over
+all scenes.
 
 {ways}
 
@@ -60,56 +48,31 @@ Notes on the rows:
 
 - *hotel room*, *city*: Mitsuba's path tracer cannot connect through panes to the sun. Its picture lacks the sunlight
   in the rooms (the means show it), and with it most of our noise. The two do not solve the same problem there.
-- The pixel filters of these two and of *Cornell of Tungsten* are wider than a pixel. Mitsuba
-  adds each sample to several pixels, as Vitrail does with `--splat`. Otherwise Vitrail chooses the sample's place by
-  the filter. `--splat` makes neighbouring pixels alike, and this measure counts that as less noise.
-- *killeroo-simple*: Mitsuba gets the spherical lamps of PBRT from `vitrail convert`.
-- The table has the difference of means where it exceeds the noise. The models then differ, and the row says less.
-- Cycles gets spheres as meshes of 131,000 triangles; the others get spheres. Lamps of Cycles let light through, so it
-  sees the ceiling behind them: its means are 1 % higher. It computes in RGB; the others sample wavelengths.
+- The pixel filters of these two and of *Cornell of Tungsten* are wider than a pixel. Mitsuba adds each sample to
+  several pixels, as Vitrail does with `--splat`. Neighbouring pixels are then alike, which counts as less noise here.
+- Where the means differ by more than the noise, the models differ, and the row says less.
+- Cycles computes in RGB and gets spheres as meshes. Its lamps let light through, so its means are 1 % higher.
 
 ## Where the time goes
 
-Shares of processor time in percent, of fourteen rows, by `tests/bench/stages.py` (AVX-512, 64 samples,
-start-up included, other programs beside it). *Shading* has BSDFs and lights, which are one stage in lanes. *Begin*
-has all that a sample costs before its first ray: numbers, wavelengths, the sensor, its camera ray, the state of a
-path. The last columns say how many times as fast a render would be without intersection, and without shading.
+`tests/bench/stages.py` measured shares of processor time (AVX-512, 64 samples, start-up included). Intersection takes
+20 to 41 % in small scenes, 51 % in killeroo-simple, 56 % in the city and 66 % in the hotel room. Shading, which is
+BSDFs and lights, takes 22 to 55 %, the film 1 to 20 %. All that a sample costs before its first ray takes 33 % in
+*various shapes*, 1 to 18 % elsewhere.
 
-| | intersection | shading | film | begin | lists, hits | no intersection | no shading |
-|---|---|---|---|---|---|---|---|
-| arealight | 36 | 32 | 4 | 18 | 11 | 1.56 | 1.47 |
-| envmap | 24 | 51 | 8 | 11 | 6 | 1.32 | 2.04 |
-| various shapes | 20 | 22 | 20 | 33 | 6 | 1.25 | 1.28 |
-| box, diffuse | 35 | 39 | 8 | 10 | 8 | 1.54 | 1.64 |
-| box, spheres | 41 | 38 | 6 | 7 | 7 | 1.69 | 1.61 |
-| cbox of Mitsuba | 35 | 40 | 7 | 9 | 8 | 1.54 | 1.67 |
-| Cornell of Tungsten | 34 | 41 | 8 | 9 | 8 | 1.52 | 1.69 |
-| glass | 32 | 41 | 5 | 6 | 17 | 1.47 | 1.69 |
-| medium | 29 | 55 | 4 | 3 | 8 | 1.41 | 2.22 |
-| four lamps | 33 | 52 | 4 | 8 | 3 | 1.49 | 2.08 |
-| Veach's plates | 27 | 55 | 4 | 10 | 4 | 1.37 | 2.22 |
-| killeroo-simple | 51 | 29 | 5 | 8 | 7 | 2.04 | 1.41 |
-| hotel room | 66 | 25 | 1 | 1 | 6 | 2.94 | 1.33 |
-| city, 10⁶ triangles | 56 | 31 | 3 | 5 | 5 | 2.27 | 1.45 |
-
-Without intersection arealight, medium, four lamps and the hotel room would be won; without shading arealight, envmap,
-medium and four lamps. *box, spheres* and killeroo-simple would be lost without either. What is left has these reasons:
+Vitrail loses to `llvm_ad_spectral` for these reasons:
 
 - *Doubles.* Shading takes 8 doubles in a register of AVX-512, Mitsuba 16 floats. The film is one bit pattern for any
-  division of the work, and decisions near an edge need doubles. With 16 lanes in two registers each, shading was 20 to
-  25 % slower ([waves](waves.md)).
-- *Trees.* In trees of more than one node rays go one by one, with eight boxes or triangles as lanes. In arealight 37 %
-  of a tree's samples lie on two instructions: the first behind the branch to a node or to triangles, which is guessed
-  wrongly. `llvm_ad_spectral` gives Embree many rays at once, which share these guesses. Eight camera rays at a time
-  gained 1.3 in the city's tree and lost in killeroo-simple ([waves](waves.md)).
-- *Two sequences.* They cost 0 to 20 % of the noise, and no cheaper estimate of the error was found
+  division of the work, and decisions near an edge need doubles ([waves](waves.md)).
+- *Trees.* In trees of more than one node rays go one by one, with eight boxes or triangles as lanes. The processor
+  guesses the next branch wrongly. `llvm_ad_spectral` gives Embree many rays at once, which share these guesses.
+- *Two sequences* cost 0 to 20 % of the noise, and no cheaper estimate of the error was found
   ([better samples](sampling.md#halves-of-one-sequence-as-groups)).
-- *The beginning of a sample.* Where paths end at once, as in *various shapes*, it is a third of the time. Over a
-  third of that is four wavelengths and what the sensor makes of them. A table of ready ones was not kept
-  ([better samples](sampling.md#costs-that-stay)).
+- *The beginning of a sample* is a third of the time where paths end at once. Over a third of that is four wavelengths
+  and what the sensor makes of them ([better samples](sampling.md#costs-that-stay)).
 
-To pass, hotel room and city need rays that share the way through big trees. Rows of shading need 16 floats where no bit
-of the film hangs on it.
+To pass, hotel room and city need rays that share the way through big trees. Scenes of shading need 16 floats where no
+bit of the film hangs on it.
 
 ## Beside its own intersector
 
@@ -128,9 +91,6 @@ On a room of 1.06 million triangles (`bench_render`), seconds of processors:
 pip install mitsuba numpy && apt-get install libllvm19     # Debian's LLVM 14 and 15 crash on recent processors
 python3.11 -m venv VENV && VENV/bin/pip install bpy==4.5.15 # Cycles: 350 MB, GPL-3.0; a Python of its own, for its numpy is older
 tests/bench/speed.py --bin build/release/bin --bpy VENV/bin/python [--pbrt PBRT]  # {minutes:.0f} minutes; writes this page
-tests/bench/speed.py --quick --bpy VENV/bin/python         # smaller and with fewer samples; prints the table
-tests/bench/speed.py --also crown=crown.pbrt               # a scene that the corpus has not
-tests/bench/stages.py BUNDLE…                              # where the time goes; needs Linux's perf
 ```
 """
 
@@ -160,70 +120,50 @@ def ns_of(row, result):
 def table(found):
     """The ratios; what a peer cannot be given is a dash."""
     ratios = found["ratios"]
-    lines = [f"| | {' | '.join(COLUMNS[p] for p in ratios)} | means |", "|---" * (len(ratios) + 2) + "|"]
+    lines = [f"| | {' | '.join(COLUMNS[p] for p in ratios)} | means | Vitrail |", "|---" * (len(ratios) + 3) + "|"]
     for name, result in found["results"].items():
         means = [rows[-1]["mean"] for rows in rows_of(result, found["best"][name]).values()]
         apart = max(abs(mean / means[0] - 1) for mean in means)
-        lines.append(f"| {name} | {' | '.join(bold(of[name]) if name in of else '—' for of in ratios.values())} | within {100 * apart:.1f} % |")
-    return "\n".join([*lines, f"| geometric mean | {' | '.join(mean_of(list(of.values())) for of in ratios.values())} | |"])
-
-
-# Of the peers' ways, in the table of details.
-MARKS = {"multijitter": "ᵐ", "uniform": "ᵘ"}
-
-
-def details(found):
-    renderers = ["vitrail", *found["ratios"]]
-    lines = [f"| | {' | '.join(COLUMNS[r] for r in renderers)} |", "|---" * (len(renderers) + 1) + "|"]
-    for name, result in found["results"].items():
-        rows, best = rows_of(result, found["best"][name]), found["best"][name]
-        cell = lambda r: f"{ns_of(rows[r][-1], result)} · {rows[r][-1]['noise']:.2g}{MARKS.get(best.get(r), '')}" if r in rows else "—"
-        lines.append(f"| {name} | {' | '.join(cell(r) for r in renderers)} |")
-    return "\n".join(lines)
+        own = result["rows"]["vitrail", ""][-1]
+        lines.append(f"| {name} | {' | '.join(bold(of[name]) if name in of else '—' for of in ratios.values())} | "
+                     f"within {100 * apart:.1f} % | {ns_of(own, result)} · {own['noise']:.2g} |")
+    return "\n".join([*lines, f"| geometric mean | {' | '.join(mean_of(list(of.values())) for of in ratios.values())} | | |"])
 
 
 def table_of_ways(found):
     results, ratios, by_ways = found["results"], found["ratios"], found["by_ways"]
-    lines = [f"| | {' | '.join(COLUMNS[p] for p in ratios)} | ns a sample | noise | error | mean ÷ that of paths |",
-             "|---" * (len(ratios) + 5) + "|"]
+    lines = [f"| | {' | '.join(COLUMNS[p] for p in ratios)} | mean ÷ that of paths |", "|---" * (len(ratios) + 2) + "|"]
     for name, result in results.items():
         paths = result["rows"]["vitrail", ""][-1]
+        gains = {way: max((of[name, way] / ratios[p][name] for p, of in by_ways.items() if (name, way) in of), default=0) for way in result["ways"]}
         for way, row in result["ways"].items():
-            err = f"{row['error']:.2g}" if "error" in row else ""
+            if gains[way] < max(1.1, *gains.values()):
+                continue
             each = " | ".join(bold(of[name, way]) if (name, way) in of else "—" for of in by_ways.values())
-            lines.append(f"| {name}, {way} | {each} | {1e9 * row['seconds'] / result['pixels'] / paths['spp']:.0f} | {row['noise']:.2g} | "
-                         f"{err} | {row['mean'] / paths['mean']:.4f} |")
+            lines.append(f"| {name}, {way} | {each} | {row['mean'] / paths['mean']:.4f} |")
     better = [mean_of([max([r, *(v for (n, _), v in by_ways[p].items() if n == name)]) for name, r in of.items()])
               for p, of in ratios.items()]
-    return "\n".join([*lines, f"| geometric mean of all scenes | {' | '.join(better)} | | | | |"])
+    return "\n".join([*lines, f"| geometric mean of all scenes | {' | '.join(better)} | |"])
 
 
 def verdict(ratios):
-    words = []
-    for p, of in ratios.items():
-        lost = [name for name, r in of.items() if r < 1]
-        words.append(f"to {LABELS[p]} on {len(lost)} of {len(of)}" + (f" ({'; '.join(lost)})" if lost else ""))
+    words = [f"to {LABELS[p]} on {sum(r < 1 for r in of.values())} of {len(of)}" for p, of in ratios.items()]
     return "Bold: lost. Vitrail loses " + "; ".join(words) + "."
 
 
 PEERS = {
     "llvm_ad_spectral": "- *Mitsuba {version}*: `llvm_ad_spectral` traces whole pictures as streams of lanes, `scalar_spectral` a path at a time. Each has "
-                        "the sampler of the scene, `independent` in nearly all, and `multijitter`; the better one counts. Scenes of Mitsuba's format are one "
-                        "file to both; those of PBRT are handed over by `vitrail convert`.",
-    "cycles": "- *Cycles*, of Blender's `bpy`, in RGB: on its CPU device, with its default sampler and light tree; adaptive sampling as by default, "
-              "and off; the better one counts. Off, too, is what changes the picture: denoiser, clamps, the blur of caustics. It gets the scenes that "
-              "`cycles_timing.py` can build.",
+                        "the sampler of the scene and `multijitter`; the better one counts. It gets scenes of PBRT by `vitrail convert`.",
+    "cycles": "- *Cycles*, of Blender's `bpy`: on its CPU device, with its default sampler and light tree, adaptive sampling on or off; the better one "
+              "counts. Denoiser, clamps and the blur of caustics are off.",
     "pbrt": "- *pbrt-v4*, with `zsobol`, its default. All scenes are handed over by `vitrail convert`.",
 }
 
 
 def missing(options, found):
     words = [f"{LABELS[p]} is left out: {why}." for p, why in options.missing.items()]
-    refused = {}
-    for name, result in found["results"].items():
-        for p, why in result["refused"].items():
-            refused.setdefault((p, why), []).append(name)
-    words += [f"{LABELS[p]} has no {'; '.join(names)}: {why}." for (p, why), names in refused.items()]
+    refused = dict.fromkeys((p, why) for result in found["results"].values() for p, why in result["refused"].items())
+    words += [f"A dash of {LABELS[p]}: {why}." for p, why in refused]
     absent = {}
     for name, why in found["absent"].items():
         absent.setdefault(why, []).append(name)
@@ -308,11 +248,8 @@ def write_page(options, found, seconds, version):
     (folder / "images").mkdir(parents=True, exist_ok=True)
     (folder / "images/speed-ratios.svg").write_text(ratios_plot(found["ratios"]))
     (folder / "images/speed-noise.svg").write_text(noise_plot(found))
-    used = {way for best in found["best"].values() for way in best.values()}
-    marks = ["multijitter ᵐ"] * ("multijitter" in used) + ["without adaptive sampling ᵘ"] * ("uniform" in used)
     page = TEXT.format(size=options.size, spp=options.spp[-1], least=options.spp[0], table=table(found), ways=table_of_ways(found),
                        peers="\n".join(wrapped(PEERS[p].format(version=version)) for p in PEERS if p in options.peers),
-                       details=details(found), marks="Marked: " + ", ".join(marks) + "." if marks else "",
                        verdict=wrapped(verdict(found["ratios"])), missing=wrapped(missing(options, found)), minutes=math.ceil(seconds / 60), **own)
     (folder / "why").mkdir(exist_ok=True)
     (folder / "why/speed.md").write_text(page)
