@@ -11,8 +11,8 @@ namespace vitrail {
 // A prototype becomes an object where it moves, or where references to it take fewer bytes than copies of it,
 // and so do shapes that share a mesh (shared_shapes.h). What a singular, projective or extreme transform
 // places is copied, of quadrics as triangles; all others are objects, one for all that are alike but for
-// where they stand. Throws Error for vertices that are not finite where they stand, and for 2³² − 1 triangles
-// or more.
+// where they stand. Throws Error for vertices that are not finite where they stand, and for more than 2³² − 5
+// triangles that are no instances' (triangle_number.h).
 ScenePlan plan_scene(const Scene& scene);
 
 }  // namespace vitrail

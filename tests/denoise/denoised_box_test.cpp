@@ -61,7 +61,7 @@ TEST_F(DenoisedBox, IsCountedInTheMemoryOfARender) {
   EXPECT_EQ(enough.status, 0) << enough.output;
 }
 
-// Measured: the error falls to a thirtieth (docs/why/denoising.md), and the mean of all light stays.
+// The error falls far (docs/why/denoising.md), and the mean of all light stays.
 TEST_F(DenoisedBox, HasItsLightAndLittleOfItsError) {
   ASSERT_EQ(render("box.film", 16, "--aov albedo,normal").status, 0);
   ASSERT_EQ(render("many.film", 512, "--seed 1").status, 0);
