@@ -42,6 +42,10 @@ def toward_peak(out, bsdf, si, context, rows_side):
     return sampled.wo if sampled.pdf > 0 else direction(rows_side)
 
 
+def listed(numbers):
+    return ", ".join(f"{x:.7g}" for x in numbers)
+
+
 def row(thin):
     values = parameters(thin)
     color = [round(random.random(), 3) for _ in range(3)]
@@ -57,8 +61,8 @@ def row(thin):
     side = random.choice([1, -1]) if two_sided else 1
     other = toward_peak(si.wi, bsdf, si, context, side) if random.random() < 0.6 else direction(side)
     value = bsdf.eval(context, si, other)
-    numbers = [*color, mi.luminance(mi.Color3f(color)), eta, *(values[n] for n in NAMES), *si.wi, *other, *value]
-    return "{" + ", ".join([str(int(thin))] + [f"{x:.7g}" for x in numbers]) + "},"
+    numbers = [*color, mi.luminance(mi.Color3f(color)), eta, *(values[n] for n in NAMES)]
+    return "{" + ", ".join([str(int(thin)), listed(numbers), *("{" + listed(v) + "}" for v in (si.wi, other, value))]) + "},"
 
 
 print("// SPDX-" "License-Identifier: Apache-2.0")
