@@ -76,13 +76,13 @@ TEST_F(DomainFile, MissingFileIsTheMachine) { EXPECT_THROW(MappedDomain{file}, M
 TEST_F(DomainFile, WrongReferencesAreFound) {
   constexpr std::uint32_t cluster = BvhNode::cluster_bit;
   const std::vector<std::function<void(DomainContent&)>> harms{
-      [](DomainContent& d) { d.nodes[0].child[0] = 0; },                // a loop
-      [](DomainContent& d) { d.nodes[1].child[1] = 1; },                // a loop
-      [](DomainContent& d) { d.nodes[0].child[0] = 2; },                // beyond the nodes
-      [](DomainContent& d) { d.nodes[0].child[1] = cluster | 2; },      // beyond the clusters
-      [](DomainContent& d) { d.nodes[0].child[1] = cluster | 0; },      // one cluster twice, one never
-      [](DomainContent& d) { d.nodes[0].child[2] = 1; },                // one node twice
-      [](DomainContent& d) { d.nodes[1].lower[1][3] = std::nan(""); },  // a ray may enter what is no child
+      [](DomainContent& d) { d.nodes[0].child[0] = 0; },                 // a loop
+      [](DomainContent& d) { d.nodes[1].child[1] = 1; },                 // a loop
+      [](DomainContent& d) { d.nodes[0].child[0] = 2; },                 // beyond the nodes
+      [](DomainContent& d) { d.nodes[0].child[1] = cluster | 2; },       // beyond the clusters
+      [](DomainContent& d) { d.nodes[0].child[1] = cluster | 0; },       // one cluster twice, one never
+      [](DomainContent& d) { d.nodes[0].child[2] = 1; },                 // one node twice
+      [](DomainContent& d) { d.nodes[1].lower[1][3] = std::nanf(""); },  // a ray may enter what is no child
       [](DomainContent& d) {
         for (int axis = 0; axis < 3; ++axis) d.nodes[0].lower[axis][7] = -10, d.nodes[0].upper[axis][7] = 10;
       },

@@ -17,6 +17,7 @@
 namespace vitrail::assimp_test {
 namespace {
 
+using namespace std::string_literals;
 using testing::HasSubstr;
 
 // A triangle of COLLADA in the plane z = 0, +z up: the file's y is −z here.
@@ -322,7 +323,8 @@ TEST_F(Assimp, AnglesOfFbxCamerasAreOfTheHeightWhereTheirApertureModeSaysSo) {
 }
 
 TEST_F(Assimp, BrokenFilesAreRefused) {
-  EXPECT_THAT(error_of("a.fbx", "Kaydara FBX Binary  \x00\x1a\x00 and no more"), HasSubstr("cannot read it"));
+  EXPECT_THAT(error_of("a.fbx", "Kaydara FBX Binary  \x00\x1a\x00 and no more"s),
+              HasSubstr("cannot read it"));
   EXPECT_THAT(error_of("a.3ds", "MM"), HasSubstr("cannot read it"));
   EXPECT_THAT(error_of("a.dae", "<COLLADA>"), HasSubstr("cannot read it"));
   EXPECT_THAT(error_of("a.dae", "no XML"), HasSubstr("cannot read it"));

@@ -140,7 +140,7 @@ TEST(PbrtParameters, RefuseValuesOfTheWrongKind) {
 
 TEST(PbrtParameters, SuggestTypesThatAreSpelledWrongly) {
   try {
-    Parameters{"\"flot radius\" 1"};
+    const Parameters parameters{"\"flot radius\" 1"};
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("did you mean \"float\""));

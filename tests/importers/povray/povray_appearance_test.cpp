@@ -249,7 +249,7 @@ TEST_F(PovrayAppearance, GridsOfMedia) {
     add_box(scene.meshes[slab.mesh.value]);
     expect_plane(
         scene,
-        [&](double x, double y) -> std::array<double, 3> {
+        [&mean = mean](double x, double y) -> std::array<double, 3> {
           const double way = std::sqrt(1 + (x * x + y * y) / 16);
           return {std::exp(-mean[0] * way), std::exp(-mean[1] * way), std::exp(-mean[2] * way)};
         },

@@ -63,8 +63,7 @@ struct Site {
     RenderOptions options;
     options.picture.samples_per_pixel = 64;
     options.picture.integrator = Integrator::photon, options.picture.photons = {5000, 0.1, 0.8};
-    return brightness(render(scene, options).film).mean /
-           brightness(render(sky, std::move(options)).film).mean;
+    return brightness(render(scene, options).film).mean / brightness(render(sky, options).film).mean;
   }
 };
 

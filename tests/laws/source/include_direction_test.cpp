@@ -84,7 +84,9 @@ TEST(IncludeDirection, RoomsDependOnlyOnFloorsBelow) {
   const std::filesystem::path root = test::source_dir();
   for (const auto& [folder, rooms] : floors()) {
     const std::regex include("^#include \"" + folder + R"rx(/(?:(.*)/)?[^/"]+")rx");
-    const auto floor_of = [&](const std::string& room) { return std::ranges::find(rooms, room); };
+    const auto floor_of = [&rooms = rooms](const std::string& room) {
+      return std::ranges::find(rooms, room);
+    };
     int seen = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
       if (!is_source(entry.path())) continue;

@@ -172,7 +172,7 @@ TEST(RegularFile, IsNoPointerOfGitLfs) {
   const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n";
   std::ofstream(directory / "a.png") << pointer;
   try {
-    RegularFile(directory / "a.png");
+    const RegularFile file(directory / "a.png");
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("git lfs pull"), std::string::npos) << error.what();

@@ -71,7 +71,7 @@ void run(const Context& context, const double* in, double* out, int count) {
 #define LANE_FUNCTION(name, ins_, outs_)                                                 \
   struct name {                                                                          \
     static constexpr const char* title = #name;                                          \
-    static constexpr int ins = ins_, outs = outs_;                                       \
+    static constexpr int ins = (ins_), outs = (outs_);                                   \
     template <int W>                                                                     \
     VITRAIL_LANES static void run(const Context& context, const In<W>& in, Out<W>& out); \
   };                                                                                     \
