@@ -196,7 +196,7 @@ inline void prefetch(const BvhNode* nodes, const Leaf* leaves, std::uint32_t ref
   const char* at = reference & BvhNode::cluster_bit
                        ? reinterpret_cast<const char*>(leaves + (reference & ~BvhNode::cluster_bit))
                        : reinterpret_cast<const char*>(nodes + reference);
-  for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
+  for (int byte = 0; byte < 256; byte += 64) __builtin_prefetch(at + byte);
 }
 
 // Puts the entered children (one at least) on the stack, the nearer the later, but for the nearest, which is

@@ -56,7 +56,7 @@ using Longs = Lanes<std::uint64_t, W>;
 template <class V>
 struct LanesOf {};  // of other types
 template <class V>
-requires(!std::is_arithmetic_v<V> && !std::is_class_v<V>) struct LanesOf<V> {
+requires(!std::is_arithmetic_v<V> && !std::is_class_v<V> && !std::is_pointer_v<V>) struct LanesOf<V> {
   using Number = std::remove_cvref_t<decltype(std::declval<V&>()[0])>;
   static constexpr int width = sizeof(V) / sizeof(Number);
 };

@@ -30,15 +30,16 @@ int cells_for(int texels, int most) {
 
 // The cells of a row that interval [low, high) of it reaches, and how much of the interval is in each.
 struct Shares {
-  std::array<int, 2 * most_shares> cell{};
-  std::array<double, 2 * most_shares> share{};
+  static constexpr int most = 2 * most_shares;
+  std::array<int, most> cell{};
+  std::array<double, most> share{};
   int count = 0;
   double black = 1;  // of the interval: what is in no cell
 
   Shares(Interval at, int cells, Wrap wrap) {
     const double low = at.low * cells, high = at.high * cells;
     const int first = static_cast<int>(std::floor(low)), last = static_cast<int>(std::ceil(high)) - 1;
-    for (int i = first; i <= last && count < 2 * most_shares; ++i) {
+    for (int i = first; i <= last && count < most; ++i) {
       const double part = (std::min(i + 1.0, high) - std::max<double>(i, low)) / (high - low);
       const int wanted = wrap == Wrap::repeat ? ((i % cells) + cells) % cells : mirrored(i, cells, wrap);
       const int k = lanes::wrapped(wanted, cells, wrap);
