@@ -69,7 +69,8 @@ fs::path Runs::bundle(const std::vector<std::string>& partition) {
     return scene_;
   }
   const std::string key = fmt::format("{}", fmt::join(partition, " "));
-  const fs::path made = folder_ / "bundles" / (short_name(key) + ".vit"), manifest = made / "manifest.json";
+  fs::path made = folder_ / "bundles" / (short_name(key) + ".vit");
+  const fs::path manifest = made / "manifest.json";
   std::error_code none;
   const auto made_at = fs::last_write_time(manifest, none);
   if (!none && made_at > fs::last_write_time(scene_)) return made;

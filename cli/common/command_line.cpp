@@ -108,7 +108,7 @@ std::vector<std::string> as_parsed(const CLI::App& app, const std::vector<std::s
 }
 
 std::string about(const CLI::App& app, const CLI::ParseError& error) {
-  const std::string message = error.what();
+  std::string message = error.what();
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) return about_unexpected(app);
   if (dynamic_cast<const CLI::RequiredError*>(&error)) {
     const std::string name = message.substr(0, message.find(' '));

@@ -47,7 +47,8 @@ SmallPicture small(const FilmSettings& film) {
 // them.
 std::string picture_of_input(const PeerCheck& check, SmallPicture size, int samples_per_pixel,
                              const TemporaryFolder& folder) {
-  const std::string exact = folder.file("before.film"), picture = folder.file("before.exr");
+  const std::string exact = folder.file("before.film");
+  std::string picture = folder.file("before.exr");
   std::vector<std::string> words = check.options;
   words.insert(words.end(), {check.in.string(), "-o", exact, "--spp", std::to_string(samples_per_pixel),
                              "--width", std::to_string(size.width), "--height", std::to_string(size.height),
@@ -265,8 +266,8 @@ std::string peer_in_words(const Json& peer, const char* between) {
   std::string words;
   for (const Json& v : peer.at("variants")) {
     const std::string variant = v.at("variant");
-    words +=
-        (words.empty() ? "" : between) + variant_in_words(variant == "any" ? name : name + " " + variant, v);
+    if (!words.empty()) words += between;
+    words += variant_in_words(variant == "any" ? name : fmt::format("{} {}", name, variant), v);
   }
   return words;
 }

@@ -42,8 +42,7 @@ namespace {
 // Where the sensors are, as the render wrote it; as many as the film has columns.
 nlohmann::json sensors_of(const Exposed& film) {
   const nlohmann::json about = nlohmann::json::parse(film.about, nullptr, false);
-  const nlohmann::json sensors =
-      about.is_object() ? about.value("sensors", nlohmann::json()) : nlohmann::json();
+  nlohmann::json sensors = about.is_object() ? about.value("sensors", nlohmann::json()) : nlohmann::json();
   if (!sensors.is_array() || sensors.size() != static_cast<std::size_t>(film.film.width()))
     throw Error("a table is made of sensors, and this is a picture: render with --sensors",
                 {film.file.string()});

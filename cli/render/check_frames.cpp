@@ -55,7 +55,7 @@ class Checker {
   }
 
   // What the line does wrong. Throws it where the command does so without the line.
-  Error of_line(std::size_t i, const std::string& message, std::exception_ptr failure) {
+  Error of_line(std::size_t i, const std::string& message, const std::exception_ptr& failure) {
     const Frame& frame = list_.frames[i];
     if (message_with(i, {}) == message) std::rethrow_exception(failure);
     int column = frame.words.front().column;

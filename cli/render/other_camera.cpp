@@ -26,7 +26,7 @@ std::filesystem::path place_beside(const std::filesystem::path& output) {
 std::string read_view(const std::filesystem::path& scene, const std::filesystem::path& between) {
   run_program("vitrail-partition", {scene.string(), "-o", between.string(), "--view-only", "--quiet"},
               [] { return stop_signal() != 0; });
-  const std::string text = read_checked_json(between, "the view").dump();
+  std::string text = read_checked_json(between, "the view").dump();
   std::filesystem::remove(between);
   return text;
 }

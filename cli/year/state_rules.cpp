@@ -164,7 +164,7 @@ std::vector<std::size_t> sensors_of(const StateRules& rules) {
     for (const RuleTerm& term : rule.terms)
       if (term.quantity == RuleQuantity::sensor) sensors.push_back(term.sensor);
   std::ranges::sort(sensors);
-  sensors.erase(std::ranges::unique(sensors).begin(), sensors.end());
+  sensors.erase(std::unique(sensors.begin(), sensors.end()), sensors.end());
   return sensors;
 }
 

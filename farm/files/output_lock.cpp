@@ -148,7 +148,7 @@ namespace {
 std::string written_holder(const std::filesystem::path& output) {
   const int descriptor = ::open(lock_of(output).c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return {};
-  const std::string who = holder(descriptor);
+  std::string who = holder(descriptor);
   ::close(descriptor);
   return who;
 }

@@ -303,7 +303,7 @@ SceneEdit change_the_sky(Manifest& m, const SceneEdit& edit) {
   if (skies.size() > 1)
     throw UsageError(fmt::format("--sky: the bundle has {} skies: give --set NAME.sky= to one of {}",
                                  skies.size(), fmt::join(names, ", ")));
-  const SceneEdit named{
+  SceneEdit named{
       fmt::format("{}{}{}", names[0], sky_property, edit.text), names[0], edit.property, {}, edit.sky};
   edit_light(m.lights[skies[0]], named);
   return named;

@@ -114,10 +114,10 @@ std::string text_of(const TargetError& target) {
 
 // What the render is after.
 std::string text_of(const Goal& goal) {
-  const std::string samples = fmt::format("{} sample{} {}", goal.samples, goal.samples == 1 ? "" : "s",
-                                          goal.adaptive       ? "a pixel on the average"
-                                          : goal.samples == 1 ? "a pixel"
-                                                              : "each");
+  std::string samples = fmt::format("{} sample{} {}", goal.samples, goal.samples == 1 ? "" : "s",
+                                    goal.adaptive       ? "a pixel on the average"
+                                    : goal.samples == 1 ? "a pixel"
+                                                        : "each");
   if (!goal.target) return samples;
   return fmt::format("to an error of {}, at most {}", text_of(*goal.target), samples);
 }

@@ -32,7 +32,7 @@ bool SimulatedRounds::join(std::uint64_t round, int rank, const RoundSums& mine,
 
 SimulatedRounds::Told SimulatedRounds::leave(std::uint64_t round) {
   Open& open = open_.at(round);
-  const Told told{open.sums, open.reports};
+  Told told{open.sums, open.reports};
   if (++open.left == ranks_) open_.erase(round);
   return told;
 }

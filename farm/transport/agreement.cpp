@@ -66,7 +66,7 @@ std::uint64_t failures = 0;  // of the thread that has the transport
 
 std::uint64_t agreed_failures() { return failures; }
 
-void leave(std::exception_ptr own, const RoundSums& sums) {
+void leave(const std::exception_ptr& own, const RoundSums& sums) {
   ++failures;
   if (own) std::rethrow_exception(own);
   throw OtherRankFailed(sums.bad_input > 0);

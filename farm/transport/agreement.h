@@ -35,7 +35,7 @@ void agree_on_root(Transport& transport, const std::function<void()>& step);
 std::uint64_t agreed_failures();
 
 // Throws `own` where it is set, OtherRankFailed elsewhere.
-[[noreturn]] void leave(std::exception_ptr own, const RoundSums& sums);
+[[noreturn]] void leave(const std::exception_ptr& own, const RoundSums& sums);
 
 // Whether it is an Error: exit status 3 rather than 4.
 bool is_bad_input(const std::exception_ptr& failure);
