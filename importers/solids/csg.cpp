@@ -142,7 +142,7 @@ class Evaluation {
       left = literal.negated ? without(left, {part}) : common(left, {part});
     }
     for (const Bodies& other : positives) left = common(left, other);
-    left = without(std::move(left), negatives);
+    left = without(left, negatives);
     if (from_infinity) note_infinity(left);
     return {std::move(left)};
   }
