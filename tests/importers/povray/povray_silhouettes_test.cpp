@@ -36,11 +36,11 @@ class PovraySilhouettes : public testing::Test {
             picture.at(x, y)[1] / (block * block);
     return mask;
   }
-  std::vector<double> by_vitrail() {
+  std::vector<double> by_vitrail(int samples) {
     Scene scene = read_povray(folder_ / "scene.pov").scene;
     scene.film.width = width, scene.film.height = height, scene.film.crop = {0, width, 0, height};
     RenderOptions options;
-    options.picture.samples_per_pixel = block * block;
+    options.picture.samples_per_pixel = samples;
     const Picture picture = develop(test::render(scene, std::move(options)).film);
     std::vector<double> mask;
     for (std::size_t i = 1; i < picture.rgb.values.size(); i += 3)
@@ -52,13 +52,19 @@ class PovraySilhouettes : public testing::Test {
                   "#version 3.7; global_settings { assumed_gamma 1 }\n"
                   "#default { pigment { rgb 1 } finish { ambient 1 diffuse 0 } }\n" +
                       text);
-    const std::vector<double> theirs = by_povray(), ours = by_vitrail();
-    double both = 0, either = 0;
-    for (std::size_t i = 0; i < theirs.size(); ++i)
-      both += std::min(theirs[i], ours[i]), either += std::max(theirs[i], ours[i]);
-    ASSERT_GT(either, 20) << text;  // pixels
-    fmt::print("{:.4f}\n", both / either);
-    EXPECT_GT(both / either, least) << text;
+    const std::vector<double> theirs = by_povray();
+    double alike = 0;  // noise only takes from it: what agrees with a quarter of the samples agrees with all
+    for (const int samples : {block * block / 4, block * block}) {
+      const std::vector<double> ours = by_vitrail(samples);
+      double both = 0, either = 0;
+      for (std::size_t i = 0; i < theirs.size(); ++i)
+        both += std::min(theirs[i], ours[i]), either += std::max(theirs[i], ours[i]);
+      ASSERT_GT(either, 20) << text;  // pixels
+      alike = both / either;
+      fmt::print("{:.4f}\n", alike);
+      if (alike > least) break;
+    }
+    EXPECT_GT(alike, least) << text;
   }
 
   TemporaryFolder folder_;

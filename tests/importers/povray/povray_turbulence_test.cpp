@@ -7,8 +7,8 @@
 namespace vitrail::povray_turbulence_test {
 namespace {
 
-constexpr int columns = 512, rows = 384;
-constexpr double units_a_pixel = 1.0 / 8;
+constexpr int columns = 256, rows = 192;
+constexpr double units_a_pixel = 1.0 / 4;
 
 struct Statistics {
   double mean = 0, deviation = 0, step = 0;
