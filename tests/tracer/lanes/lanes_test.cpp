@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "tests/support/long_tests.h"
 #include "tests/tracer/lanes/fixtures.h"
 #include "tests/tracer/lanes/scalar_functions.h"
 
@@ -51,7 +52,7 @@ void compare(const ScalarFunction& scalar, const std::vector<LaneFunctions>& set
   for (const Argument& a : scalar.arguments) ins += a.size;
   ASSERT_EQ(ins, first->ins);
   const int outs = first->outs;
-  const std::vector<double> in = cases_of(scalar.arguments, 100'000, 1);
+  const std::vector<double> in = cases_of(scalar.arguments, test::of_all(100'000, 20'000), 1);
   const int count = static_cast<int>(in.size()) / ins;
   std::vector<double> expected(static_cast<std::size_t>(count * outs));
   const Context& context = fixtures().context;
