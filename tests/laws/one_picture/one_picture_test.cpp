@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "bundle/manifest.h"
 #include "bundle/reflectances/color_words.h"
 #include "tests/support/command.h"
+#include "tests/support/long_tests.h"
 #include "tests/support/paths.h"
 #include "tests/support/ranks.h"
 #include "tests/support/temporary_directory.h"
@@ -61,15 +60,23 @@ std::string quarter(const Bundle& bundle, const nlohmann::json& everything, int 
   return fmt::format("--memory {} --domain-memory {}", rank, domains);
 }
 
+// Whether all numbers of ranks meet all of domains and every distribution, or some. With VITRAIL_LONG_TESTS
+// all do.
+enum class Share { all, part };
+
 // Each number of threads meets each of domains and each of ranks, and so does little memory; with
 // VITRAIL_LONG_TESTS each pair of them.
 std::vector<int> threads_with(int domains, int ranks) {
-  if (std::getenv("VITRAIL_LONG_TESTS")) return {1, 2};
+  if (are_long()) return {1, 2};
   return {(domains == 8) == (ranks == 2) ? 1 : 2};
+}
+std::vector<int> ranks_with(int domains, Share share) {
+  if (share == Share::all || are_long()) return {1, 2, 4};
+  return domains == 1 ? std::vector{1} : domains == 8 ? std::vector{2} : std::vector{2, 4};
 }
 
 // `samples`: enough that rays wait on the disk, however the ranks take turns.
-void expect_one_picture(const TemporaryDirectory& directory, const std::filesystem::path& scene,
+void expect_one_picture(const TemporaryDirectory& directory, const std::filesystem::path& scene, Share share,
                         int samples = 2) {
   const auto trace = [&](const Bundle& bundle, int ranks, int threads, const std::string& more) {
     return render(directory, bundle, ranks, threads, fmt::format("--spp {} {}", samples, more));
@@ -94,7 +101,7 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
   for (const int domains : {1, 8, 64}) {
     const Bundle bundle = make_bundle(directory, scene, domains);
     nlohmann::json crossings;  // the same for all runs of a bundle
-    for (const int ranks : {1, 2, 4})
+    for (const int ranks : ranks_with(domains, share))
       for (const int threads : threads_with(domains, ranks)) {
         const std::string what = fmt::format("{} domains, {} ranks, {} threads", domains, ranks, threads);
         const nlohmann::json all = trace(bundle, ranks, threads, "");
@@ -104,7 +111,7 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
         EXPECT_EQ(all["crossings"], crossings) << what;
         EXPECT_EQ(all["forwarded_rays"], 0) << what;
         const std::string memory = quarter(bundle, all, threads);
-        if (threads == 1 || std::getenv("VITRAIL_LONG_TESTS")) {
+        if (threads == 1 || are_long()) {
           const nlohmann::json little = trace(bundle, ranks, threads, memory);
           check(little, what + ", a quarter of the memory");
           EXPECT_EQ(little["crossings"], crossings) << what;
@@ -115,19 +122,19 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
                   what + ", shuffled");
       }
   }
-  // Cut anew for the rays that were seen.
-  const auto profile = (directory / "profile.json").string();
-  trace(make_bundle(directory, scene, 8), 2, 1, fmt::format("--profile '{}'", profile));
-  const Bundle recut = make_bundle(directory, scene, 8, fmt::format("--profile '{}'", profile));
-  check(trace(recut, 1, 2, ""), "cut by a profile");
-  // Domains shared out otherwise, by the rays of the bundle itself.
   const Bundle shared = make_bundle(directory, scene, 8);
-  trace(shared, 1, 2, fmt::format("--profile '{}'", profile));
-  for (const char* how : {"decompose", "decompose --homes", "replicate"}) {
-    const bool homes = std::string(how).ends_with("homes");
-    check(trace(shared, 4, 1,
-                fmt::format("--distribution {}{}", how, homes ? fmt::format(" '{}'", profile) : "")),
-          how);
+  check(trace(shared, 4, 1, "--distribution decompose"), "decompose");
+  if (share == Share::all || are_long()) {
+    // Cut anew for the rays that were seen.
+    const auto profile = (directory / "profile.json").string();
+    trace(shared, 2, 1, fmt::format("--profile '{}'", profile));
+    const Bundle recut = make_bundle(directory, scene, 8, fmt::format("--profile '{}'", profile));
+    check(trace(recut, 1, 2, ""), "cut by a profile");
+    // Domains shared out otherwise, by the rays of the bundle itself.
+    make_bundle(directory, scene, 8);
+    trace(shared, 1, 2, fmt::format("--profile '{}'", profile));
+    for (const std::string& how : {fmt::format("decompose --homes '{}'", profile), std::string("replicate")})
+      check(trace(shared, 4, 1, "--distribution " + how), how);
   }
   EXPECT_GT(forwarded, 0u) << "no run ever sent a ray";
   EXPECT_GT(evictions, 0u) << "no run ever evicted a domain";
@@ -147,41 +154,43 @@ std::filesystem::path generate(const TemporaryDirectory& directory, const std::s
 
 TEST(OnePicture, HotelRoom) {
   const TemporaryDirectory directory;
-  expect_one_picture(directory, generate(directory, "hotel-room", "--detail 0.1 --width 48 --height 32"));
+  expect_one_picture(directory, generate(directory, "hotel-room", "--detail 0.1 --width 48 --height 32"),
+                     Share::all);
 }
 
 // With instances of objects.
 TEST(OnePicture, City) {
   const TemporaryDirectory directory;
-  expect_one_picture(directory, generate(directory, "city", "--triangles 80000 --width 48 --height 32"), 6);
+  expect_one_picture(directory, generate(directory, "city", "--triangles 80000 --width 48 --height 32"),
+                     Share::all, 6);
 }
 
 TEST(OnePicture, CornellBox) {
   const TemporaryDirectory directory;
-  expect_one_picture(directory, project_file("examples/cornell-box/cornell-box.pbrt"));
+  expect_one_picture(directory, project_file("examples/cornell-box/cornell-box.pbrt"), Share::part);
 }
 
 // Every material, texture, light and medium, in a file of each format that has some alone.
 TEST(OnePicture, Appearance) {
   const TemporaryDirectory directory;
-  expect_one_picture(directory, generate(directory, "appearance", "--width 48 --height 32"));
+  expect_one_picture(directory, generate(directory, "appearance", "--width 48 --height 32"), Share::all);
 }
 
 TEST(OnePicture, AppearanceOfMitsuba) {
   const TemporaryDirectory directory;
   const auto scene = generate(directory, "appearance", "--width 48 --height 32");
-  expect_one_picture(directory, scene.parent_path() / "appearance.xml");
+  expect_one_picture(directory, scene.parent_path() / "appearance.xml", Share::part);
 }
 
 TEST(OnePicture, AppearanceOfPbrt3) {
   const TemporaryDirectory directory;
   const auto scene = generate(directory, "appearance", "--width 48 --height 32");
-  expect_one_picture(directory, scene.parent_path() / "appearance-v3.pbrt");
+  expect_one_picture(directory, scene.parent_path() / "appearance-v3.pbrt", Share::part);
 }
 
 TEST(OnePicture, Adversarial) {
   const TemporaryDirectory directory;
-  expect_one_picture(directory, generate(directory, "adversarial", ""));
+  expect_one_picture(directory, generate(directory, "adversarial", ""), Share::part);
 }
 
 }  // namespace
