@@ -72,9 +72,10 @@ def main():
         for delay_s in (0, .005, .02) if LONG else (0, .005):
             opens = f"opens take {1000 * delay_s:.0f} ms"
             for limit_s in (10, 40) if LONG else (24,):
-                time_s = limit_s if LONG else limit_s / 2
+                time_s = limit_s if LONG else limit_s / 3
                 kept.append(is_kept(f"--time {time_s}, {opens}", lambda: with_time(delay_s, time_s)))
-                kept.append(is_kept(f"a job that ends in {limit_s} s, {opens}", lambda: in_a_job(delay_s, limit_s)))
+                if LONG or delay_s > 0:
+                    kept.append(is_kept(f"a job that ends in {limit_s} s, {opens}", lambda: in_a_job(delay_s, limit_s)))
         print(f"{sum(kept)} of {len(kept)} in time")
         return not all(kept)
 

@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """reduction_test.py CLUSTER_REDUCTION: a sum over ranks, of numbers and of a film's sums, over TCP and in shared memory. Beside the
-sums it takes a few parts of rank 0's memory, however much there is to sum. A part is one message: in shared memory it is read by few
+sums it takes a few parts of rank 0's memory, however much there is to sum: 128 MiB, with VITRAIL_LONG_TESTS 512. A part is one message: in shared memory it is read by few
 calls of the system (by strace, where it is installed), since a rank that waits for another may wait for a core."""
 import json
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
-MIB, MOST_BESIDE = 512, 16
+MIB, MOST_BESIDE = 512 if os.environ.get("VITRAIL_LONG_TESTS") else 128, 16
 PART_MIB, MOST_READS = 2, 4
 
 
