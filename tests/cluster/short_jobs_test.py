@@ -4,7 +4,7 @@
 1 or 2 ranks, 1 to 3 threads, 1 to 16 domains, all or an eighth of them in memory. Some are killed, ended by TERM or by --time, or made
 to write a checkpoint at random moments, and typed again until they are done. Each gives the film of one rank and one thread with one
 domain. One that differs is kept with that film, its own, its messages and its commands, in VITRAIL_SOAK_KEEP (else
-/tmp/vitrail-differing-films). 24 jobs; VITRAIL_SOAK_JOBS says how many, with VITRAIL_LONG_TESTS 10,000. VITRAIL_SOAK_SEED begins
+/tmp/vitrail-differing-films). 14 jobs; VITRAIL_SOAK_JOBS says how many, with VITRAIL_LONG_TESTS 10,000. VITRAIL_SOAK_SEED begins
 elsewhere."""
 import collections
 import json
@@ -18,7 +18,7 @@ import sys
 import tempfile
 import time
 
-JOBS = int(os.environ.get("VITRAIL_SOAK_JOBS", 10000 if os.environ.get("VITRAIL_LONG_TESTS") else 24))
+JOBS = int(os.environ.get("VITRAIL_SOAK_JOBS", 10000 if os.environ.get("VITRAIL_LONG_TESTS") else 14))
 SEED = int(os.environ.get("VITRAIL_SOAK_SEED", 39))
 KEEP = pathlib.Path(os.environ.get("VITRAIL_SOAK_KEEP", "/tmp/vitrail-differing-films"))
 HANGS_S, MOST_STARTS = 300, 12
