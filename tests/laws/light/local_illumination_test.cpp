@@ -12,6 +12,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tests/glazing/glazing_files.h"
 #include "tests/laws/light/flat_scenes.h"
+#include "tests/support/long_tests.h"
 #include "tracer/bsdf/local.h"
 
 namespace vitrail::test::local_illumination_test {
@@ -86,7 +87,7 @@ TEST_F(LocalIllumination, ASunBehindPanes) {
       add_glass(scene, file, panes);
       const double cosine = std::cos(theta * std::numbers::pi / 180);
       expect_luminance(
-          mean_of(render(scene, 256).film),
+          mean_of(render(scene, of_all(256, 128)).film),
           static_cast<double>(albedo) / std::numbers::pi * cosine * transmitted(file, panes, cosine), 0.003,
           std::to_string(panes) + " panes at " + std::to_string(theta), 1e-3);
     }
@@ -99,7 +100,7 @@ TEST_F(LocalIllumination, ASkyBehindPanes) {
       Scene scene = ground(InfiniteLight{ConstantSpectrum{1}});
       scene.settings.straight_counts = counts;
       add_glass(scene, file, panes);
-      expect_luminance(mean_of(render(scene, 1024).film),
+      expect_luminance(mean_of(render(scene, of_all(1024, 512)).film),
                        static_cast<double>(albedo) *
                            over_sky([&](double cosine) { return transmitted(file, panes, cosine); }),
                        0.003, std::to_string(panes) + " panes", 1e-3);
@@ -113,7 +114,7 @@ TEST_F(LocalIllumination, SmoothGlassIsASheet) {
         scene,
         add_quads(scene, box_faces({-wide, -wide, above_the_camera}, {wide, wide, above_the_camera + 1})),
         Material{DielectricMaterial{}});
-    return mean_of(render(scene, 1024).film);
+    return mean_of(render(scene, of_all(1024, 512)).film);
   };
   const double cosine = std::cos(50 * std::numbers::pi / 180);
   expect_luminance(block(ground(InfiniteLight{ConstantSpectrum{1}})),
@@ -137,7 +138,7 @@ TEST_F(LocalIllumination, MirrorsAndRefractedRaysAreFollowed) {
   add_shape(behind, add_quads(behind, box_faces({-1, -1, 1}, {1, 1, 1.2f})), Material{DielectricMaterial{}});
   // The sun does not pass the block on its way to what is seen: it stands at 50°.
   const double face = fresnel_dielectric(1, 1.5), all = (1 - face) / (1 + face);
-  expect_luminance(mean_of(render(behind, 1024).film), all * lit, 0.01, "refracted", 1e-3);
+  expect_luminance(mean_of(render(behind, of_all(1024, 512)).film), all * lit, 0.01, "refracted", 1e-3);
 }
 
 Film with_threshold(const Scene& scene, double threshold) {

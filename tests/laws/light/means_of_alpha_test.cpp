@@ -9,6 +9,7 @@
 
 #include "tests/laws/light/flat_scenes.h"
 #include "tests/laws/light/media_scenes.h"
+#include "tests/support/long_tests.h"
 
 namespace vitrail::test::means_of_alpha_test {
 namespace {
@@ -111,7 +112,7 @@ Seen seen(Scene scene, Integrator integrator, bool hides) {
   scene.settings.hides_emitters = hides;
   scene.film.layers.add(Layer::alpha);
   RenderOptions options;
-  options.picture.samples_per_pixel = 64;
+  options.picture.samples_per_pixel = of_all(64, 32);
   options.picture.integrator = integrator;
   if (integrator == Integrator::photon) options.picture.photons = {2000, 0.1, 0.9};
   const Film film = render(scene, std::move(options)).film;

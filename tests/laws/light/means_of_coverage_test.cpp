@@ -9,6 +9,7 @@
 
 #include "scene/geometry/portable_math.h"
 #include "tests/laws/light/flat_scenes.h"
+#include "tests/support/long_tests.h"
 #include "tracer/bsdf/local.h"
 
 namespace vitrail::test::means_of_coverage_test {
@@ -47,7 +48,7 @@ Id<Texture> left_half(Scene& scene) {
 Mean seen_from(Scene& scene, double theta_deg, int depth, int samples = 256) {
   look_along(scene, direction(theta_deg, 20), {}, 0.01);
   scene.settings.max_depth = depth;
-  return mean_of(render(scene, samples).film);
+  return mean_of(render(scene, of_all(samples, samples / 2)).film);
 }
 
 TEST(Coverage, CountsForNoDepth) {
@@ -89,7 +90,7 @@ TEST(Coverage, OfEmittersThatLight) {
       look_along(scene, direction(0));
       scene.camera = camera;
       scene.settings.max_depth = 1;
-      const Mean found = mean_of(render(scene, 1024).film);
+      const Mean found = mean_of(render(scene, of_all(1024, 512)).film);
       expect_luminance(found, share * lamp_irradiance(static_cast<double>(z)) / pi,
                        opacity == 0 && z < 0.5f ? 0.03 : 0.01, fmt::format("opacity {} at {}", opacity, z));
     }
@@ -107,7 +108,7 @@ TEST(Coverage, ByATextureOfTheEmitter) {
     }
     look_along(scene, direction(75), {0, 0, 0}, 0.001);
     scene.settings.max_depth = 1;
-    const Mean found = mean_of(render(scene, 512).film);
+    const Mean found = mean_of(render(scene, of_all(512, 256)).film);
     expect_luminance(found, lamp_irradiance(1) / 2 / pi, 0.01, textured ? "textured" : "half");
   }
 }

@@ -7,6 +7,7 @@
 
 #include "scene/geometry/portable_math.h"
 #include "tests/laws/light/flat_scenes.h"
+#include "tests/support/long_tests.h"
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/plastic.h"
 #include "tracer/photons/progressive.h"
@@ -14,7 +15,7 @@
 namespace vitrail::test::photons_test {
 namespace {
 
-constexpr int iterations = 64;
+const int iterations = of_all(64, 32);
 
 Rendered photon_mapped(const Scene& scene, std::uint64_t photons, double radius, double alpha = 2.0 / 3,
                        int spp = iterations) {
@@ -45,7 +46,7 @@ TEST(Photons, IrradianceBehindASheet) {
   EXPECT_EQ(mean(render(scene, 4)), 0);
   const PhotonKey key{40000, 0.25, 0.8};
   double expected = 0;
-  for (std::uint32_t i = 0; i < iterations; ++i) {
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(iterations); ++i) {
     const double r = radius_of(key, i);
     expected += 3 * 2 / (r * r) * (1 / d - 1 / std::sqrt(d * d + r * r)) * d * reflectance / pi / iterations;
   }
