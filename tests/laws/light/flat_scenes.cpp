@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scene/geometry/portable_math.h"
+#include "tests/support/long_tests.h"
 
 namespace vitrail::test {
 
@@ -61,7 +62,7 @@ Mean plane_under(const LightModel& light, const Material& material, Vector3d out
   scene.lights[0].model = light;
   look_along(scene, out);
   scene.settings.max_depth = 1;
-  return mean_of(render(scene, samples).film);
+  return mean_of(render(scene, of_all(samples, samples / 2)).film);
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ void look_along(Scene& scene, Vector3d out, Point3d target = {}, double half_wid
 Id<TriangleMesh> square(Scene& scene, float z, float half_width = 1000, float x = 0);
 
 // f·cosθ of light of irradiance 1 (across its direction) from `in`, and of radiance 1 from all around, that
-// an opaque plane sends along `out`.
+// an opaque plane sends along `out`. Without VITRAIL_LONG_TESTS of half of the samples: errors are those of
+// the film.
 Mean lit_plane(const Material& material, Vector3d out, Vector3d in, int samples);
 Mean plane_under_sky(const Material& material, Vector3d out, int samples);
 

@@ -11,6 +11,7 @@
 #include "scene/geometry/portable_math.h"
 #include "scene/models/sensor_file.h"
 #include "tests/laws/light/media_scenes.h"
+#include "tests/support/long_tests.h"
 #include "tests/support/render.h"
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/local.h"
@@ -76,7 +77,7 @@ TEST(SensorsByPhotons, IrradianceBehindASheet) {
   add_shape(scene, add_quads(scene, box_faces({-8, -8, 0.6f}, {8, 8, 0.61f})), glass(1));
   scene.lights.push_back({PointLight{{0, 0, d}, ConstantSpectrum{static_cast<float>(intensity)}}, {}});
   for (const SensorReading& none : by_paths(scene, 4)) EXPECT_EQ(none.illuminance_lx.mean, 0);
-  const PhotonKey key{64000, 0.25, 0.8};
+  const PhotonKey key{of_all(64000u, 32000u), 0.25, 0.8};
   constexpr int iterations = 32;
   const std::vector<SensorReading> read = by_photons(scene, key, iterations);
   const double facing = over_radii(key, iterations, [&](double r) {
@@ -108,7 +109,7 @@ TEST(SensorsByPhotons, CausticOfABall) {
   Scene scene = with_sensors({{{0, 0, 0}, {0, 0, 1}}}, 3);
   add_quadric(scene, {QuadricKind::sphere}, ball({0, 0, below}, 1), glass(static_cast<float>(eta)));
   scene.lights.push_back({DistantLight{{0, 0, -1}, ConstantSpectrum{1}}, {}});
-  const PhotonKey key{64000, 0.06, 0.8};
+  const PhotonKey key{of_all(64000u, 32000u), 0.06, 0.8};
   constexpr int iterations = 48;
   const auto mean_over_disc = [&](double r) {
     constexpr int rings = 20000;
@@ -140,7 +141,7 @@ TEST(SensorsByPhotons, AsPathsWithManySamples) {
   std::vector<double> sums(paths.size()), squares(paths.size()), told(paths.size());
   for (int seed = 0; seed < seeds; ++seed) {
     const std::vector<SensorReading> read =
-        by_photons(scene, {64000, 0.08, 0.8}, 16, static_cast<std::uint64_t>(seed));
+        by_photons(scene, {of_all(64000u, 32000u), 0.08, 0.8}, 16, static_cast<std::uint64_t>(seed));
     for (std::size_t i = 0; i < read.size(); ++i) {
       const Measured& m = read[i].illuminance_lx;
       sums[i] += m.mean, squares[i] += m.mean * m.mean;
