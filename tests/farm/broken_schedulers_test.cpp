@@ -200,7 +200,7 @@ TEST(Simulation, ALostMessageEndsTheJob) {
 }
 
 TEST(Simulation, CatchesBrokenSchedulers) {
-  EXPECT_FALSE(is_caught<Scheduler>(300));
+  EXPECT_FALSE(is_caught<Scheduler>(50));
   EXPECT_TRUE(is_caught<TooSoon>(2000));
   EXPECT_TRUE(is_caught<NeverSends>(300));
   EXPECT_TRUE(is_caught<ForgetsWhatArrived>(300));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thousands of jobs under a simulated clock. VITRAIL_SIMULATIONS=N runs N of them; a seed that fails is
+// Hundreds of jobs under a simulated clock. VITRAIL_SIMULATIONS=N runs N of them; a seed that fails is
 // printed, and VITRAIL_SIMULATION_SEED runs that one alone.
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/farm/random_job.h"
+#include "tests/support/long_tests.h"
 
 namespace vitrail::simulation_test {
 namespace {
@@ -20,7 +21,7 @@ std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
 TEST(Simulation, NothingIsLostAndEveryJobEnds) {
   const std::uint64_t only = from_environment("VITRAIL_SIMULATION_SEED", 0);
   const std::uint64_t first = only > 0 ? only : 1,
-                      jobs = only > 0 ? 1 : from_environment("VITRAIL_SIMULATIONS", 600);
+                      jobs = only > 0 ? 1 : from_environment("VITRAIL_SIMULATIONS", test::of_all(600u, 200u));
   std::uint64_t events = 0;
   for (std::uint64_t seed = first; seed < first + jobs; ++seed) {
     const RandomJob c(seed);
