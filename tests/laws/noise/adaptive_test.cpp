@@ -9,6 +9,7 @@
 
 #include "film/film_progress.h"
 #include "partitioner/partition.h"
+#include "tests/support/long_tests.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 
@@ -78,7 +79,7 @@ TEST(Adaptive, MeansAreThoseOfUniformSamples) {
   const Films films(stars());
   RenderOptions uniform;
   uniform.picture.samples_per_pixel = 512;
-  const Mean truth = mean_of(films, uniform, 8);
+  const Mean truth = mean_of(films, uniform, of_all(8, 4));
   RenderOptions adaptive;
   adaptive.picture.samples_per_pixel = 32;
   adaptive.picture.adaptive = true;
