@@ -6,19 +6,24 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
 
 #include "compare/variance.h"
 #include "compare/ztest.h"
 #include "film/image_io.h"
 #include "tests/conformance/corpus_render.h"
 #include "tests/support/command.h"
+#include "tests/support/long_tests.h"
 
 namespace vitrail::test::mitsuba_reference_test {
 namespace {
 
-// Half of it where time is short.
-const std::size_t sample_budget = std::getenv("VITRAIL_LONG_TESTS") ? 2'000'000 : 1'000'000;
+// Where time is short an eighth of it, and half of it where the means are noisy or the picture is large.
+std::size_t sample_budget(const CorpusScene& scene) {
+  const std::string name = scene.name();
+  const bool is_noisy = name.ends_with("_volpath") || name == "test_arealight_path" ||
+                        name == "test_texturedprincipled1_path" || name == "test_various_shapes_path";
+  return of_all(2'000'000u, is_noisy ? 1'000'000u : 250'000u);
+}
 
 struct Reference {
   std::filesystem::path mean, variance;
@@ -86,7 +91,7 @@ TEST_P(MitsubaReference, IsMatched) {
   Reference reference = reference_of(scene, "spectral");
   const TemporaryDirectory directory;
   const auto start = std::chrono::steady_clock::now();
-  const std::size_t samples = sample_budget / read_picture(reference.mean).rgb.pixels();
+  const std::size_t samples = sample_budget(scene) / read_picture(reference.mean).rgb.pixels();
   if (shows_blended_colors(scene)) reference = with_blended_radiance(scene, samples, directory.path());
   const std::string wrong =
       render_scene(corpus() / scene.path, directory / "picture.film", fmt::format("--spp {}", samples));
