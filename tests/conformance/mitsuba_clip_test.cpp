@@ -11,6 +11,7 @@
 #include "film/film_progress.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
 #include "tests/support/command.h"
+#include "tests/support/long_tests.h"
 #include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
@@ -115,6 +116,8 @@ TEST_P(MitsubaClip, IsCutAlike) {
   const Picture picture = develop_colors(read_film(directory / "ours.film", nullptr));
   for (const char* variant : {"scalar_rgb", "scalar_spectral"})
     for (const std::string& file : {scene, again}) {
+      // Without VITRAIL_LONG_TESTS each variant shows one of the files.
+      if (!are_long() && (file == again) != (variant == std::string("scalar_spectral"))) continue;
       const CommandResult theirs = run(
           fmt::format("{} '{}/tests/conformance/mitsuba_pixels.py' '{}' '{}' --spp 1024 --variant {}",
                       mitsuba_python(), source_dir(), file, (directory / "theirs.json").string(), variant));
