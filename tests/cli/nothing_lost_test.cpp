@@ -250,13 +250,13 @@ TEST_F(NothingLost, AChainOfLimitedJobsGetsToTheEnd) {
 
 // An unfinished render of fewer samples goes on too, and through a checkpoint.
 TEST_F(NothingLost, WhatWasStoppedGoesOnToMoreSamples) {
-  ASSERT_EQ(render("whole.film", "--spp 3000").status, 0);
-  Background job(line("a.film", "--spp 2000 --checkpoint-every 0.05"));
+  ASSERT_EQ(render("whole.film", "--spp 1600").status, 0);
+  Background job(line("a.film", "--spp 1200 --checkpoint-every 0.05"));
   while (job.running() && !std::filesystem::exists(path("a.film.partial"))) std::this_thread::sleep_for(5ms);
   ASSERT_TRUE(job.running());
   job.send(SIGTERM);
   EXPECT_EQ(job.wait(), 128 + SIGTERM);
-  const CommandResult more = render("a.film", "--spp 3000");
+  const CommandResult more = render("a.film", "--spp 1600");
   EXPECT_EQ(more.status, 0);
   EXPECT_THAT(more.output, HasSubstr("going on from"));
   EXPECT_EQ(hash("a.film"), hash("whole.film"));
@@ -282,6 +282,7 @@ TEST_F(NothingLost, TheSecondJobOnAnOutputIsRefused) {
   while (job.running() && !std::filesystem::exists(path("a.film.lock"))) std::this_thread::sleep_for(5ms);
   std::this_thread::sleep_for(100ms);
   ASSERT_TRUE(job.running());
+  job.send(SIGSTOP);  // its locks are held without work
   for (const std::string& more : {std::string(), fmt::format(" --film '{}'", path("a.film"))}) {
     const CommandResult second = render(more.empty() ? "a.film" : "a.png", "--spp 1 --force" + more);
     EXPECT_EQ(second.status, 4) << second.output;
@@ -300,6 +301,7 @@ TEST_F(NothingLost, TheNextJobWaitsForOneThatEnds) {
   while (job.running() && !std::filesystem::exists(path("a.film.lock"))) std::this_thread::sleep_for(5ms);
   std::this_thread::sleep_for(100ms);
   ASSERT_TRUE(job.running());
+  job.send(SIGSTOP);
   std::jthread killer([&] {
     std::this_thread::sleep_for(1500ms);
     job.send(SIGKILL);
