@@ -15,6 +15,7 @@
 #include <iterator>
 
 #include "tests/extremes/memory_scenes.h"
+#include "tests/support/long_tests.h"
 #include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
@@ -53,11 +54,12 @@ class Memory : public ::testing::TestWithParam<MemoryRow> {};
 TEST_P(Memory, IsKeptOrRefused) {
   const MemoryRow& row = GetParam();
   const TemporaryDirectory directory;
-  // A sixteenth of the things, and of the memory that is not the program's own.
+  // A 32nd of the things, and of the memory that is not the program's own; with VITRAIL_LONG_TESTS a
+  // sixteenth.
   const std::uint64_t program = (row.images ? 172u : 40u) << 20;
-  const double share = run_whole() ? 1 : 1.0 / 16;
-  const std::uint64_t budget = run_whole() ? row.budget_bytes : program + row.budget_bytes / 16;
-  const auto scene = row.write(directory.path(), share);
+  const std::uint64_t part = run_whole() ? 1 : of_all(16u, 32u);
+  const std::uint64_t budget = run_whole() ? row.budget_bytes : program + row.budget_bytes / part;
+  const auto scene = row.write(directory.path(), 1.0 / static_cast<double>(part));
   const Done done =
       run(fmt::format("'{}/vitrail-partition' '{}' -o '{}' --no-sync --quiet --memory {} {}", bin_dir(),
                       scene.string(), (directory / "out.vit").string(), budget, row.options),
