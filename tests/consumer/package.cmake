@@ -2,7 +2,7 @@
 # Packs the programs of BUILD into FOLDER: vitrail without the libraries that vitrail-images is for. lintian, where it is, says nothing.
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 file(REMOVE_RECURSE ${FOLDER})
-run(${CMAKE_CPACK_COMMAND} --config ${BUILD}/CPackConfig.cmake -B ${FOLDER})
+run(${CMAKE_CPACK_COMMAND} --config ${BUILD}/CPackConfig.cmake -B ${FOLDER} -D CPACK_DEBIAN_COMPRESSION_TYPE=none)
 file(GLOB packages ${FOLDER}/*.deb)
 foreach(package ${packages})
   run(dpkg-deb --field ${package} Package Depends)
