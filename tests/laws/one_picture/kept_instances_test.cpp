@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <random>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "farm/scheduler/residency.h"
 #include "partitioner/partition.h"
 #include "tests/support/command.h"
+#include "tests/support/long_tests.h"
 #include "tests/support/ranks.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
@@ -165,10 +165,14 @@ std::string quarter(const Manifest& m, const nlohmann::json& everything, int thr
   return fmt::format("--memory {} --domain-memory {}", rank, domains);
 }
 
-// Each number of threads meets each of ranks and some of domains; with VITRAIL_LONG_TESTS all pairs of them.
-std::vector<int> threads_with(int domains, int ranks) {
-  if (std::getenv("VITRAIL_LONG_TESTS")) return {1, 2};
-  return {(domains == 8) == (ranks == 2) ? 1 : 2};
+// Each number of ranks and each of threads meets some of domains; with VITRAIL_LONG_TESTS all of them.
+std::vector<int> ranks_with(int domains) {
+  if (are_long()) return {1, 2};
+  return {domains == 8 ? 2 : 1};
+}
+std::vector<int> threads_with(int domains) {
+  if (are_long()) return {1, 2};
+  return {domains == 64 ? 2 : 1};
 }
 
 void expect_the_flattened_film(const Scene& scene, const std::vector<int>& counts) {
@@ -193,8 +197,8 @@ void expect_the_flattened_film(const Scene& scene, const std::vector<int>& count
                                    {.domains = static_cast<std::uint32_t>(domains), .domain_bytes = 200'000});
     const Manifest m = read_manifest(kept);
     EXPECT_GT(m.objects.size(), 6u) << "the ring is in parts";
-    for (const int ranks : {1, 2})
-      for (const int threads : threads_with(domains, ranks)) {
+    for (const int ranks : ranks_with(domains))
+      for (const int threads : threads_with(domains)) {
         const std::string what = fmt::format("{} domains, {} ranks, {} threads", domains, ranks, threads);
         const nlohmann::json all = films.render(kept, ranks, threads);
         check(all, what);
