@@ -12,6 +12,7 @@
 #include "scene/geometry/portable_math.h"
 #include "scene/spectra/color.h"
 #include "scene/spectra/named_spectra.h"
+#include "tests/support/long_tests.h"
 #include "tests/support/render.h"
 #include "tracer/bsdf/local.h"
 
@@ -361,7 +362,8 @@ std::vector<double> spectrum_below(const Spectrum& glass, double incidence_rad, 
   site.add_sun();
 
   scene.film.spectrum = bins;
-  const Film film = render(scene, 512).film;
+  // Light that grazes goes to and fro for long.
+  const Film film = render(scene, incidence_rad > 1.56 ? of_all(512, 128) : 512).film;
   std::vector<double> means(static_cast<std::size_t>(bins.count));
   for (std::uint32_t pixel = 0; pixel < 16; ++pixel)
     for (std::size_t bin = 0; bin < means.size(); ++bin) means[bin] += film.mean_of_bin(pixel, bin) / 16;
@@ -372,7 +374,9 @@ TEST(SunThroughDispersiveGlass, EachWavelengthByItsOwnFresnel) {
   std::map<double, std::vector<double>> open_sky;  // by degrees, whatever the glass
   for (const char* name : {"glass-BK7", "glass-SF11"}) {
     const Spectrum glass = *named_spectrum(name);
-    for (const double degrees : {0.0, 30.0, 60.0, 75.0, 80.0, 85.0, 88.0, 89.0, 89.9, 89.99}) {
+    for (const double degrees : are_long()
+                                    ? std::vector{0.0, 30.0, 60.0, 75.0, 80.0, 85.0, 88.0, 89.0, 89.9, 89.99}
+                                    : std::vector{0.0, 60.0, 80.0, 89.0, 89.99}) {
       const double incidence = degrees * pi / 180;
       if (!open_sky.contains(degrees)) open_sky[degrees] = spectrum_below(glass, incidence, false);
       const std::vector<double>&open = open_sky[degrees], below = spectrum_below(glass, incidence, true);
