@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every option of every verb, in each form in which people type it. The inputs do not exist, so that a verb
-// ends when it has understood its words. A third of the options; with VITRAIL_LONG_TESTS all.
+// ends when it has understood its words. A sixth of the options; with VITRAIL_LONG_TESTS all.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +12,7 @@
 
 #include "cli/help/verbs.h"
 #include "tests/support/command.h"
+#include "tests/support/long_tests.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test::option_forms_test {
@@ -76,7 +77,6 @@ bool is_list(const std::string& value) {
 }
 
 TEST_P(OptionForms, AreUnderstood) {
-  const bool is_long = std::getenv("VITRAIL_LONG_TESTS") != nullptr;
   const std::vector<TypedOption> all = options();
   ASSERT_FALSE(all.empty());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -94,7 +94,7 @@ TEST_P(OptionForms, AreUnderstood) {
       require_same(short_name + "=" + example, name + "=" + example);
       require_same(short_name + example, name + "=" + example);
     }
-    if (!is_long && i % 3 > 0) continue;
+    if (!are_long() && i % 6 > 0) continue;
     require_same(name + " " + example, name + "=" + example);
     require_refused(name, name + " needs a value: ");
     require_refused(name + "=", name + " needs a value: ");
