@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/geometry/portable_math.h"
+#include "tests/support/long_tests.h"
 #include "tests/tracer/lights/light_fixtures.h"
 #include "tracer/quadrics/quadric_hits.h"
 #include "tracer/quadrics/quadric_surface.h"
@@ -345,7 +346,8 @@ TEST(QuadricLight, DensitiesAreThoseOfTheSamples) {
 // integrates to 1, or to what share of the samples shows something.
 TEST(QuadricLight, SamplesFollowTheirDensity) {
   Random random(7);
-  constexpr int cells = 8, samples = 20000;
+  constexpr int cells = 8;
+  const int samples = test::of_all(20000, 10000);
   for (const QuadricKind kind : kinds)
     for (int i = 0; i < 10; ++i) {
       const EmissiveQuadric e = standing(i % 2 ? partial(kind, random) : whole(kind),
