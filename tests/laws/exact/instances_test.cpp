@@ -9,6 +9,7 @@
 
 #include "bundle/triangle_number.h"
 #include "tests/laws/exact/awkward_rays.h"
+#include "tests/support/long_tests.h"
 #include "tracer/intersect/embree_domain.h"
 
 namespace vitrail::test::instances_test {
@@ -127,7 +128,7 @@ void expect_equal(const Parts& parts, std::size_t ray_count, bool reference = tr
   const Both scene(parts, gap);
   const DomainView flat = view_of(scene.flat);
   const KdNode planes[] = {{0, 0}, {0.1f * greatest_coordinate(scene.all), 1}, {0, 2}};
-  const std::vector<Ray> rays = awkward_rays(scene.all, planes, ray_count);
+  const std::vector<Ray> rays = awkward_rays(scene.all, planes, test::of_all(ray_count, ray_count / 4));
   const std::vector<Kernel> kernels = available_kernels();
   const EmbreeDomain embree(scene.domain);
   std::atomic<std::uint64_t> hits{0}, instance_hits{0}, differ{0}, occlusion{0}, lost_chains{0};
