@@ -10,6 +10,7 @@
 
 #include "scene/geometry/pi.h"
 #include "tests/laws/scattering/sphere_cells.h"
+#include "tests/support/long_tests.h"
 
 namespace vitrail::laws {
 
@@ -218,8 +219,10 @@ double integrated_pdf(const Subject& subject, Vector3d out) {
   return sum;
 }
 
-void expect_laws(const Subject& subject, Vector3d out, const Tolerances& tolerances) {
-  const Albedo energy = albedo(subject, out, tolerances.samples);
+void expect_laws(const Subject& subject, Vector3d out, const Tolerances& whole) {
+  Tolerances tolerances = whole;
+  tolerances.samples = test::of_all(whole.samples, whole.samples / 2);
+  const Albedo energy = albedo(subject, out, whole.samples);
   EXPECT_LE(energy.mean, 1 + tolerances.energy + 4 * energy.standard_error) << "energy";
   EXPECT_LT(energy.standard_error, 0.05) << "the albedo is too uncertain to tell";
   const Draw d = draw(subject, out, tolerances.samples, 1234);

@@ -34,7 +34,7 @@ struct Tolerances {
   double consistency = 1e-3;  // relative, of a sample's weight and pdf against eval and pdf
   double density = 4e-3;      // absolute, of the integral of the pdf
   bool reciprocal = true;     // false: not asked for
-  int samples = 10000;        // a direction
+  int samples = 10000;        // a direction; without VITRAIL_LONG_TESTS half of them
 };
 
 // Unit directions at cosines 1 to cos 89.99° on azimuths off the axes, as seen from above.
