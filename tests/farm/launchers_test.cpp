@@ -29,7 +29,7 @@ class Launchers : public PartitionedBox {
   }
   // Of a render on two ranks: a signal by mpirun, or to a rank that has to be found, comes late on a busy
   // machine.
-  static constexpr const char* long_enough = "--spp 1024";
+  static constexpr const char* long_enough = "--spp 512";
   std::string alone(const std::string& out, const std::string& more = "") const {
     return vitrail("render") + arguments(out, more);
   }
