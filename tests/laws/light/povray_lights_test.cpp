@@ -9,6 +9,7 @@
 #include "scene/geometry/portable_math.h"
 #include "scene/models/pattern.h"
 #include "tests/laws/light/flat_scenes.h"
+#include "tests/support/long_tests.h"
 #include "tracer/photons/progressive.h"
 
 namespace vitrail::test::povray_lights_test {
@@ -216,7 +217,7 @@ TEST(PovrayLights, OnePicture) {
   pattern.kind = PatternTexture::Kind::granite;
   pattern.turbulence.amount = {1, 1, 1};
   pattern.map = {{0, ConstantSpectrum{0.25f}}, {1, ConstantSpectrum{0.75f}}};
-  Scene scene = lit_box(32);
+  Scene scene = lit_box(of_all(32, 16));
   scene.textures.push_back({pattern});
   const Id<Texture> texture{static_cast<std::uint32_t>(scene.textures.size() - 1)};
   for (Material& material : scene.materials)
