@@ -17,11 +17,13 @@
 namespace vitrail::test::mitsuba_reference_test {
 namespace {
 
-// Where time is short an eighth of it, and half of it where the means are noisy or the picture is large.
+// Where time is short an eighth of it; of media a quarter; half of it where means are noisy or the picture is
+// large.
 std::size_t sample_budget(const CorpusScene& scene) {
   const std::string name = scene.name();
-  const bool is_noisy = name.ends_with("_volpath") || name == "test_arealight_path" ||
-                        name == "test_texturedprincipled1_path" || name == "test_various_shapes_path";
+  if (name.ends_with("_volpath")) return of_all(2'000'000u, 500'000u);
+  const bool is_noisy = name == "test_arealight_path" || name == "test_texturedprincipled1_path" ||
+                        name == "test_various_shapes_path";
   return of_all(2'000'000u, is_noisy ? 1'000'000u : 250'000u);
 }
 
