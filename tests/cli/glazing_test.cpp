@@ -66,7 +66,8 @@ TEST(Glazing, SaysWhatIsWrong) {
     EXPECT_THAT(result.output, HasSubstr("finite")) << option;
   }
   EXPECT_EQ(run(fmt::format("{} '{}' --flip 2", verb, pane)).status, 2);
-  EXPECT_EQ(run(fmt::format("{} '{}' --csv '{}'", verb, pane, pane)).status, 2);
+  EXPECT_EQ(run(fmt::format("{} '{}' --csv '{}'", verb, pane, pane)).status, 3);
+  EXPECT_EQ(run(fmt::format("{} '{}' --csv '{}' --force", verb, pane, pane)).status, 2);
   EXPECT_EQ(run(fmt::format("{} '{}' --standard none.std", verb, pane)).status, 3);
   const CommandResult missing = run(fmt::format("{} '{}/none.dat'", verb, directory.path().string()));
   EXPECT_EQ(missing.status, 3);
