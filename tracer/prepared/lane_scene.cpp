@@ -70,13 +70,13 @@ void set(const FinishMaterial& m, LaneMaterial& s) {
   set_spectra({&m.reflectance, &m.highlight}, s);
 }
 
-// A walk has an event of its own: parameters for each path.
 bool is_textured(const Roughness& r) { return !width_of(r) || !std::holds_alternative<float>(r.alpha_v); }
 bool is_textured(const CoatingVolume& v) {
   return !std::holds_alternative<float>(v.thickness) || !std::holds_alternative<float>(v.g) ||
          !is_constant(v.albedo);
 }
 
+// Parameters are for each path, as its walks have an event of their own.
 void set(const CoatedDiffuseMaterial& m, LaneMaterial& s) {
   s.kind = LaneKind::coated_diffuse;
   s.is_textured = !is_constant(m.reflectance) || is_textured(m.roughness) || is_textured(m.volume);
