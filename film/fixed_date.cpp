@@ -13,4 +13,11 @@ std::tm fixed_date() {
   return utc;
 }
 
+std::string fixed_date_text() {
+  const std::tm utc = fixed_date();
+  char text[32];
+  std::strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &utc);
+  return text;
+}
+
 }  // namespace vitrail

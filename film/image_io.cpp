@@ -27,13 +27,6 @@ namespace vitrail {
 
 namespace {
 
-std::string date_as_text() {
-  const std::tm utc = fixed_date();
-  char text[32];
-  std::strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &utc);
-  return text;
-}
-
 PictureFile file_of(const Picture& picture) {
   return {.width = picture.rgb.width,
           .height = picture.rgb.height,
@@ -41,7 +34,7 @@ PictureFile file_of(const Picture& picture) {
           .y = picture.window.y0,
           .full_width = std::max(picture.full_width, picture.rgb.width),
           .full_height = std::max(picture.full_height, picture.rgb.height),
-          .attributes = {{"DateTime", date_as_text()}}};
+          .attributes = {{"DateTime", fixed_date_text()}}};
 }
 
 std::vector<std::byte> encoded(const std::filesystem::path& file, const PictureFile& picture,

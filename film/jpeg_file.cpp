@@ -77,9 +77,6 @@ class Directory {
 };
 
 Bytes exif_of(const PictureOrigin& origin) {
-  const std::tm utc = fixed_date();
-  char date[32];
-  std::strftime(date, sizeof date, "%Y:%m:%d %H:%M:%S", &utc);
   constexpr std::uint16_t description = 0x010e, software = 0x0131, date_time = 0x0132, more = 0x8769,
                           color_space = 0xa001, is_short = 3, is_long = 4;
   constexpr std::size_t header = 8;
@@ -88,7 +85,7 @@ Bytes exif_of(const PictureOrigin& origin) {
     first = {};
     first.text(description, comment_on(origin));
     first.text(software, origin.software);
-    first.text(date_time, date);
+    first.text(date_time, fixed_date_text());
     first.number(more, is_long, static_cast<std::uint32_t>(at_second));
   };
   fill(0);
