@@ -12,8 +12,7 @@ RankState::RankState(const RenderScene& the_scene, Film& the_film, WorkPlan the_
                                          job.scheduler.rank, options.resources.distribution)),
       queues(scene.manifest.domains.size(), job.queues.waiting, options.resources.shuffle_seed),
       outgoing(scene.manifest.domains.size(), job.queues.outgoing, std::nullopt),
-      traversal(options.resources.traversal),
-      domains(scene.manifest, options.bundle, traversal) {
+      domains(scene.manifest, options.bundle, options.resources.traversal) {
   const int ranks = job.scheduler.ranks;
   if (job.key.photons.photons > 0)
     photons.emplace(scene, job.key.photons, job.most_photons, job.queues.questions, job.homes,

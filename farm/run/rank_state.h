@@ -50,7 +50,6 @@ struct RankState {
   Scheduler scheduler;
   RayQueues queues;    // of local domains
   RayQueues outgoing;  // of the others' domains
-  const Traversal traversal;
   ResidentDomains domains;
   ItemShare share;
   // Bits of the items dealt that rank 0 does not hold yet; all of them on rank 0. They are done when no ray

@@ -34,6 +34,8 @@ class ResidentDomains {
   ResidentDomains(const Manifest& manifest, std::filesystem::path bundle, Traversal traversal);
 
   std::shared_ptr<const ResidentTable> table() const { return table_; }
+  // If it is Embree's, all views are of EmbreeDomains.
+  Traversal traversal() const { return traversal_; }
   // A bit a domain: it was loaded at least once.
   const std::vector<bool>& touched() const { return touched_; }
 

@@ -112,7 +112,7 @@ double trace(RankState& s, Task& task, Profiling::Manner manner, Hands& hands) {
   const bool recorded = hands.traffic && manner == Profiling::Manner::recorded;
   Tracer tracer(
       {s.scene, task.table->views, s.film, hands.outbox, hands.counters, recorded ? &*hands.traffic : nullptr,
-       s.photons ? &s.photons->pass() : nullptr, kernel_for(s.traversal, manner)},
+       s.photons ? &s.photons->pass() : nullptr, kernel_for(s.domains.traversal(), manner)},
       hands.wave);
   perform(task, s.plan, tracer, [&] {
     if (hands.outbox.size() < most_rays_in_hand) return;
