@@ -53,9 +53,11 @@ TEST(Traversal, ByEmbreeMakesTheSameFilm) {
     for (const bool by_embree : {false, true}) {
       const std::string stats = path(fmt::format("{}-{}.json", domains, by_embree));
       const CommandResult result =
-          run(fmt::format("{} {} -o {} --force --quiet --stats {} --traversal {}", vitrail("render"), bundle,
-                          path("a.film"), stats, by_embree ? "embree" : "own"));
-      ASSERT_EQ(result.status, 0) << result.output;
+          run(fmt::format("LD_DEBUG=bindings {} {} -o {} --force --quiet --stats {} --traversal {}",
+                          vitrail("render"), bundle, path("a.film"), stats, by_embree ? "embree" : "own"));
+      ASSERT_EQ(result.status, 0);
+      // A function is bound when it is called first.
+      EXPECT_EQ(result.output.find("`rtcCommitScene'") != std::string::npos, by_embree);
       hash[by_embree] = read_json(stats).at("film_hash");
     }
     EXPECT_EQ(hash[0], hash[1]) << domains << " domains";

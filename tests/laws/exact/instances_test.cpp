@@ -130,7 +130,7 @@ void expect_equal(const Parts& parts, std::size_t ray_count, bool reference = tr
   const KdNode planes[] = {{0, 0}, {0.1f * greatest_coordinate(scene.all), 1}, {0, 2}};
   const std::vector<Ray> rays = awkward_rays(scene.all, planes, test::of_all(ray_count, ray_count / 4));
   const std::vector<Kernel> kernels = available_kernels();
-  const EmbreeDomain embree(scene.domain);
+  const EmbreeDomain embree(scene.domain), rendered(scene.domain, EmbreeDomain::Instances::by_kernel);
   std::atomic<std::uint64_t> hits{0}, instance_hits{0}, differ{0}, occlusion{0}, lost_chains{0};
   tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
     Ray ray = rays[i];
@@ -166,6 +166,9 @@ void expect_equal(const Parts& parts, std::size_t ray_count, bool reference = tr
     Hit hit;
     embree.closest(prepare(ray), hit);
     check(hit, embree.occluded(prepare(ray), tmax));
+    hit = {};
+    embree_kernel().closest(rendered, prepare(ray), hit);
+    check(hit, embree_kernel().occluded(rendered, prepare(ray), tmax));
   });
   EXPECT_GT(hits, rays.size() / 10);
   EXPECT_GT(instance_hits, hits);
