@@ -11,10 +11,10 @@ namespace vitrail {
 // be replaced (`force`).
 void require_own(const std::filesystem::path& file, bool (*is_own)(const std::filesystem::path&), bool force);
 
-// Whether a text says in its first 4 KiB that the suite made it, as statistics, reports, plots and pages do
-// ("vitrail"), or begins as its tables of wavelengths do.
+// Returns whether a text says in its first 4 KiB that the suite made it, as statistics, reports, plots and
+// pages do ("vitrail"), or begins as its tables of wavelengths do.
 bool is_own_text(const std::filesystem::path& file);
-// The same demand of texts: names may be empty.
+// Throws Error where one of the texts is not the suite's own. Names may be empty.
 void require_own_texts(std::initializer_list<std::filesystem::path> files, bool force);
 
 }  // namespace vitrail

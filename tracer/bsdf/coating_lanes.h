@@ -106,7 +106,7 @@ template <class D>
   return select<D>(half.valid & (sum != 0) & no(c.smooth), value, fill<D>(0));
 }
 
-// Of a sample that is known to be reflected or to be transmitted; 0 where smooth.
+// The density of a sample that is known to be reflected, or to be transmitted. It is 0 where smooth.
 template <class D>
 [[gnu::noinline]] D coating_reflected_pdf(const Coating<D>& c, Vector<D> out, Vector<D> in) {
   if (all(c.smooth)) return fill<D>(0);

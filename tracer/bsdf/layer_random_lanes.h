@@ -21,7 +21,7 @@ class WalkRandom {
     return *this;
   }
   VITRAIL_LANES WalkRandom& operator<<(Vector<D> v) { return *this << v.x << v.y << v.z; }
-  // In [0, 1).
+  // Draws a number of [0, 1).
   VITRAIL_LANES D uniform(Mask<D> on) { return to_doubles(bits(on) >> 11) * 0x1p-53; }
   struct Pair {
     FloatsLike<D> x, y;

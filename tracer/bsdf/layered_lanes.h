@@ -273,7 +273,7 @@ VITRAIL_LANES D base_lobe(const CoatedConductor<D>& layer, Vector<D> out, Vector
   const D wide = in.z / pi;
   const D density =
       narrow * lobe.density + (1.0 - select<D>(lobe.leaves, fill<D>(narrow), fill<D>(0))) * wide;
-  // Of smooth ones: after collisions only.
+  // Light that two smooth faces scatter has collided between them.
   return select<D>(layer.coating.smooth & layer.base.smooth(), wide, density);
 }
 

@@ -14,7 +14,7 @@ namespace vitrail {
 // it. Throws MachineError when Embree fails.
 class EmbreeDomain : public DomainView {
  public:
-  // How instances are met: by the kernel and their own trees, or, for tests, by Embree and every cluster of
+  // The kernel meets instances by their own trees; or, for tests, Embree does, which tries every cluster of
   // each.
   enum class Instances { by_kernel, one_by_one };
   explicit EmbreeDomain(const DomainView& domain, Instances instances = Instances::one_by_one);
@@ -22,7 +22,7 @@ class EmbreeDomain : public DomainView {
   EmbreeDomain(const EmbreeDomain&) = delete;
   EmbreeDomain& operator=(const EmbreeDomain&) = delete;
 
-  // As KernelFunctions::closest and occluded.
+  // Both do what KernelFunctions::closest and occluded do.
   void closest(const RayConstants& ray, Hit& hit) const;
   bool occluded(const RayConstants& ray, float tmax) const;
 

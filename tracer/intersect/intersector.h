@@ -81,8 +81,7 @@ struct KernelFunctions {
                           Hit& hit, std::uint32_t& holder);
   Passage (*domains_occluded)(const BvhNode* tree, const DomainView* const* domains, const RayConstants& ray,
                               float tmax);
-  // Whether domains without instances are asked for as wholes, too: they have another tree than that of
-  // theirs.
+  // If set, domains without instances go by the functions of domains, too: their trees are not the bundle's.
   bool by_domain = false;
 };
 

@@ -56,8 +56,8 @@ struct LaneBsdf {
 // Of a surface of that kind.
 LaneBsdf lane_bsdf(const Bsdf& bsdf);
 
-// What a CoatedDiffuseBsdf or CoatedConductorBsdf has above its base, whose spectra and facets are those of a
-// LaneBsdf.
+// The part of a CoatedDiffuseBsdf or CoatedConductorBsdf that is above its base, whose spectra and facets are
+// those of a LaneBsdf.
 struct LaneCoating {
   double eta = 1;
   Microfacets interface;

@@ -68,7 +68,7 @@ class DomainWalk {
     bool shared;  // below a node without an axis
     double t0, t1;
   };
-  // What a plane parts, in the order in which the ray comes to it.
+  // The two children of a plane, in the order in which the ray comes to them.
   struct Sides {
     std::uint32_t near, far;
     double near_end, far_begin;
