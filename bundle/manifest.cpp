@@ -24,7 +24,7 @@ namespace vitrail {
 
 namespace {
 
-constexpr int manifest_version = 7;
+constexpr int manifest_version = 8;
 
 // The binary files: 32 bytes of header, then the payload.
 

@@ -66,6 +66,8 @@ inline constexpr auto last_of<NoiseTexture::Kind> = NoiseTexture::Kind::marble;
 template <>
 inline constexpr auto last_of<PatternTexture::Kind> = PatternTexture::Kind::formula;
 template <>
+inline constexpr auto last_of<NoiseGenerator> = NoiseGenerator::corrected;
+template <>
 inline constexpr auto last_of<PatternTexture::Wave> = PatternTexture::Wave::poly;
 template <>
 inline constexpr auto last_of<PatternStep::Op> = PatternStep::Op::fractal;

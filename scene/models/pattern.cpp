@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "scene/geometry/portable_math.h"
-#include "scene/models/lattice_noise.h"
 #include "scene/models/pattern_formula.h"
+#include "scene/models/pattern_noise.h"
 #include "scene/models/pattern_shapes.h"
 
 namespace vitrail {
@@ -33,33 +33,37 @@ Point3d moved(const PatternTexture& t, Point3d p) {
 }
 
 double shaped(const PatternTexture& t, double x) {
+  const double rest = x - std::floor(x);
   switch (t.wave) {
     case Wave::ramp:
       return x;
     case Wave::triangle:
-      return x < 0.5 ? 2 * x : 2 - 2 * x;
+      return rest < 0.5 ? 2 * rest : 2 - 2 * rest;
     case Wave::sine:
-      return 0.5 * (1 + sin_pi(2 * x));
+      return 0.5 * (1 + sin_pi(2 * rest));
     case Wave::scallop:
-      return std::abs(sin_pi(x));
+      return std::abs(sin_pi(rest));
     case Wave::cubic:
-      return x * x * (3 - 2 * x);
+      return rest * rest * (3 - 2 * rest);
     case Wave::poly:
       return portable_pow(x, static_cast<double>(t.exponent));
   }
   return x;
 }
 
-// 1 stays: what is between 0 and 1 does not repeat.
-double repeated(double x) { return x >= 0 && x <= 1 ? x : x - std::floor(x); }
+// As povray: what is between 0 and 1 does not repeat, and each tile is longer by so much.
+double repeated(double x) {
+  constexpr double tile = 1.00001;
+  x = std::fmod(x, tile);
+  return x < 0 ? x + 1 : x;
+}
 
 double number(const PatternTexture& t, Point3d p, Vector3d n) {
   double x = t.kind == Kind::formula ? formula_value(t, p, n) : number_of_pattern(t, p);
   // As povray: before the frequency, and not below 0.
   if (t.kind == Kind::formula && x > 1) x -= std::floor(x);
-  const bool has_them = t.kind == Kind::ripples || t.kind == Kind::waves;  // in its sines
-  const double turned = has_them ? x : x * static_cast<double>(t.frequency) + static_cast<double>(t.phase);
-  return shaped(t, repeated(turned));
+  // Of ripples and waves once more, as povray.
+  return shaped(t, repeated(x * static_cast<double>(t.frequency) + static_cast<double>(t.phase)));
 }
 
 }  // namespace

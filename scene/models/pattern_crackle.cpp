@@ -5,14 +5,13 @@
 #include <limits>
 
 #include "scene/geometry/portable_math.h"
-#include "scene/models/lattice_noise.h"
+#include "scene/models/pattern_noise.h"
 #include "scene/models/pattern_shapes.h"
 
 namespace vitrail {
 
 namespace {
 
-constexpr std::uint64_t points = 4;  // of the numbers of a cell
 // The nearest point is at most √3 away. So are the next ones, almost always.
 constexpr int reach = 2;
 
@@ -51,7 +50,8 @@ struct Nearest {
 
 }  // namespace
 
-double crackle(const PatternCrackle& c, Point3d p) {
+double crackle(const PatternTexture& t, Point3d p) {
+  const PatternCrackle& c = t.crackle;
   constexpr double greatest = 0x1p52;
   if (!(std::abs(p.x) < greatest && std::abs(p.y) < greatest && std::abs(p.z) < greatest)) return 0;
   const auto metric = static_cast<double>(c.metric);
@@ -69,12 +69,12 @@ double crackle(const PatternCrackle& c, Point3d p) {
         for (int k = -ring; k <= ring; ++k) {
           if (std::max({std::abs(i), std::abs(j), std::abs(k)}) != ring) continue;
           if (std::max({gap(p.x, x, i), gap(p.y, y, j), gap(p.z, z, k)}) > nearest.distance[2]) continue;
-          const CellNumbers n = numbers_of_cell(x + i, y + j, z + k, points);
-          const Point3d q{static_cast<double>(x + i) + n.x, static_cast<double>(y + j) + n.y,
-                          static_cast<double>(z + k) + n.z};
+          const auto n = numbers_of_cell(x + i, y + j, z + k);
+          const Point3d q{static_cast<double>(x + i) + n[0], static_cast<double>(y + j) + n[1],
+                          static_cast<double>(z + k) + n[2]};
           nearest.add(distance(q - p, metric), q);
         }
-  if (c.solid) return narrow_noise(nearest.point);
+  if (c.solid) return pattern_noise(nearest.point, t.noise);
   std::array<double, 3> d = nearest.distance;
   for (double& distance : d) distance = displaced(distance, metric, static_cast<double>(c.offset));
   const double sum = c.form.x * d[0] + c.form.y * d[1] + c.form.z * d[2];

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "scene/geometry/portable_math.h"
-#include "scene/models/lattice_noise.h"
 #include "scene/models/pattern.h"
+#include "scene/models/pattern_noise.h"
 
 namespace vitrail {
 
@@ -123,32 +123,6 @@ double of_two(Op op, double a, double b) {
   }
 }
 
-int octaves_of(double count) {
-  constexpr double most = 32;
-  return count >= 1 ? static_cast<int>(std::min(count, most)) : 1;
-}
-double signed_noise(const double* a, double frequency) {
-  return 2 * narrow_noise({a[0] * frequency, a[1] * frequency, a[2] * frequency}) - 1;
-}
-
-// Musgrave's sums of octaves ("Texturing and Modeling", 1994).
-double ridged_mf(const double* a) {
-  double sum = 0, weight = 1, frequency = 1;
-  for (int i = octaves_of(a[5]); i > 0; --i, frequency *= a[4]) {
-    double signal = a[6] - std::abs(signed_noise(a, frequency));
-    signal *= signal * weight;
-    sum += signal * portable_pow(frequency, -a[3]);
-    weight = std::clamp(signal * a[7], 0.0, 1.0);
-  }
-  return sum;
-}
-double hetero_mf(const double* a) {
-  double sum = signed_noise(a, 1) + a[6], frequency = a[4];
-  for (int i = octaves_of(a[5]); i > 1; --i, frequency *= a[4])
-    sum += sum * portable_pow(frequency, -a[3]) * (signed_noise(a, frequency) + a[6]);
-  return sum;
-}
-
 double constant_of(const PatternStop& stop) {
   return static_cast<double>(std::get<ConstantSpectrum>(std::get<Spectrum>(stop.value)).value);
 }
@@ -173,8 +147,8 @@ std::size_t operands_of(Op op) {
   if (op == Op::constant || op == Op::pick) return 0;
   if (op <= Op::trunc) return 1;  // of `slide`, that which stays
   if (op <= Op::min || op == Op::fractal) return 2;
-  if (op == Op::choose) return 4;
-  return op == Op::noise || op == Op::pattern ? 3 : 9;
+  if (op == Op::pattern) return 3;
+  return op == Op::choose || op == Op::noise ? 4 : 9;
 }
 
 double formula_value(const PatternTexture& t, Point3d p, Vector3d n) {
@@ -199,13 +173,13 @@ double formula_value(const PatternTexture& t, Point3d p, Vector3d n) {
         *a = a[0] < 0 ? a[1] : a[0] == 0 ? a[2] : a[3];
         break;
       case Op::noise:
-        *a = narrow_noise({a[0], a[1], a[2]});
+        *a = pattern_noise({a[0], a[1], a[2]}, noise_generator(a[3]));
         break;
       case Op::ridged_mf:
-        *a = ridged_mf(a);
+        *a = ridged_multifractal(a);
         break;
       case Op::hetero_mf:
-        *a = hetero_mf(a);
+        *a = hetero_multifractal(a);
         break;
       case Op::pattern:
         *a = at_point(t.patterns[step.index], a);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "scene/geometry/portable_math.h"
-#include "scene/models/lattice_noise.h"
+#include "scene/models/pattern_noise.h"
 
 namespace vitrail {
 
@@ -57,41 +57,52 @@ Octaves octaves_of(const PatternTurbulence& t) {
 // What turbulence adds to the number of marble and of spirals.
 double turbulence_along_x(const PatternTexture& t, Point3d p) {
   const double amount = t.turbulence.amount.x;
-  return amount == 0 ? 0 : amount * scalar_turbulence(p, octaves_of(t.turbulence));
+  return amount == 0 ? 0 : amount * scalar_turbulence(p, octaves_of(t.turbulence), t.noise);
 }
 
 double agate(const PatternTexture& t, Point3d p) {
-  const double noise = static_cast<double>(t.agate_turb) * scalar_turbulence(p, octaves_of(t.turbulence));
+  const double noise =
+      static_cast<double>(t.agate_turb) * scalar_turbulence(p, octaves_of(t.turbulence), t.noise);
   return portable_pow(0.5 * (1 + sine(1.3 * noise + 1.1 * p.z)), 0.77);
 }
 
-double granite(Point3d p) {
+double granite(NoiseGenerator generator, Point3d p) {
   double sum = 0, scale = 4, weight = 1;
-  for (int i = 0; i < 6; ++i, scale *= 2, weight *= 0.5)
-    sum += weight * std::abs(0.5 - wide_noise({p.x * scale, p.y * scale, p.z * scale}));
+  for (int i = 0; i < 6; ++i, scale *= 2, weight *= 0.5) {
+    const double noise = pattern_noise({p.x * scale, p.y * scale, p.z * scale}, generator);
+    sum += weight * (generator == NoiseGenerator::original ? std::abs(0.5 - noise)
+                                                           : std::min(std::abs(1 - 2 * noise), 0.5));
+  }
   return std::min(sum, 1.0);
 }
 
-constexpr int sources = 10;
-constexpr std::uint64_t numbers_of_sources = 5;  // of the numbers of a cell
-
-// The mean over sources of the sines of their distances, in 0 … 1. frequency_and_weight(i): of a source.
-template <class F>
-double rings(const PatternTexture& t, Point3d p, F&& frequency_and_weight) {
-  double sum = 0, weights = 0;
-  for (int i = 0; i < sources; ++i) {
-    const CellNumbers n = numbers_of_cell(i, 0, 0, numbers_of_sources);
-    const auto [frequency, weight] = frequency_and_weight(i);
-    const double turns = radius({p.x - n.x, p.y - n.y, p.z - n.z}) * frequency;
-    sum += weight * sine(turns * static_cast<double>(t.frequency) + static_cast<double>(t.phase));
-    weights += weight;
-  }
-  return 0.5 * (1 + sum / weights);
+double wrinkles(NoiseGenerator generator, Point3d p) {
+  double sum = 0, scale = 1, weight = 0.5;
+  for (int i = 0; i < 10; ++i, scale *= 2, weight *= 0.5)
+    sum += weight * wide_noise({p.x * scale, p.y * scale, p.z * scale}, generator);
+  return sum;
 }
 
-struct FrequencyAndWeight {
-  double frequency, weight;
-};
+// The mean over sources of the sines of their distances, in 0 … 1.
+double ripples(const PatternTexture& t, Point3d p) {
+  double sum = 0;
+  for (std::size_t i = 0; i < wave_source_count; ++i)
+    sum += sine(radius(p - wave_source(i).place) * static_cast<double>(t.frequency) +
+                static_cast<double>(t.phase));
+  return 0.5 * (1 + sum / wave_source_count);
+}
+
+// Likewise, of waves that are as high as they are long.
+double waves(const PatternTexture& t, Point3d p) {
+  double sum = 0;
+  for (std::size_t i = 0; i < wave_source_count; ++i) {
+    const auto& [place, frequency] = wave_source(i);
+    sum += sine(radius(p - place) * frequency * static_cast<double>(t.frequency) +
+                static_cast<double>(t.phase)) /
+           frequency;
+  }
+  return std::clamp(0.5 + 0.2 * sum / wave_source_count, 0.0, 1.0);
+}
 
 double mandel(int iterations, Point3d p) {
   double x = p.x, y = p.y;
@@ -132,11 +143,10 @@ double number_of_pattern(const PatternTexture& t, Point3d p) {
     case Kind::spherical:
       return below_one(radius(p));
     case Kind::cells: {
-      constexpr std::uint64_t values = 6;  // of the numbers of a cell
       constexpr double greatest = 0x1p52;
       if (!(radius(p) < greatest)) return 0;
       const auto cell = [](double x) { return static_cast<std::int64_t>(cell_of(x)); };
-      return numbers_of_cell(cell(p.x), cell(p.y), cell(p.z), values).w;
+      return numbers_of_cell(cell(p.x), cell(p.y), cell(p.z))[0];
     }
     case Kind::leopard: {
       const double sum = (portable_sin(p.x) + portable_sin(p.y) + portable_sin(p.z)) / 3;
@@ -147,9 +157,9 @@ double number_of_pattern(const PatternTexture& t, Point3d p) {
     case Kind::onion:
       return rest(radius(p));
     case Kind::radial:
-      return rest(0.75 + portable_atan2(p.x, p.z) / (2 * pi));
+      return 0.75 + portable_atan2(p.x, p.z) / (2 * pi);
     case Kind::spiral1: {
-      const double turn = portable_atan2(p.y, p.x) / (2 * pi) + 0.25;
+      const double turn = rest(portable_atan2(p.y, p.x) / (2 * pi) + 0.25);
       return std::sqrt(p.x * p.x + p.y * p.y) + p.z + t.arms * turn + turbulence_along_x(t, p);
     }
     case Kind::wood:
@@ -158,21 +168,21 @@ double number_of_pattern(const PatternTexture& t, Point3d p) {
       return agate(t, p);
     case Kind::bozo:
     case Kind::bumps:
-      return narrow_noise(p);
+      return pattern_noise(p, t.noise);
     case Kind::crackle:
-      return crackle(t.crackle, p);
+      return crackle(t, p);
     case Kind::dents: {
-      const double noise = narrow_noise(p);
+      const double noise = pattern_noise(p, t.noise);
       return noise * noise * noise;
     }
     case Kind::granite:
-      return granite(p);
+      return granite(t.noise, p);
     case Kind::ripples:
-      return rings(t, p, [](int) { return FrequencyAndWeight{1, 1}; });
+      return ripples(t, p);
     case Kind::waves:
-      return rings(t, p, [](int i) { return FrequencyAndWeight{0.085 * (i + 1), 1 / std::sqrt(i + 1.0)}; });
+      return waves(t, p);
     case Kind::wrinkles:
-      return std::min(0.5 * scalar_turbulence(p, {10, 2, 0.5}), 1.0);
+      return wrinkles(t.noise, p);
     case Kind::mandel:
       return mandel(t.iterations, p);
     case Kind::formula:

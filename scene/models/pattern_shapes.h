@@ -20,6 +20,6 @@ double number_of_pattern(const PatternTexture& pattern, Point3d p);
 Point3d moved_in_pattern(const PatternTexture& pattern, Point3d p);
 
 // Of crackle (pattern_crackle.cpp).
-double crackle(const PatternCrackle& crackle, Point3d p);
+double crackle(const PatternTexture& pattern, Point3d p);
 
 }  // namespace vitrail

@@ -60,8 +60,8 @@ auto visit_fields(Is<PatternFractal> auto& p, auto&& f) {
 }
 // Without what belongs to a formula, which refers to no other records, and without `by_uv`.
 auto visit_fields(Is<PatternTexture> auto& t, auto&& f) {
-  return f(t.kind, t.texture_to_world, t.repeat, t.turbulence, t.frequency, t.phase, t.wave, t.exponent,
-           t.direction, t.brick, t.crackle, t.arms, t.agate_turb, t.iterations, t.map);
+  return f(t.kind, t.texture_to_world, t.repeat, t.turbulence, t.noise, t.frequency, t.phase, t.wave,
+           t.exponent, t.direction, t.brick, t.crackle, t.arms, t.agate_turb, t.iterations, t.map);
 }
 
 // ---- Materials

@@ -60,9 +60,9 @@ struct PatternStep {
     min,
 
     choose,     // of four: b where a < 0, c where a = 0, d where a > 0
-    noise,      // of three: that of `bozo` at (a,b,c)
-    ridged_mf,  // of nine: a, b, c, H, lacunarity, octaves, offset, gain, and one that is not looked at
-    hetero_mf,  // of nine: a, b, c, H, lacunarity, octaves, offset, T, and one that is not looked at
+    noise,      // of four: that of `bozo` at (a,b,c) by the noise generator d
+    ridged_mf,  // of nine: a, b, c, H, lacunarity, octaves, offset, gain, noise generator
+    hetero_mf,  // of nine: a, b, c, H, lacunarity, octaves, offset, T, noise generator
     pattern,    // of three: what patterns[index] has at (a,b,c)
     fractal,    // of two: what fractals[index] has at (a,b)
   };

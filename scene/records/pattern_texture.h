@@ -47,9 +47,12 @@ struct PatternStop {
   bool operator==(const PatternStop&) const = default;
 };
 
-// The value v of a pattern at a point p of its space. Noises are of our own, with POV-Ray's mean and
-// deviation, as its tables are not free (scene/models/pattern.h). Between the stops of the map values are
-// mixed linearly; the first and the last hold beyond.
+// `noise_generator`: 1 cuts off what leaves 0 … 1, 2 is scaled so that it seldom does. POV-Ray's third has
+// another lattice; it is the second here.
+enum class NoiseGenerator : std::uint8_t { original, corrected };
+
+// The value v of a pattern at a point p of its space. Between the stops of the map values are mixed linearly;
+// the first and the last hold beyond.
 struct PatternTexture {
   enum class Kind : std::uint8_t {
     // A value of the map by its place in it: `at` is not looked at, nor the wave.
@@ -75,10 +78,10 @@ struct PatternTexture {
     bumps,     // noise
     crackle,   // PatternCrackle
     dents,     // noise³
-    granite,   // Σ |½ − noise(4·2ⁱ·p)|/2ⁱ, i < 6
+    granite,   // Σ min(|1 − 2·noise(4·2ⁱ·p)|, ½)/2ⁱ, i < 6; of the original |½ − noise|
     ripples,   // the mean of sines of the distances to ten points around
     waves,     // likewise, of ten wavelengths and heights
-    wrinkles,  // Σ noise(2ⁱ·p)/2ⁱ, i < 10, in 0 … 1
+    wrinkles,  // ½·Σ wide noise(2ⁱ·p)/2ⁱ, i < 10
     mandel,    // steps of z ↦ z² + x + iy, from x + iy, after which |z| ≤ 2, over `iterations`
     formula,   // what is left on the stack by `steps`
   };
@@ -99,6 +102,7 @@ struct PatternTexture {
   bool by_uv = false;
   Vector3d repeat{0, 0, 0};  // `warp { repeat }`: tiles from 0 to this along an axis; 0: none along it
   PatternTurbulence turbulence;
+  NoiseGenerator noise = NoiseGenerator::corrected;
   float frequency = 1, phase = 0;
   Wave wave = Wave::ramp;
   float exponent = 1;           // of `poly_wave`

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "importers/povray/read/levels.h"
-#include "importers/povray/read/noise.h"
 #include "importers/povray/read/number_words.h"
 #include "importers/povray/read/pattern_field.h"
 #include "importers/povray/read/reader.h"
@@ -306,7 +305,6 @@ void say_notes(Reader& reader, const Function& function, const SourceLocation& p
                std::set<const Function*>& said) {
   if (!function.notable || !said.insert(&function).second) return;
   for (const Diagnostic& note : function.notes) reader.notes.add(note);
-  if (function.noisy) reader.notes.approximated(noise_elsewhere, place);
   for (const auto& callee : function.callees) say_notes(reader, *callee, place, said);
 }
 

@@ -61,7 +61,6 @@ struct Function {
   std::size_t count = 3;
   int number = 0;         // of `built_in` in functions.inc
   bool unknown = false;   // a formula that is not known here: 0
-  bool noisy = false;     // `built_in` has noise
   std::size_t depth = 0;  // of the stack
   // In place of code:
   std::shared_ptr<const PatternField> pattern, pigment;  // a number or a colour at a point
@@ -70,7 +69,7 @@ struct Function {
   std::shared_ptr<const Spline> spline;
 
   Diagnostics notes;     // said where it is used: a file of functions has many that a scene never calls
-  bool notable = false;  // it or one that it calls has notes or noise
+  bool notable = false;  // it or one that it calls has notes
 
   bool gives_vector() const { return pigment || placement || spline; }
   std::size_t arguments() const { return built_in ? count : spline ? 1 : parameters.size(); }

@@ -9,8 +9,7 @@
 #include <numbers>
 
 #include "importers/povray/read/function.h"
-#include "importers/povray/read/noise.h"
-#include "importers/povray/read/whole.h"
+#include "scene/models/pattern_noise.h"
 
 namespace vitrail::pov {
 
@@ -111,28 +110,14 @@ constexpr InternalFormula cylinder(int number, F) {
   return free_formula(number, 8, [](auto a) { return within(a.p[0] * F{}(revolved(a, 2)), a.p[1]); });
 }
 
-// ---- Noise (Musgrave 1994): P0 H, P1 lacunarity, P2 octaves
+// ---- Noise
 
-double noise_of(const double* a) { return noise(a[0], a[1], a[2]); }
-double ridged_mf(const double* a) {  // P3 offset, P4 gain
-  double sum = 0, weight = 1, frequency = 1;
-  const int octaves = whole(a[5], 1, 32);
-  for (int i = 0; i < octaves; ++i, frequency *= a[4]) {
-    double signal = a[6] - std::abs(2 * noise(a[0] * frequency, a[1] * frequency, a[2] * frequency) - 1);
-    signal *= signal * weight;
-    sum += signal * std::pow(frequency, -a[3]);
-    weight = std::clamp(signal * a[7], 0.0, 1.0);
-  }
-  return sum;
+// By the scene's generator, which is the second unless an old version or the scene says otherwise.
+double noise_of(const double* a) { return pattern_noise({a[0], a[1], a[2]}); }
+double noise_by_generator(const double* a) {
+  return pattern_noise({a[0], a[1], a[2]}, noise_generator(a[3]));
 }
-double hetero_mf(const double* a) {  // P3 offset, P4 T
-  double sum = 2 * noise(a[0], a[1], a[2]) - 1 + a[6], frequency = a[4];
-  const int octaves = whole(a[5], 1, 32);
-  for (int i = 1; i < octaves; ++i, frequency *= a[4])
-    sum += sum * std::pow(frequency, -a[3]) *
-           (2 * noise(a[0] * frequency, a[1] * frequency, a[2] * frequency) - 1 + a[6]);
-  return sum;
-}
+Steps noise_of(const Steps* a) { return Steps::of(Op::noise, {a[0], a[1], a[2], 2}); }
 template <Op op, std::size_t count>
 Steps noise_steps(const Steps* a) {
   return Steps::of(op, {a, a + count});
@@ -230,7 +215,7 @@ constexpr InternalFormula known[] = {
             [](auto a) {  // f_heart (Taubin 1994)
               return (0.1 * a.x2() + a.y2()) * cube_of(a.z) - cube_of(2 * a.x2() + a.around_x2() - 1);
             }),
-    {29, 9, hetero_mf, noise_steps<Op::hetero_mf, 9>, true},
+    {29, 9, hetero_multifractal, noise_steps<Op::hetero_mf, 9>},
     surface(30, 4,
             [](auto a) {  // f_hunt_surface
               return -(4 * cube_of(a.all2() - 13) + 27 * square_of(3 * a.x2() + a.y2() - 4 * a.z2() - 12));
@@ -303,7 +288,7 @@ constexpr InternalFormula known[] = {
               return square_of(a.p[1]) * width2 - (width2 + a.y2()) * a.around_y2();
             }),
     free_formula(57, 3, [](auto a) { return root_of(a.all2()); }),  // f_r
-    {59, 9, ridged_mf, noise_steps<Op::ridged_mf, 9>, true},
+    {59, 9, ridged_multifractal, noise_steps<Op::ridged_mf, 9>},
     free_formula(60, 7,
                  [](auto a) {  // f_rounded_box: P0 radius, P1 … P3 half sizes
                    const auto beyond = [&](auto at, auto half) {
@@ -351,8 +336,8 @@ constexpr InternalFormula known[] = {
     surface(73, 4, [](auto a) { return a.y * a.z2() - a.x2(); }),                      // f_umbrella
     surface(74, 5, [](auto a) { return a.p[1] * (1 - a.y) - a.y * a.around_y2(); }),   // f_witch_of_agnesi
     curve(75, 9, [](auto a) { return a.p[2] - a.y * (a.x2() + square_of(a.p[1])); }),  // f_witch_of_agnesi_2d
-    {76, 3, noise_of, noise_steps<Op::noise, 3>, true},                                // f_noise3d
-    {78, 4, noise_of, noise_steps<Op::noise, 3>, true},                                // f_noise_generator
+    {76, 3, noise_of, noise_of},                                                       // f_noise3d
+    {78, 4, noise_by_generator, noise_steps<Op::noise, 4>},                            // f_noise_generator
 };
 
 }  // namespace
@@ -368,7 +353,6 @@ Shared<Function> internal_function(int number) {
   auto function = std::make_shared<Function>();
   function->built_in = formula->value;
   function->count = formula->count, function->number = number;
-  function->noisy = function->notable = formula->noisy;
   return function;
 }
 

@@ -47,7 +47,6 @@ struct InternalFormula {
   std::size_t count;  // of arguments: x, y, z, and then the parameters
   double (*value)(const double* arguments);
   Steps (*steps)(const Steps* arguments);
-  bool noisy = false;
 };
 
 // nullptr: none that is known here.

@@ -10,7 +10,6 @@
 #include "images/image_files.h"
 #include "importers/povray/read/formula.h"
 #include "importers/povray/read/image_values.h"
-#include "importers/povray/read/noise.h"
 #include "importers/povray/read/pattern_field.h"
 #include "importers/povray/read/pattern_kinds.h"
 #include "importers/povray/read/pigment_patterns.h"
@@ -374,7 +373,6 @@ std::optional<PatternTexture> Surfaces::pattern_texture(const Pattern& pattern, 
     }
   }
   if (!is_invertible(t.texture_to_world)) return std::nullopt;
-  if (is_of_noise(t)) approximated(noise_elsewhere, place);
   return made;
 }
 

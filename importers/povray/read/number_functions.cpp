@@ -9,12 +9,11 @@
 #include <numbers>
 
 #include "importers/povray/read/extents.h"
-#include "importers/povray/read/noise.h"
 #include "importers/povray/read/number_words.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/transforms.h"
 #include "importers/povray/read/whole.h"
-#include "scene/models/lattice_noise.h"
+#include "scene/models/pattern_noise.h"
 
 namespace vitrail::pov {
 
@@ -142,10 +141,11 @@ std::optional<Numbers> Reader::function_of(const Token& word) {
       result = numbers_of(transform_vector(rotate(degrees * std::numbers::pi / 180, axis), a));
     }
     if (name == Word::vturbulence_) {
-      notes.approximated(noise_elsewhere, location(word.place));
       const double omega = argument(), octaves = argument();
       const Vector3d p = first_three(vector_argument().promoted(3));
-      result = numbers_of(vector_turbulence(Point3d{} + p, {whole(octaves, 1, 10), a.x, omega}));
+      const auto of_four_bytes = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+      result = numbers_of(vector_turbulence(
+          Point3d{} + p, {whole(octaves, 1, 10), of_four_bytes(a.x), of_four_bytes(omega)}));
     }
   }
   if (!result) return result;

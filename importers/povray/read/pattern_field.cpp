@@ -9,7 +9,6 @@
 
 #include "importers/povray/read/formula.h"
 #include "importers/povray/read/function.h"
-#include "importers/povray/read/noise.h"
 #include "importers/povray/read/object_hits.h"
 #include "importers/povray/read/pattern_kinds.h"
 #include "importers/povray/read/pattern_warps.h"
@@ -62,7 +61,6 @@ PatternField::PatternField(Reader& reader, const Pigment& pigment) : pattern_(pi
   if (const Word kind = pattern_.kind; !recorded_ && !has_values(kind) && kind != Word::slope_ &&
                                        kind != Word::image_map_ && places_of_list(kind) == 0)
     if (auto formula = pattern_record(pattern_)) record_ = std::move(*formula), recorded_ = true;
-  if (recorded_ && is_of_noise(record_)) reader.notes.approximated(noise_elsewhere, place);
   if (!recorded_ && !has_values(pattern_.kind) && pattern_.kind != Word::image_map_)
     reader.notes.approximated(fmt::format("this pattern ({}) in a formula: ½", name_of(pattern_.kind)),
                               place);

@@ -12,8 +12,7 @@
 
 namespace vitrail::pov {
 
-// Values at a point of the space that has the pigment. Noises are those of our patterns, in other places than
-// POV-Ray's. Thread-safe once it is made.
+// Values at a point of the space that has the pigment. Thread-safe once it is made.
 class PatternField {
  public:
   // Says what is approximated; throws Error where an image cannot be read.

@@ -101,6 +101,7 @@ PatternTexture record_of(const Pattern& pattern) {
   t.crackle = {pattern.crackle_form, static_cast<float>(std::max(pattern.crackle_metric, 0.1)),
                static_cast<float>(pattern.crackle_offset), pattern.crackle_solid};
   t.arms = pattern.arms;
+  if (pattern.noise) t.noise = *pattern.noise;
   t.agate_turb = static_cast<float>(pattern.agate_turb);
   t.iterations = std::clamp(pattern.iterations, 1, 10000);
   return t;
@@ -108,18 +109,7 @@ PatternTexture record_of(const Pattern& pattern) {
 
 bool is_turbulent_by_itself(PatternTexture::Kind kind) {
   using Kind = PatternTexture::Kind;
-  return kind == Kind::marble || kind == Kind::wood || kind == Kind::spiral1;
-}
-
-bool is_of_noise(const PatternTexture& t) {
-  const auto is_step_of_noise = [](const PatternStep& step) {
-    using Op = PatternStep::Op;
-    return step.op == Op::noise || step.op == Op::ridged_mf || step.op == Op::hetero_mf;
-  };
-  using Kind = PatternTexture::Kind;
-  return t.turbulence.amount != Vector3d{0, 0, 0} || t.kind == Kind::cells ||
-         (t.kind >= Kind::agate && t.kind <= Kind::wrinkles) ||
-         std::ranges::any_of(t.steps, is_step_of_noise) || std::ranges::any_of(t.patterns, is_of_noise);
+  return kind == Kind::agate || kind == Kind::marble || kind == Kind::wood || kind == Kind::spiral1;
 }
 
 std::vector<BlendEntry> default_entries(Word pattern) {

@@ -18,8 +18,6 @@ PatternTexture record_of(const Pattern& pattern);
 PatternTexture::Wave wave_of(Word wave, Word pattern);
 // Returns whether `turbulence` does something else to it than a warp of turbulence.
 bool is_turbulent_by_itself(PatternTexture::Kind kind);
-// Whether noise shows in it.
-bool is_of_noise(const PatternTexture& texture);
 // The colours of a pattern that is given none.
 std::vector<BlendEntry> default_entries(Word pattern);
 

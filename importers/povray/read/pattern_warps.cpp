@@ -6,7 +6,7 @@
 
 #include "scene/geometry/pi.h"
 #include "scene/geometry/transform.h"
-#include "scene/models/lattice_noise.h"
+#include "scene/models/pattern_noise.h"
 
 namespace vitrail::pov {
 

@@ -15,6 +15,7 @@
 #include "importers/povray/read/pattern_parts.h"
 #include "importers/povray/read/pattern_warps.h"
 #include "importers/povray/read/reader.h"
+#include "scene/models/pattern_noise.h"
 
 namespace vitrail::pov {
 
@@ -174,8 +175,16 @@ void read_numbers_of(Reader& reader, Word word, Pattern& pattern) {
 
 }  // namespace
 
+NoiseGenerator read_noise_generator(Reader& reader) {
+  const Place place = reader.here();
+  const int number = reader.integer("the number of a noise generator");
+  if (number > 2) reader.notes.approximated("noise_generator 3: noise of the second", reader.location(place));
+  return noise_generator(number);
+}
+
 void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>& map) {
   pattern.kind = word;
+  if (!pattern.noise) pattern.noise = reader.noise;
   switch (word) {
     case Word::checker_:
     case Word::brick_:
@@ -298,6 +307,8 @@ bool read_pattern_modifier(Reader& reader, Pattern& pattern, Shared<BlendMap>& m
       pattern.uv_mapping = reader.has_uv_mapping = true;
       return true;
     case Word::noise_generator_:
+      pattern.noise = std::make_shared<NoiseGenerator>(read_noise_generator(reader));
+      return true;
     case Word::number_of_waves_:
     case Word::turb_depth_:
     case Word::accuracy_:

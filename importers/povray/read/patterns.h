@@ -8,6 +8,9 @@ namespace vitrail::pov {
 // Whether the word begins a pattern.
 bool names_pattern(Word word);
 
+// Reads the number behind `noise_generator`.
+NoiseGenerator read_noise_generator(Reader& reader);
+
 // The pattern that the word begins, which was just read, with what belongs directly to it. Entries of a list
 // (checker, brick, hexagon) go to `map`.
 void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>& map);

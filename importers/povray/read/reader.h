@@ -20,6 +20,7 @@
 #include "importers/povray/read/search.h"
 #include "importers/reading/import_options.h"
 #include "scene/geometry/vec.h"
+#include "scene/records/pattern_texture.h"
 
 namespace vitrail::pov {
 
@@ -134,6 +135,10 @@ class Reader {
   // 0: the file does not say. POV-Ray then computes as before 3.7, but the word `version` gives 3.7: what an
   // include saves by it and restores at its end counts as said.
   double version = 0;
+  // Of patterns that have none of their own: what global_settings say, else by the version at the scene's
+  // end.
+  std::shared_ptr<NoiseGenerator> noise = std::make_shared<NoiseGenerator>(NoiseGenerator::corrected);
+  bool has_noise = false;               // global_settings say
   std::optional<double> assumed_gamma;  // srgb_gamma: sRGB's curve
   bool for_export = false;              // ImportOptions::for_export
   bool has_uv_mapping = false;          // somewhere in the scene

@@ -150,6 +150,8 @@ void Reader::set_version(const Place& place) {
   declaring_ = true;
   if (asked < 1 || asked >= 4.5) fail(fmt::format("version {} is none of POV-Ray's", asked), place);
   version = asked;
+  constexpr double first_corrected = 3.5;
+  if (!has_noise) *noise = version < first_corrected ? NoiseGenerator::original : NoiseGenerator::corrected;
 }
 
 std::string Reader::message_text() {

@@ -10,7 +10,7 @@
 #include "importers/povray/read/symbols.h"
 #include "importers/povray/read/token.h"
 #include "importers/povray/read/transforms.h"
-#include "scene/records/pattern_formula.h"
+#include "scene/records/pattern_texture.h"
 
 namespace vitrail::pov {
 
@@ -83,6 +83,7 @@ struct Pattern {
   double crackle_metric = 2, crackle_offset = 0;
   bool crackle_solid = false;
   int arms = 1, iterations = 10;
+  Shared<NoiseGenerator> noise;  // null: the corrected one
   double agate_turb = 1, control0 = 1, control1 = 1;
   PatternFractal fractal;  // of mandel, julia, magnet, but for the iterations
   struct Slope {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "importers/povray/read/objects.h"
+#include "importers/povray/read/patterns.h"
 #include "importers/povray/read/reader.h"
 #include "scene/records/film_settings.h"
 
@@ -29,6 +30,10 @@ void read_global_settings(Reader& reader, World& world) {
         break;
       case Word::max_trace_level_:
         world.max_trace_level = std::max(1, reader.integer("max_trace_level"));
+        break;
+      case Word::noise_generator_:
+        *reader.noise = read_noise_generator(reader);
+        reader.has_noise = true;
         break;
       case Word::ambient_light_:
         world.ambient_light = reader.color();

@@ -38,6 +38,7 @@ std::string kind_text(const PatternTexture& t) {
   if (t.kind == Kind::crackle)
     text += fmt::format(" form {} metric {} offset {}{}", triple(t.crackle.form), t.crackle.metric,
                         t.crackle.offset, t.crackle.solid ? " solid" : "");
+  if (t.noise == NoiseGenerator::original && !is_of_places(t.kind)) text += " noise_generator 1";
   return text;
 }
 

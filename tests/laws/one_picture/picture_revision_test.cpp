@@ -10,7 +10,7 @@
 namespace vitrail::test::picture_revision_test {
 namespace {
 
-constexpr std::uint32_t known_revision = 18;
+constexpr std::uint32_t known_revision = 19;
 constexpr const char* known_pictures = "1c3cb27d5f757be6";
 
 std::array<Point3f, 4> tile(float x, float z) {
