@@ -8,10 +8,11 @@ A scene is a file with that ending that is no part of another one (a .pbrt has a
 .tsv: outcome, exit status, file, what was said last. They are kept: the same command goes on where it was stopped. pbrt, povray, and a
 Python with Mitsuba are those on the path.
 
-  same        the programs show one picture
-  different   they do not (exit status 1), with nothing told
-  told        the same, with items approximated or dropped
-  refused     not read, not written, or a program does not render it
+  same               the programs show one picture
+  told               the same, with items approximated or dropped
+  different          they show two pictures (exit status 1), with nothing told
+  told, different    two pictures, with items approximated or dropped
+  refused            not read, not written, or a program does not render it
 """
 import argparse
 import collections
@@ -30,9 +31,8 @@ def is_scene(file):
 
 def outcome(status, said):
     if status in (0, 1) and not re.search(r"renders it|does not render|is not on the path", said):
-        if status == 1:
-            return "different"
-        return "told" if re.search(r"(?<!\d)[1-9]\d* (?:approximated|dropped)", said) else "same"
+        told = re.search(r"(?<!\d)[1-9]\d* (?:approximated|dropped)", said)
+        return {(0, False): "same", (0, True): "told", (1, False): "different", (1, True): "told, different"}[status, bool(told)]
     return "refused"
 
 
