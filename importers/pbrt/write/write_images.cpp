@@ -68,6 +68,14 @@ std::string written(Parameters& p, const ImageTexture& image, ImageUse use, cons
 ImageTexture image_for_pbrt(Parameters& p, const ImageTexture& image, ImageUse use, RGB tint) {
   ImageTexture taken = taken_by_pbrt(image, use);
   try {
+    // pbrt repeats images and does not mirror them: four, of which three are mirrored, repeat as one does.
+    if (const auto* uv = std::get_if<UvMapping>(&image.mapping); uv && image.wrap == Wrap::mirror) {
+      const UvMapping twice{2, 0, 0, 0, 2, 0}, half{0.5f, 0, 0, 0, 0.5f, 0};
+      ImageTexture four;
+      four.filename = written(p, image, use, {tint, twice, false});
+      four.mapping = composed(half, *uv), four.filter = image.filter;
+      return four;
+    }
     if (tint == RGB{1, 1, 1} && is_read_by_pbrt(image.filename) && have_same_values(image, taken, use))
       return taken;
     ImageTexture values;

@@ -16,7 +16,8 @@ namespace {
 
 // pbrt's are 0 outside: what goes on at its edges has a layer of cells more, so that it is as it was within.
 void grid(Parameters& p, std::string_view type_and_name, const Grid& given, bool sizes) {
-  const Grid g = given.edge == GridEdge::held ? with_cells_around(given, false) : given;
+  Grid g = given.edge == GridEdge::held ? with_cells_around(given, false) : given;
+  for (float& value : g.values) value = std::max(value, 0.0f);  // what is below, pbrt makes anything of
   if (g.edge == GridEdge::held)
     p.approximated("its grids go on at their edges: pbrt's have one more layer of cells, and end behind it");
   if (g.edge == GridEdge::repeated)

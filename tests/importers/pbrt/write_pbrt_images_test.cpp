@@ -90,6 +90,23 @@ TEST_F(PbrtImages, EncodingsScaleAndInversion) {
   expect_kept(texture, false, true);
 }
 
+// pbrt repeats and does not mirror.
+TEST_F(PbrtImages, AMirroredImageBecomesFour) {
+  test::write_png(folder_ / "rgb.png", 2, 1, 3, {51, 102, 204, 10, 20, 30});
+  ImageTexture texture = image("rgb.png");
+  texture.wrap = Wrap::mirror, texture.mapping = UvMapping{3, 0, 0.5f, 0, 1, 0.25f};
+  const Texture again = written(texture, false);
+  const auto& found = std::get<ImageTexture>(again.model);
+  EXPECT_EQ(found.wrap, Wrap::repeat);
+  EXPECT_EQ(std::get<UvMapping>(found.mapping), (UvMapping{1.5f, 0, 0.25f, 0, 0.5f, 0.125f}));
+  const std::vector<float> one = values(texture, ImageUse::color), four = values(again, ImageUse::color);
+  ASSERT_EQ(four.size(), 4 * one.size());
+  for (std::size_t y = 0; y < 2; ++y)
+    for (std::size_t x = 0; x < 4; ++x)
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(four[(y * 4 + x) * 3 + c], one[(x == 0 || x == 3 ? 0u : 1u) * 3 + c], 1e-6) << x << y;
+}
+
 TEST_F(PbrtImages, ATintedImageKeepsItsImage) {
   test::write_png(folder_ / "rgb.png", 2, 1, 3, {51, 102, 204, 10, 20, 30});
   const ImageTexture texture = image("rgb.png");

@@ -315,6 +315,12 @@ TEST(WritePbrt, MediaHaveOnlyWhatPbrtTakesOfThem) {
   const auto& both = std::get<AbsorptionScattering>(mixed.coefficients);
   EXPECT_EQ(std::get<Grid>(both.sigma_a).values, std::vector<float>(6, 0.5f));
   EXPECT_EQ(std::get<Grid>(both.sigma_s).values, (std::vector<float>{1, 1, 1, 2, 2, 2}));
+  cells.values = {-1, 2};  // which no renderer has a meaning for
+  const Medium negative = written([&](Medium& m) {
+    m.coefficients = AbsorptionScattering{ConstantSpectrum{0.5f}, cells};
+  });
+  EXPECT_EQ(std::get<Grid>(std::get<AbsorptionScattering>(negative.coefficients).sigma_s).values,
+            (std::vector<float>{0, 0, 0, 2, 2, 2}));
 }
 
 }  // namespace
