@@ -12,6 +12,8 @@
 namespace vitrail::test::spectral_picture_test {
 namespace {
 
+constexpr const char* scene_of_corpus = "pbrt-v4/scenes/01_cornell_spectral.pbrt";
+
 class SpectralPicture : public ::testing::Test {
  protected:
   // Returns the hash of the film.
@@ -19,9 +21,8 @@ class SpectralPicture : public ::testing::Test {
     const std::string bundle = (directory_ / (name + ".vit")).string(),
                       stats = (directory_ / "stats.json").string();
     if (!std::filesystem::exists(bundle)) {
-      const CommandResult made =
-          run(fmt::format("{} '{}' -o '{}' --domains {} --quiet", vitrail("partition"),
-                          (corpus() / "pbrt-v4/scenes/01_cornell_spectral.pbrt").string(), bundle, domains));
+      const CommandResult made = run(fmt::format("{} '{}' -o '{}' --domains {} --quiet", vitrail("partition"),
+                                                 (corpus() / scene_of_corpus).string(), bundle, domains));
       EXPECT_EQ(made.status, 0) << made.output;
     }
     const CommandResult done =
@@ -47,7 +48,8 @@ class SpectralPicture : public ::testing::Test {
 // samples. So eight films of two samples say how much, and a bin is off by 1 %, or four of their standard
 // errors.
 TEST_F(SpectralPicture, MatchesPbrtInEveryBin) {
-  if (corpus().empty()) GTEST_SKIP() << "there is no corpus here; set VITRAIL_CORPUS";
+  if (!std::filesystem::exists(corpus() / scene_of_corpus))
+    GTEST_SKIP() << "no corpus with " << scene_of_corpus << "; set VITRAIL_CORPUS";
   constexpr int seeds = 8;
   const Picture reference = read_picture(corpus() / "pbrt-v4/ref/01_cornell_spectral.exr");
   ASSERT_EQ(reference.bins.count, 16);
@@ -82,7 +84,8 @@ TEST_F(SpectralPicture, MatchesPbrtInEveryBin) {
 }
 
 TEST_F(SpectralPicture, IsOnePictureWhateverTheDomains) {
-  if (corpus().empty()) GTEST_SKIP() << "there is no corpus here; set VITRAIL_CORPUS";
+  if (!std::filesystem::exists(corpus() / scene_of_corpus))
+    GTEST_SKIP() << "no corpus with " << scene_of_corpus << "; set VITRAIL_CORPUS";
   const std::string crop = "--spp 4 --crop 64,192,64,192 ";
   const std::string one = render("one", "1", crop);
   EXPECT_EQ(render("many", "8", crop + "--threads 3"), one);
