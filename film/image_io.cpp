@@ -15,6 +15,7 @@
 #include "film/fixed_date.h"
 #include "film/jpeg_file.h"
 #include "film/picture_attributes.h"
+#include "film/picture_format.h"
 #include "film/png_file.h"
 #include "film/radiance_file.h"
 #include "film/srgb_integers.h"
@@ -123,10 +124,6 @@ void put_numbers(PictureFile& file, const Picture& picture) {
   put(of_variances_name, picture.neighbours.of_variances);
 }
 
-bool is_tiff(const std::filesystem::path& file) {
-  return file.extension() == ".tif" || file.extension() == ".tiff";
-}
-
 template <class Integer>
 void write_integers(const std::filesystem::path& path, const Picture& picture) {
   std::vector<Integer> pixels(picture.rgb.values.size());
@@ -136,7 +133,7 @@ void write_integers(const std::filesystem::path& path, const Picture& picture) {
   file.bits = static_cast<int>(8 * sizeof(Integer));
   file.channels = {{"R"}, {"G"}, {"B"}};
   // OpenImageIO 2.4 would say it in a second directory, and in memory that one becomes the file's only one.
-  if (!is_tiff(path)) file.attributes.emplace_back("oiio:ColorSpace", "sRGB");
+  if (picture_format(path) != PictureFormat::tiff) file.attributes.emplace_back("oiio:ColorSpace", "sRGB");
   file.attributes.emplace_back("CompressionQuality", 95);
   if (const std::string comment = comment_on(picture.origin); !comment.empty())
     file.attributes.emplace_back("ImageDescription", comment);
@@ -180,36 +177,35 @@ void ExrRows::add(const Picture& rows) {
 void ExrRows::commit() { file_->commit(); }
 
 int usual_bits(const std::filesystem::path& file) {
-  const std::filesystem::path format = file.extension();
-  if (format == ".exr" || format == ".hdr") return 32;
-  if (is_tiff(file)) return 16;
-  constexpr const char* of_8[] = {".png", ".jpg", ".jpeg", ".webp"};
-  return std::ranges::find(of_8, format.string()) != std::end(of_8) ? 8 : 0;
+  const PictureFormat format = picture_format(file);
+  if (holds_light(format)) return 32;
+  if (format == PictureFormat::tiff) return 16;
+  return format == PictureFormat::none ? 0 : 8;
 }
 
 int chosen_bits(const std::filesystem::path& file, int bits) {
-  const std::filesystem::path format = file.extension();
+  const PictureFormat format = picture_format(file);
   const int usual = usual_bits(file), chosen = bits == 0 ? usual : bits;
-  const bool has_choice = format == ".png" || is_tiff(file);
+  const bool has_choice = format == PictureFormat::png || format == PictureFormat::tiff;
   if (usual == 0)
     throw UsageError(fmt::format(
         "cannot write {}: images are written as .exr, .hdr, .png, .jpg, .tif or .webp", file.string()));
   if (chosen != usual && (!has_choice || (chosen != 8 && chosen != 16)))
-    throw UsageError(fmt::format("{} has {} bits, not {}", format.string(), usual, chosen));
+    throw UsageError(fmt::format("{} has {} bits, not {}", file.extension().string(), usual, chosen));
   return chosen;
 }
 
 void write_picture(const std::filesystem::path& file, const Picture& picture, int bits) {
-  const std::filesystem::path format = file.extension();
+  const PictureFormat format = picture_format(file);
   const int chosen = chosen_bits(file, bits);
-  if (format == ".exr") {
+  if (format == PictureFormat::exr) {
     ExrRows exr(file, picture, picture.rgb.height);
     exr.add(picture);
     return exr.commit();
   }
-  if (format == ".hdr") return write_radiance(file, picture);
-  if (format == ".png") return write_png(file, picture, chosen);
-  if (format == ".jpg" || format == ".jpeg") return write_jpeg(file, picture);
+  if (format == PictureFormat::hdr) return write_radiance(file, picture);
+  if (format == PictureFormat::png) return write_png(file, picture, chosen);
+  if (format == PictureFormat::jpeg) return write_jpeg(file, picture);
   if (chosen == 16) return write_integers<std::uint16_t>(file, picture);
   write_integers<std::uint8_t>(file, picture);
 }

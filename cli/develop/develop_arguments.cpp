@@ -97,9 +97,8 @@ void declare(CLI::App& app, DevelopArguments& a) {
 }
 
 bool DevelopArguments::reads_picture() const {
-  return std::ranges::any_of(films, [](const std::filesystem::path& file) {
-    return file.extension() == ".exr" || file.extension() == ".hdr";
-  });
+  return std::ranges::any_of(
+      films, [](const std::filesystem::path& file) { return holds_light(picture_format(file)); });
 }
 
 std::optional<double> exposure_ev(const DevelopArguments& a) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "film/false_color.h"
+#include "film/picture_format.h"
 
 namespace vitrail {
 
@@ -21,8 +22,7 @@ struct DevelopArguments {
   bool quiet = false, strict = false, force = false;
 
   bool writes(const char* extension) const { return std::filesystem::path(output).extension() == extension; }
-  // Formats that hold the light of the scene, not that of a screen.
-  bool writes_light() const { return writes(".exr") || writes(".hdr"); }
+  bool writes_light() const { return holds_light(picture_format(output)); }
   bool reads_picture() const;  // in place of films
 };
 

@@ -8,6 +8,7 @@
 #include "film/develop.h"
 #include "film/jpeg_file.h"
 #include "film/own_picture.h"
+#include "film/picture_format.h"
 #include "film/png_file.h"
 #include "film/tone_curves.h"
 #include "scene/system/diagnostics.h"
@@ -21,11 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Pictures of the colours alone that render writes itself. Other formats, and denoising, need libraries that
-// take time and memory to load: another program writes them.
-bool writes_itself(const fs::path& picture) {
-  return picture.extension() == ".png" || picture.extension() == ".jpg" || picture.extension() == ".jpeg";
-}
+bool writes_itself(const fs::path& picture) { return written_by_render(picture_format(picture)); }
 
 void develop_film(const RenderArguments& a, const fs::path& file, const fs::path& picture,
                   int spectral_bins) {
@@ -42,12 +39,11 @@ void develop_film(const RenderArguments& a, const fs::path& file, const fs::path
             picture.string(), ev);
     }
     make_straight(developed);
-    if (picture.extension() != ".png") return write_jpeg(picture, developed);
+    if (picture_format(picture) == PictureFormat::jpeg) return write_jpeg(picture, developed);
     return write_png(picture, developed);
   }
   std::vector<std::string> arguments{file.string(), "-o", picture.string(), "--quiet"};
-  if (picture.extension() != ".exr" && picture.extension() != ".hdr")
-    arguments.insert(arguments.end(), {"--exposure", "fit"});
+  if (!holds_light(picture_format(picture))) arguments.insert(arguments.end(), {"--exposure", "fit"});
   if (spectral_bins > 0 && picture.extension() == ".exr") arguments.push_back("--spectral");
   if (a.denoised) arguments.push_back("--denoise");
   run_program("vitrail-develop", arguments);

@@ -15,6 +15,7 @@
 #include "cli/common/switching_glazing.h"
 #include "cli/render/display_server.h"
 #include "cli/render/quality.h"
+#include "film/picture_format.h"
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/terminal.h"
@@ -146,11 +147,12 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   require_renderable(a);
   a.name_outputs();
   const std::string extension = a.output.extension().string();
-  constexpr const char* known[] = {".exr", ".hdr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".film"};
+  const PictureFormat format = picture_format(a.output);
+  const bool is_picture = format != PictureFormat::none && format != PictureFormat::webp;
   const bool is_table = extension == ".csv" && !a.options.picture.sensors.empty();
   if (!a.options.picture.sensors.empty() && !is_table && extension != ".film")
     throw UsageError("the output of --sensors must end in .csv or .film: " + a.output.string());
-  if (!is_table && std::ranges::find(known, extension) == std::end(known))
+  if (!is_table && !is_picture && extension != ".film")
     throw UsageError("the output must end in .exr, .hdr, .png, .jpg, .tif or .film: " + a.output.string());
   if (a.denoised && (is_table || extension == ".film"))
     throw UsageError("--denoise is for pictures, not for .csv and .film: " + a.output.string());

@@ -6,6 +6,7 @@
 
 #include "farm/files/timeline.h"
 #include "farm/plan/job_manifest.h"
+#include "film/picture_format.h"
 #include "film/picture_memory.h"
 #include "scene/system/machine_limits.h"
 #include "tracer/intersect/embree_domain.h"
@@ -50,10 +51,7 @@ constexpr std::uint64_t image_library = 136 << 20;
 std::uint64_t developing_bytes(const std::filesystem::path& picture, const PixelRect& crop,
                                std::uint64_t film_bytes, bool denoises) {
   constexpr std::uint64_t denoiser = 70 << 20, denoising_a_pixel = 800;
-  const std::string kind = picture.extension().string();
-  constexpr const char* by_itself[] = {".png", ".jpg", ".jpeg", ".exr", ".hdr", ".csv"};
-  const bool by_library = std::ranges::find(by_itself, kind) == std::end(by_itself);
-  return develop_bytes + (by_library ? image_library : 0) + film_bytes +
+  return develop_bytes + (needs_image_library(picture_format(picture)) ? image_library : 0) + film_bytes +
          (denoises ? denoiser + denoising_a_pixel * pixels_of(crop) : film_bytes / 8 * 5);
 }
 
@@ -66,11 +64,10 @@ std::uint64_t picture_bytes(const Manifest& m, const RenderOptions& options, con
   constexpr std::uint64_t a_pixel = 24, encoder = 2 << 20;
   const PixelRect& c = m.film.crop;
   const std::uint64_t by_rows = exr_memory(m.film, plan.key);
-  const std::string kind = picture.extension().string();
+  const PictureFormat format = picture_format(picture);
   if (!options.outputs.denoises) {
-    if (kind == ".png" || kind == ".jpg" || kind == ".jpeg")
-      return plan.scene.resident + a_pixel * pixels_of(c) + encoder + by_rows;
-    if (kind == ".exr") return plan.scene.resident + by_rows + develop_bytes;
+    if (written_by_render(format)) return plan.scene.resident + a_pixel * pixels_of(c) + encoder + by_rows;
+    if (format == PictureFormat::exr) return plan.scene.resident + by_rows + develop_bytes;
   }
   return plan.scene.resident + developing_bytes(picture, c, plan.film.bytes, options.outputs.denoises);
 }
