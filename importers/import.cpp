@@ -9,6 +9,7 @@
 #include "importers/reading/coincident_lamps.h"
 #include "importers/reading/default_view.h"
 #include "importers/reading/foreign_text.h"
+#include "importers/reading/given_glazing.h"
 #include "importers/reading/given_sky.h"
 #include "importers/reading/missing_files.h"
 #include "scene/records/curve_uses.h"
@@ -92,6 +93,7 @@ ImportedScene read_scene_file(const std::filesystem::path& file, MeshMemory memo
 
 void complete_scene(ImportedScene& imported, const ImportOptions& options) {
   drop_coincident_lamps(imported);
+  give_glazing(imported, options.glazing);
   if (!options.sky.empty()) replace_sky(imported, parse_sky(options.sky));
   report_tubes(imported);
 }

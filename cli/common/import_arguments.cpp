@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common/import_arguments.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "cli/common/sizes.h"
@@ -9,6 +11,12 @@
 namespace vitrail {
 
 namespace {
+
+// Why a word is no name with something behind "=".
+std::string has_name(const std::string& word, const char* form) {
+  const std::size_t at = word.find('=');
+  return at == std::string::npos || at == 0 ? fmt::format("takes {}, not '{}'", form, word) : std::string();
+}
 
 void declare_program_limits(CLI::App& app, ImportArguments& a) {
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
@@ -37,10 +45,7 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
          "name=value: set a parameter of a Mitsuba scene, or declare a number or text of a POV-Ray scene "
          "(clock=0.5: the time of an animation); may be repeated")
       ->allow_extra_args(false)
-      ->check([](const std::string& word) {
-        const std::size_t at = word.find('=');
-        return at == std::string::npos || at == 0 ? "takes name=value, not '" + word + "'" : std::string();
-      });
+      ->check([](const std::string& word) { return has_name(word, "name=value"); });
   app.add_option("--camera", a.camera,
                  "which sensor of a Mitsuba scene, or camera of a glTF, FBX or COLLADA, from 0")
       ->check(CLI::Range(0, 999'999))
@@ -57,6 +62,12 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
       "2026-06-21T12:00+02:00; default of up: the camera's. The sky is clear, or with cie=1 … 15 one "
       "of the CIE's, or with diffuse=210W,direct=640W (or lx) Perez's; paris.epw@06-21T12:00 is an "
       "hour of a weather file (.epw, .wea)");
+  app.add_option(
+         "--glazing", a.glazing,
+         "MATERIAL=FILE: make this material of the scene panes: a system (.json) or a product, as "
+         "of vitrail glazing. A surface of it is the whole unit, its front is outside; may be repeated")
+      ->allow_extra_args(false)
+      ->check([](const std::string& word) { return has_name(word, "MATERIAL=FILE"); });
   app.add_option("--include-limit", a.include_limit,
                  "most text, in all, of files that a scene includes more than once (default: 1G)");
   app.add_option("--include", a.include_folders,
@@ -90,7 +101,7 @@ RgbMethod rgb_method(const std::string& method) {
 }
 
 ImportOptions import_options(const ImportArguments& a) {
-  ImportOptions options{{}, a.missing == "replace", a.sky, a.camera};
+  ImportOptions options{{}, a.missing == "replace", a.sky, a.glazing, a.camera};
   options.all_media = a.all_media;
   for (const std::string& word : a.definitions) {
     const std::size_t at = word.find('=');
@@ -110,6 +121,7 @@ std::vector<std::string> arguments_of(const ImportArguments& a) {
   if (a.camera != 0) words.insert(words.end(), {"--camera", std::to_string(a.camera)});
   if (a.missing != "refuse") words.push_back("--missing=" + a.missing);
   if (!a.sky.empty()) words.push_back("--sky=" + a.sky);
+  for (const std::string& glazing : a.glazing) words.push_back("--glazing=" + glazing);
   if (a.lamps_are_off()) words.push_back("--lamps=off");
   if (!a.include_limit.empty()) words.push_back("--include-limit=" + a.include_limit);
   for (const std::string& folder : a.include_folders) words.push_back("--include=" + folder);

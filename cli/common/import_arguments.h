@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// -D name=value, --camera N, --missing, --sky, --lamps, --include, --root, --all-media and limits: what a
-// scene is loaded with.
+// -D name=value, --camera N, --missing, --sky, --glazing, --lamps, --include, --root, --all-media and limits:
+// what a scene is loaded with.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,7 +13,7 @@
 namespace vitrail {
 
 struct ImportArguments {
-  std::vector<std::string> definitions;
+  std::vector<std::string> definitions, glazing;
   int camera = 0;
   std::string missing = "refuse", sky, include_limit, root;
   std::vector<std::string> include_folders;

@@ -7,13 +7,15 @@ namespace {
 
 constexpr Heading scene{
     "How the scene is read",
-    "define=NAME=VALUE camera sky=SKY lamps rgb all-media missing include=FOLDER root=FOLDER "
+    "define=NAME=VALUE camera sky=SKY glazing=MATERIAL=FILE lamps rgb all-media missing include=FOLDER "
+    "root=FOLDER "
     "include-limit=SIZE token-limit=COUNT call-limit=COUNT nesting-limit=COUNT write-limit=SIZE no-cache "
     "strict"};
-constexpr Heading scene_of_render{"How the scene is read",
-                                  "define=NAME=VALUE rgb all-media missing include=FOLDER "
-                                  "root=FOLDER include-limit=SIZE token-limit=COUNT "
-                                  "call-limit=COUNT nesting-limit=COUNT write-limit=SIZE no-cache strict"};
+constexpr Heading scene_of_render{
+    "How the scene is read",
+    "define=NAME=VALUE glazing=MATERIAL=FILE rgb all-media missing include=FOLDER "
+    "root=FOLDER include-limit=SIZE token-limit=COUNT "
+    "call-limit=COUNT nesting-limit=COUNT write-limit=SIZE no-cache strict"};
 constexpr Heading meshes{"Changes to its meshes",
                          "tessellate=SEGMENTS repair orient subdivide=LEVELS decimate=FRACTION"};
 

@@ -24,8 +24,9 @@ struct ImportOptions {
   std::map<std::string, std::string> definitions;
   bool replace_missing = false;  // go on without images and meshes that are not there (missing_files.h)
   std::string sky;  // in place of all light from infinitely far (given_sky.h); "": as the file says
-  int camera = 0;   // which of a Mitsuba scene's sensors, in the file's order, from 0
-  std::uint64_t include_limit = 1 << 30;     // bytes of text that is included again (included_text.h)
+  std::vector<std::string> glazing{};     // panes for materials (given_glazing.h); none: as the file says
+  int camera = 0;                         // which of a Mitsuba scene's sensors, in the file's order, from 0
+  std::uint64_t include_limit = 1 << 30;  // bytes of text that is included again (included_text.h)
   std::vector<std::string> include_folders;  // searched for files of a POV-Ray scene, after its own folder
   ProgramLimits program;
   bool all_media = false;  // also those that the scene's integrator passes by (pbrt's "path")
