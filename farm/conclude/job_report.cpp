@@ -8,6 +8,7 @@
 #include "farm/run/checkpoint.h"
 #include "farm/run/progress.h"
 #include "scene/system/atomic_file.h"
+#include "scene/system/progress_line.h"
 #include "scene/system/resource_usage.h"
 #include "scene/system/say.h"
 
@@ -23,8 +24,6 @@ std::uint64_t pixels_without_samples(const Film& film) {
     if (film.samples(p) == 0) ++none;
   return none;
 }
-
-double minutes(double s) { return s / 60; }
 
 // From what was done until the time limit. The first samples of a picture may be cheaper than its others.
 void print_estimate(RenderStats& s, const Job& job, std::uint64_t samples_before) {
@@ -42,9 +41,9 @@ void print_estimate(RenderStats& s, const Job& job, std::uint64_t samples_before
   if (!(left > 0 && here > 0)) return;
   s.expected_s = s.wall_s * left / here;
   show(
-      "time: about {:.1f} min on {} × {} threads for {:.3g} million samples, by {:.3g} million that took "
+      "time: about {} on {} × {} threads for {:.3g} million samples, by {:.3g} million that took "
       "{:.1f} s\n",
-      minutes(s.expected_s), s.ranks, s.threads, left * 1e-6, here * 1e-6, s.wall_s);
+      duration_in_words(s.expected_s), s.ranks, s.threads, left * 1e-6, here * 1e-6, s.wall_s);
 }
 
 // What the picture lacks, or has too little of.

@@ -139,7 +139,7 @@ void warn_of_depth(const RenderOptions& options, const Manifest& m) {
 
 void print_start(const RenderOptions& options, const Manifest& m, const Goal& goal, int ranks, int threads) {
   const auto now = std::chrono::steady_clock::now();
-  if (options.resources.time_limit_s > 0 && !options.outputs.quiet &&
+  if (options.resources.time_limit_s > 0 && !options.outputs.quiet && !options.outputs.dry_run &&
       limit_start(options, now) > options.resources.start)
     say("vitrail: {} of --time {} went by before tracing began; tracing still gets half of it. Partition "
         "once and render the bundle to save that time\n",
