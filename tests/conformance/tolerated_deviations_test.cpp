@@ -11,7 +11,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
-namespace vitrail::courtesies_test {
+namespace vitrail::tolerated_deviations_test {
 namespace {
 
 struct Case {
@@ -124,7 +124,7 @@ bool is_of_a_row(const std::string& message) {
   return false;
 }
 
-TEST(Courtesies, EachRowWithEachReader) {
+TEST(ToleratedDeviations, EachRowWithEachReader) {
   const test::TemporaryDirectory folder;
   const auto write = [&](const std::string& name, const std::string& text) {
     std::ofstream(folder / name) << text;
@@ -162,4 +162,4 @@ TEST(Courtesies, EachRowWithEachReader) {
 }
 
 }  // namespace
-}  // namespace vitrail::courtesies_test
+}  // namespace vitrail::tolerated_deviations_test

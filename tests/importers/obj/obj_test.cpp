@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Geometry of OBJ files, their courtesies, what is refused.
+// Geometry of OBJ files, tolerated deviations, what is refused.
 #include <cmath>
 #include <cstdlib>
 
