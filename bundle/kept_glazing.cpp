@@ -41,7 +41,7 @@ std::vector<KeptGlazing> read_glazings(const std::filesystem::path& bundle, cons
   };
   if (!std::filesystem::exists(file)) {
     require(manifest.switching_glazings == 0,
-            "it is lost: the bundle has glass that switches; partition the scene again");
+            "it is lost: the bundle has switchable glazing; partition the scene again");
     return {};
   }
   const Json json = read_checked_json(file, "the glazing");

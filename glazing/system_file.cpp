@@ -166,7 +166,7 @@ class SystemReader {
       layer.states.push_back({state.temperature_c, state.rows});
   }
 
-  // Glass that switches: its states are panes, or one is tinted from the clear one.
+  // Switchable glazing: its states are panes, or one is tinted from the clear one.
   void add_states(const JsonNode& layer, const fs::path& folder) {
     layer.only({"states", "state", "photochromic", "flipped", "name", "heat"});
     const JsonNode list = layer.at("states");

@@ -49,7 +49,7 @@ GlazingSetting parse_setting(const std::string& text) {
   if (kind == std::end(kinds))
     refuse(
         "these can be set: scale, sun, turbidity or sky of lights; color or roughness of materials; state, "
-        "temperature, uv or seconds of glass that switches");
+        "temperature, uv or seconds of switchable glazing");
   GlazingSetting setting{text.substr(0, dot), kind->quantity};
   const char* end = number.data() + number.size();
   const auto parsed = std::from_chars(number.data(), end, setting.value);
@@ -59,7 +59,7 @@ GlazingSetting parse_setting(const std::string& text) {
   return setting;
 }
 
-// The file of a sheet of glass that switches, with its state behind it; empty for others.
+// The file of a sheet of switchable glazing, with its state behind it; empty for others.
 std::string switching_file(const Material& material) {
   const auto* measured = std::get_if<MeasuredMaterial>(&material.model);
   return measured && measured->sheet ? measured->filename : "";
@@ -110,7 +110,7 @@ std::vector<KeptGlazing> switching_glazings(const Scene& scene) {
   };
   for (const Material& material : scene.materials) {
     const auto* sides = std::get_if<TwoSidedMaterial>(&material.model);
-    if (!sides) continue;  // glass that switches has two
+    if (!sides) continue;  // switchable glazing has two
     const std::string file = switching_file(scene.materials.at(sides->front.value));
     if (file.empty() || file != switching_file(scene.materials.at(sides->back.value))) continue;
     const auto& system = system_of(file);
@@ -176,7 +176,7 @@ std::vector<SetSheet> sheets_under(const std::vector<GlazingSetting>& settings,
     if (!used[i])
       throw UsageError(fmt::format("--set {}.{}: {}", settings[i].name, kind_of(settings[i].quantity).name,
                                    glazings.empty()
-                                       ? "the scene has no glass that switches"
+                                       ? "the scene has no switchable glazing"
                                        : "no glass has that; there is " + list_of(glazings, file)));
   return sheets;
 }

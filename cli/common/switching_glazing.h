@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Glass that switches, from a scene into a bundle and set there.
+// Switchable glazing, from a scene into a bundle and set there.
 #pragma once
 
 #include <filesystem>

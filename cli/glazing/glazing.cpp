@@ -44,7 +44,7 @@ void add_options(CLI::App& app, Arguments& a) {
       ->allow_extra_args(false);
   app.add_option("--theta", a.theta_deg, "angles of incidence, degrees from the normal; default: 0")
       ->check(CLI::Range(0.0, 90.0));
-  app.add_option("--state", a.state, "state of glass that switches: 0 is clear, 1 is dark")
+  app.add_option("--state", a.state, "state of switchable glazing: 0 is clear, 1 is dark")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--temperature", a.temperature_c, "temperature of thermochromic glass, °C");
   app.add_option("--standard", a.standard, "a WINDOW standard (.std); default: NFRC 300-2003, built in");

@@ -21,7 +21,7 @@ struct RenderArguments {
   std::string memory, crop, integrator, aov, aov_space, camera, look_at, target_error, quality,
       progress = "auto";
   std::vector<std::string> settings;      // of --set
-  std::vector<std::string> glazing;       // those of them that are of glass that switches
+  std::vector<std::string> glazing;       // those of them that are of switchable glazing
   std::vector<std::string> light_groups;  // of --light-group
   bool alpha = false, quiet = false, strict = false, denoised = false, cached = true;
   ImportArguments imports;

@@ -61,9 +61,9 @@ void declare_sample_options(CLI::App& app, SampleArguments& a) {
   app.add_option(
          "--roulette", a.roulette,
          "when Russian roulette may end a path, after the first surface that is no mirror or clear glass: "
-         "once it carries less than a camera ray (early), less than a quarter of that (usual), or after "
+         "once it carries less than a camera ray (early), less than a quarter of that (default), or after "
          "254 events (never). Early is quicker and noisier, never is slower; the mean is the same")
-      ->check(CLI::IsMember({"early", "usual", "never"}))
+      ->check(CLI::IsMember({"early", "default", "never"}))
       ->capture_default_str();
   app.add_option("--wavelengths", a.wavelengths,
                  "wavelengths of a path: 4, or 1, which has more colour noise")

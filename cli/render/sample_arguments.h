@@ -10,7 +10,7 @@
 namespace vitrail {
 
 struct SampleArguments {
-  std::string filter, texture_filter, roulette = "usual", light_sampling = "tree";
+  std::string filter, texture_filter, roulette = "default", light_sampling = "tree";
   bool splat = false, one_sequence = false;
   int wavelengths = 4;
   std::uint32_t light_candidates = SamplingChoices{}.light_candidates;

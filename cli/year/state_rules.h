@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which state glass that switches is in, hour by hour.
+// Which state switchable glazing is in, hour by hour.
 #pragma once
 
 #include <filesystem>

@@ -138,7 +138,7 @@ def main():
     parser.add_argument("--height", type=int, default=540)
     parser.add_argument("--spp", type=int, default=64, help="samples per pixel (default 64)")
     parser.add_argument(
-        "--switching", action="store_true", help="glaze the door with glass that switches (glazing/)"
+        "--switching", action="store_true", help="glaze the door with switchable glazing (glazing/)"
     )
     parser.add_argument("--lamps", type=float, default=1, metavar="F", help="factor of the lamps' light; 0: off")
     args = parser.parse_args()

@@ -201,7 +201,7 @@ TEST_F(SetGlazing, ASceneWithoutSaysSo) {
   EXPECT_FALSE(std::filesystem::exists(directory / "plain.vit" / "glazing.json"));
   const CommandResult result = render("plain.vit", "p.film", "--set window.state=0.5");
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.output, HasSubstr("has no glass that switches"));
+  EXPECT_THAT(result.output, HasSubstr("has no switchable glazing"));
 }
 
 }  // namespace

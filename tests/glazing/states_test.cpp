@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Glass that switches.
+// Switchable glazing.
 #include "glazing/states.h"
 
 #include <gtest/gtest.h>

@@ -361,7 +361,7 @@ TEST_F(OnePictureOfSamples, HoweverItIsRendered) {
 TEST_F(OnePictureOfSamples, WaysDoNotMix) {
   ASSERT_EQ(render("usual.film", 1, "").status, 0);
   ASSERT_EQ(render("same.film", 1,
-                   "--roulette usual --wavelengths 4 --light-sampling tree --light-candidates 4 "
+                   "--roulette default --wavelengths 4 --light-sampling tree --light-candidates 4 "
                    "--texture-filter none")
                 .status,
             0);
