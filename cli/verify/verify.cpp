@@ -51,8 +51,10 @@ void print(const std::filesystem::path& bundle, const VerifyResult& r, bool quie
   std::set<std::string> damaged;
   for (const VerifyFinding& f : r.problems) damaged.insert(f.file);
   const std::string verdict =
-      r.problems.empty() ? "whole"
-                         : fmt::format("{} problems in {} places", r.problems.size(), damaged.size());
+      r.problems.empty()
+          ? "whole"
+          : fmt::format("{} problem{} in {} place{}", r.problems.size(), r.problems.size() == 1 ? "" : "s",
+                        damaged.size(), damaged.size() == 1 ? "" : "s");
   show("{}: {}; {} files, {}, {:.2f} s, {}/s\n", bundle.string(), verdict, r.files, format_bytes(r.bytes),
        r.wall_s, format_bytes(static_cast<std::uint64_t>(bytes_per_s(r))));
 }
