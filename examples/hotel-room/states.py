@@ -5,6 +5,7 @@
 Sample runs:
     ./states.py -o /tmp/states                           clear, half and dark
     ./states.py -o /tmp/states --states 0 0.25 0.5 0.75 1 --spp 256 --detail 1
+    ./states.py -o /tmp/states --spp 64 --denoise        without noise
     ./states.py -o /tmp/states --integrator direct       light from sun, sky and lamps alone
 
 The scene is partitioned once; each state is set when it is rendered. A run goes on where another was stopped.
@@ -37,13 +38,14 @@ def main():
     parser.add_argument("--height", type=int, default=180)
     parser.add_argument("--spp", type=int, default=128, help="samples per pixel (default 128)")
     parser.add_argument("--integrator", choices=["path", "direct"], default="path")
+    parser.add_argument("--denoise", action="store_true", help="by Intel Open Image Denoise (docs/how-to/denoise.md)")
     parser.add_argument("--vitrail", default=which("vitrail") or "vitrail", help="the program, if not on the PATH")
     args = parser.parse_args()
 
     scene, bundle = args.output / "hotel-room.pbrt", args.output / "hotel-room.vit"
     write_scene(args.output, args.detail, args.width, args.height, args.spp, switching=True)
     run(args.vitrail, "partition", scene, "-o", bundle)
-    options = ["--spp", args.spp, "--integrator", args.integrator]
+    options = ["--spp", args.spp, "--integrator", args.integrator, *["--denoise"] * args.denoise]
     pictures = [args.output / f"{args.integrator}-{state:g}.png" for state in args.states]
     for state, picture in zip(args.states, pictures):
         render(args.vitrail, bundle, picture, state, options)

@@ -120,6 +120,25 @@ INSTANTIATE_TEST_SUITE_P(Examples, Generators,
                                          Case{"terrain", 100'000, "--plants none"}),
                          name_of);
 
+// Those that take no number of triangles.
+TEST(SmallGenerators, WriteTheSameEachTime) {
+  const TemporaryDirectory directory;
+  for (const std::string scene : {"cloud/cloud.pbrt --cells 16", "product/product.gltf --detail 0.2"}) {
+    const std::string file = scene.substr(0, scene.find(' ')), options = scene.substr(file.size()),
+                      folder = file.substr(0, file.find('/'));
+    for (const std::string run_of : {"first/", "second/"}) {
+      const CommandResult made =
+          run(fmt::format("/usr/bin/python3 '{}/examples/{}/generate.py' -o '{}'{}", source_dir(), folder,
+                          (directory / (run_of + folder)).string(), options));
+      ASSERT_EQ(made.status, 0) << made.output;
+    }
+    const CommandResult exact =
+        run(vitrail("inspect --strict '" + (directory / ("first/" + file)).string() + "'"));
+    EXPECT_EQ(exact.status, 0) << exact.output;
+  }
+  EXPECT_EQ(digest(directory / "first"), digest(directory / "second"));
+}
+
 // Of all triangles of a material in the world: their number, area, centre and a wave summed over them, which
 // notices what is elsewhere.
 struct Matter {

@@ -142,13 +142,13 @@ TEST_F(GlazingMaterial, IsGivenByName) {
       write_text(directory / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Window\nf 1 2 3\n");
   ImportOptions options;
   options.glazing = {"Window=" + (directory / "unit.json").string()};
-  const Scene scene = import_scene(obj, {}, {}, options).scene;
+  const Scene scene = import_scene(obj, MeshMemory{}, {}, options).scene;
   EXPECT_GT(transmittance_of(scene), 0.75f);
   EXPECT_EQ(scene.materials.at(scene.shapes.at(0).material.value).name, "Window");
   EXPECT_EQ(std::ranges::count(scene.materials, std::string("Window"), &Material::name), 1);
   options.glazing = {"Windw=" + (directory / "unit.json").string()};
   try {
-    import_scene(obj, {}, {}, options);
+    import_scene(obj, MeshMemory{}, {}, options);
     ADD_FAILURE() << "no material has this name";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("did you mean \"Window\"?"));
