@@ -13,6 +13,7 @@
 #include "bundle/matte_names.h"
 #include "bundle/packs.h"
 #include "images/image_files.h"
+#include "partitioner/arena_threads.h"
 #include "partitioner/caching/bundle_cache.h"
 #include "partitioner/caching/world_key.h"
 #include "partitioner/cutting/kd_plan.h"
@@ -27,7 +28,6 @@
 #include "partitioner/spilling/spill_scene.h"
 #include "partitioner/writing/bundle_directory.h"
 #include "scene/shapes/deferred_mesh.h"
-#include "scene/system/machine_limits.h"
 #include "scene/system/resource_usage.h"
 
 namespace vitrail {
@@ -399,7 +399,7 @@ PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
   PartitionOptions chosen = options;
   if (chosen.memory_bytes == 0) chosen.memory_bytes = memory_limit().share();
   BundleDirectory directory(out, options.durable);
-  tbb::task_arena arena(threads_for(options.threads));
+  tbb::task_arena arena(arena_threads(options.threads));
   PartitionStats stats =
       arena.execute([&] { return Partitioner(scene, directory.path(), chosen, progress).run(); });
   directory.commit();

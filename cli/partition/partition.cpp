@@ -32,11 +32,11 @@
 #include "importers/reading/back_to_back_faces.h"
 #include "importers/reading/lamps_off.h"
 #include "partitioner/appearance/appearance.h"
+#include "partitioner/arena_threads.h"
 #include "partitioner/caching/file_cache.h"
 #include "partitioner/least_memory.h"
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/system/input_files.h"
-#include "scene/system/machine_limits.h"
 #include "scene/system/memory_guard.h"
 #include "scene/system/output_place.h"
 #include "scene/system/progress_line.h"
@@ -143,7 +143,7 @@ ProgressManner manner_of(const PartitionArguments& a) {
 ImportedScene read(const PartitionArguments& a, std::uint64_t kept_bytes, Stage& stage) {
   Watch reading(manner_of(a), stage);
   stage = {.what = "reading the scene", .start_bytes = static_cast<double>(resident_bytes())};
-  tbb::task_arena arena(threads_for(a.options.threads));
+  tbb::task_arena arena(arena_threads(a.options.threads));
   return arena.execute([&] {
     return read_scene_file(
         a.input, MeshMemory(kept_bytes),
