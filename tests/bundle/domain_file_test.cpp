@@ -70,6 +70,16 @@ TEST_F(DomainFile, EqualContentEqualHash) {
   EXPECT_NE(MappedDomain(file).hash(), hash);
 }
 
+TEST(DomainHeaders, AreCheckedWithTheirTable) {
+  const DomainHeader header{};
+  DomainHeader other{};
+  other.version = header.version + 1;
+  const std::array<std::byte, 8> table{};
+  EXPECT_EQ(layout::checksum_of(header, table), layout::checksum_of(header, table));
+  EXPECT_NE(layout::checksum_of(header, table), layout::checksum_of(other, table));
+  EXPECT_NE(layout::checksum_of(header, table), layout::checksum_of(header, std::span(table).first(4)));
+}
+
 TEST_F(DomainFile, MissingFileIsTheMachine) { EXPECT_THROW(MappedDomain{file}, MachineError); }
 
 // Files whose checksums are right and whose references are not.
@@ -120,6 +130,9 @@ TEST_F(DomainFile, ItsBoundsAreThoseOfBothRoots) {
   const Bounds3f box = content_bounds(view_of(content));
   EXPECT_EQ(box.lower, (Point3f{-20, -20, -20}));
   EXPECT_EQ(box.upper, (Point3f{30, 30, 30}));
+  EXPECT_EQ(reach_of(view_of(content)), 30);
+  content.nodes[0].lower[1][0] = -40;
+  EXPECT_EQ(reach_of(view_of(content)), 40);
 }
 
 TEST_F(DomainFile, TreeMayNotBeTooDeep) {

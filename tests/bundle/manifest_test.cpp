@@ -236,6 +236,25 @@ TEST_F(ManifestFile, ACellThatDomainsShare) {
   EXPECT_THROW(written_and_read(m), std::exception);
 }
 
+TEST_F(ManifestFile, TheHashOfRecordsSeesEachOfThem) {
+  const std::uint64_t hash = hash_of_records(sample_manifest());
+  EXPECT_EQ(hash_of_records(sample_manifest()), hash);
+  const std::vector<std::function<void(Manifest&)>> changes{
+      [](Manifest& m) { m.materials.push_back(m.materials[0]); },
+      [](Manifest& m) { m.lights.pop_back(); },
+      [](Manifest& m) { m.area_lights[0].scale += 1; },
+      [](Manifest& m) { m.media[0].scale += 1; },
+      [](Manifest& m) { std::get<OrthographicCamera>(m.camera).camera_to_world.m[0][3] += 1; },
+      [](Manifest& m) { m.film.width += 1; },
+      [](Manifest& m) { m.texture_files.at(0).hash += 1; },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    Manifest m = sample_manifest();
+    changes[i](m);
+    EXPECT_NE(hash_of_records(m), hash) << "change " << i;
+  }
+}
+
 TEST_F(ManifestFile, WithoutAnyTriangle) {
   Manifest m;
   m.domains.resize(1);
@@ -300,6 +319,9 @@ TEST_F(ManifestFile, WrongContentIsFound) {
       [](Manifest& m) { m.attributes = max_attributes + 1; },
       [](Manifest& m) { m.emissive_triangles[0].triangle = 11; },
       [](Manifest& m) { m.emissive_triangles[0].area_light = 2; },
+      [](Manifest& m) {
+        m.emissive_quadrics.push_back({{Quadric{QuadricKind::sphere, 0.5, 0.25}}});
+      },
       [](Manifest& m) { m.offset.y = nan; },
       [](Manifest& m) { std::get<PointLight>(m.lights[0].model).position.x = nan; },
       [](Manifest& m) { std::get<OrthographicCamera>(m.camera).camera_to_world.m[1][1] = nan; },

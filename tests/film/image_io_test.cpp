@@ -9,8 +9,10 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <random>
 
+#include "film/picture_attributes.h"
 #include "images/image_files.h"
 #include "scene/spectra/color.h"
 #include "scene/system/diagnostics.h"
@@ -33,6 +35,12 @@ Picture picture() {
 std::string bytes(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(ImageIo, MatricesOfOpenExrHaveRowsForColumns) {
+  std::array<float, 16> m{};
+  std::iota(m.begin(), m.end(), 0.0f);
+  EXPECT_EQ(transposed(m), (std::array<float, 16>{0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15}));
 }
 
 TEST(ImageIo, ExrKeepsEveryBitAndTheMetadata) {

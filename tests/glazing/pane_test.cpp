@@ -12,6 +12,7 @@
 #include "glazing/thin_film.h"
 #include "scene/geometry/pi.h"
 #include "scene/spectra/named_spectra.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail::pane_test {
 namespace {
@@ -25,6 +26,15 @@ TEST(Pane, OfTransparentGlassReflectsTwice) {
   EXPECT_NEAR(v.rf, 2 * rho / (1 + rho), 1e-12);
   EXPECT_NEAR(v.t + v.rf, 1, 1e-12);
   EXPECT_EQ(v.rf, v.rb);
+}
+
+TEST(Pane, OfAnIndexIsAsThickAsItsProductUnlessItIsGiven) {
+  Product product;
+  product.index = {{550, 1.52, 0}};
+  EXPECT_THROW(pane_of(product, 0), Error);
+  product.thickness_mm = 0.5;
+  EXPECT_EQ(std::get<StackPane>(pane_of(product, 0)).slabs.at(0).thickness_mm, 0.5);
+  EXPECT_EQ(std::get<StackPane>(pane_of(product, 0.25)).slabs.at(0).thickness_mm, 0.25);
 }
 
 // p light at Brewster's angle is let through whole.

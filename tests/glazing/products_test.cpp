@@ -212,6 +212,26 @@ TEST(Products, AreFoundByName) {
   EXPECT_THROW(read_named_product(file.string() + "#Nothing"), Error);
 }
 
+// Twenty names are shown at most.
+TEST(Products, AreListedWhereNoneIsNamedSo) {
+  const TemporaryDirectory directory;
+  std::string text;
+  const auto said = [&](int count) {
+    for (int i = 0; i < count; ++i)
+      text += fmt::format(
+          "WindowMaterial:Glazing, Pane {}, SpectralAverage, , 0.006, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1;\n", i);
+    try {
+      read_named_product(write_text(directory / "windows.idf", text).string() + "#Nothing");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("it was found");
+  };
+  EXPECT_THAT(said(20),
+              AllOf(HasSubstr("\"Pane 0\", \"Pane 1\""), HasSubstr("\"Pane 19\""), Not(HasSubstr("…"))));
+  EXPECT_THAT(said(1), HasSubstr("\"Pane 19\", …"));
+}
+
 // A building has many panes, of which one is asked for.
 TEST(Products, AreReadBesideSomeThatCannotBe) {
   const TemporaryDirectory directory;

@@ -124,6 +124,8 @@ TEST(States, ComeFromASystemFile) {
   GlazingSystem lit = read_system({(directory / "unit.json").string()}).system;
   EXPECT_TRUE(set(lit, Quantity::uv, 3));
   EXPECT_NEAR(*value_of(lit, Quantity::state), 0.75, 1e-12);
+  EXPECT_TRUE(set(lit, Quantity::temperature, 50));
+  EXPECT_NEAR(*value_of(lit, Quantity::state), 0.75, 1e-12) << "warmth speeds up what has an activation";
   const std::string warm = R"({"pane": "windows.idf", "product": "Warm"})";
   EXPECT_NEAR(visible_t(warm, 25, true), visible_t(R"({"pane": "pane.dat"})", -1, false), 1e-9);
   EXPECT_NEAR(visible_t(warm, 60, true), 0.128, 1e-9);

@@ -105,7 +105,7 @@ TEST(GlazingSystem, ReadsItsFile) {
   write_text(directory / "n.txt", index_text);
   write_text(directory / "unit.json", R"({"name": "unit", "layers": [
     {"pane": "pane.dat", "flipped": true}, {"gap_mm": 16, "gas": "argon"},
-    {"stack": [{"index": 2.0, "thickness_nm": 30}, {"pane": "pane.dat"}, {"index": "n.txt", "thickness_mm": 0.76},
+    {"stack": [{"index": 2.0, "thickness_nm": 0.5}, {"pane": "pane.dat"}, {"index": "n.txt", "thickness_mm": 0.76},
                {"pane": "pane.dat", "thickness_mm": 4}]}]})");
   const ReadSystem read =
       read_system({(directory / "unit.json").string(), (directory / "pane.dat").string()});
@@ -116,7 +116,8 @@ TEST(GlazingSystem, ReadsItsFile) {
   const auto& stack = std::get<StackPane>(read.system.layers[1].pane);
   EXPECT_EQ(stack.slabs.size(), 3u);
   ASSERT_EQ(stack.films.size(), 4u);
-  EXPECT_EQ(stack.films[0].size(), 1u);
+  ASSERT_EQ(stack.films[0].size(), 1u);
+  EXPECT_EQ(stack.films[0][0].thickness_nm, 0.5);
   EXPECT_EQ(stack.slabs[2].thickness_mm, 4);
 }
 
@@ -129,6 +130,7 @@ TEST(GlazingSystem, SaysWhatIsWrongWithItsFile) {
         "[{\"pane\": \"clear.dat\", \"thickness_mm\": 10}]", "[{\"pane\": \"pane.txt\", \"fliped\": true}]",
         "[{\"pane\": \"pane.txt\"}, {\"gap_mm\": 0}]",
         "[{\"stack\": [{\"index\": 1.5, \"thickness_nm\": 9}]}]", "[{\"stack\": [{\"pane\": \"pane.txt\"}]}]",
+        "[{\"states\": [{\"state\": 0, \"pane\": \"clear.dat\", \"tint\": 1}]}]",
         "[{\"stack\": [{\"index\": \"pane.txt\", \"thickness_mm\": 1}]}]"}) {
     write_text(directory / "unit.json", std::string("{\"layers\": ") + layers + "}");
     EXPECT_THROW(read_system({(directory / "unit.json").string()}), Error) << layers;
@@ -160,6 +162,7 @@ TEST(GlazingSystem, HasOneStateAndOneTemperatureBehindItsName) {
   EXPECT_TRUE(is_glazing_file((directory / "windows.idf").string() + "#Warm#temperature=30"));
   for (const char* wrong : {"#state=0#state=0", "#temperature=1#state=0#temperature=1", "#state=nan"})
     EXPECT_THROW(read_system({unit + wrong}), Error) << wrong;
+  EXPECT_TRUE(is_glazing_file((directory / "windows.idf").string() + "#Warm#state=0#temperature=30"));
   // Names are users' text: however many "#" they have, a few are looked at.
   EXPECT_FALSE(is_glazing_file(unit + "#1#2#3#4"));
 }

@@ -49,7 +49,7 @@ class SessionTest : public testing::Test {
       film.deposit(p, 0, srgb_to_xyz(RGB{v, v, v}));
     }
     write_film(after(words, "-o"), film, {1, 1, {1}, 1});
-    std::ofstream(after(words, "--stats")) << "{}";
+    std::ofstream(after(words, "--stats")) << R"({"wall_s": 2, "rays_camera": 3, "rays_shadow": 4})";
     if (has(words, "--profile")) std::ofstream(after(words, "--profile")) << "{}";
   }
 
@@ -86,6 +86,7 @@ TEST_F(SessionTest, NoiseHasNoBiasAndTakesItsSamples) {
   measurement_.settings.push_back(measured("roulette", {0}));
   const MeasuredSetting early = measured("roulette", {1}), clamped = measured("clamp", {1});
   EXPECT_EQ(early.effect, Effect::noise);
+  for (const float v : early.mean.values) EXPECT_NEAR(v, 18, 0.01) << "of seeds that are 9, 18 and 27";
   EXPECT_EQ(early.error.bias.value, measurement_.settings[0].error.bias.value);
   // Nine times as far apart. The scene's own, which is known to have no bias, has two thirds of the variance
   // that three pictures tell of.
@@ -95,6 +96,18 @@ TEST_F(SessionTest, NoiseHasNoBiasAndTakesItsSamples) {
   spp.clear();
   EXPECT_EQ(measured("adaptivity", {1}).spp, 64);
   EXPECT_EQ(spp, (std::vector<std::string>{"64", "64", "64"}));
+}
+
+TEST_F(SessionTest, RunsSayWhatTheyTookWhenTheyAreReadAgain) {
+  render_ = [](const Words& words) { write_picture_of(words, 1); };
+  const RunRequest request{.render = {"--quick"}, .spp = 4, .seed = 2};
+  for (const char* from : {"the program", "its file"}) {
+    const RunResult result = runs_(request);
+    EXPECT_EQ(result.wall_s, 2) << from;
+    EXPECT_EQ(result.rays, 7) << from;
+    EXPECT_NEAR(result.picture.values.at(0), 2, 0.01) << from;
+    render_ = [](const Words&) { ADD_FAILURE() << "it is known"; };
+  }
 }
 
 TEST_F(SessionTest, SettingsAreIdenticalWhereAllSeedsAre) {

@@ -44,6 +44,7 @@ TEST(InstanceSpill, HasMorePartsThanFilesMayBeOpen) {
       EXPECT_EQ(taken[round].object, i);
       EXPECT_EQ(taken[round].first_triangle, round);
     }
+    EXPECT_TRUE(spill.take(i).empty()) << "taken before";
   }
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
   ::setrlimit(RLIMIT_NOFILE, &files);

@@ -30,6 +30,19 @@ TEST_F(MitsubaLoad, HairHasBothMelaninsAndRunsAlongV) {
 
 const std::string red = "<rgb name=\"reflectance\" value=\"1 0 0\"/>";
 
+TEST_F(MitsubaLoad, DefaultsOfMaterials) {
+  const auto principled = [&](const std::string& type, const std::string& inside) {
+    return std::get<PrincipledMaterial>(
+        material("<bsdf type=\"" + type + "\" id=\"m\">" + inside + "</bsdf>").model);
+  };
+  EXPECT_EQ(principled("principled", ""), PrincipledMaterial{});
+  const PrincipledMaterial thin =
+      principled("principledthin", "<rgb name=\"base_color\" value=\".2 .4 .6\"/>");
+  EXPECT_EQ(thin.base_color, SpectrumParameter{reflectance_from_rgb({.2, .4, .6})});
+  EXPECT_TRUE(thin.thin);
+  EXPECT_FALSE(std::get<PlasticMaterial>(material("<bsdf type=\"plastic\" id=\"m\"/>").model).nonlinear);
+}
+
 TEST_F(MitsubaLoad, BareOpaqueMaterialsHaveOneSide) {
   const Material bare = material("<bsdf type=\"diffuse\" id=\"m\">" + red + "</bsdf>");
   EXPECT_EQ(std::get<DiffuseMaterial>(bare.model).reflectance,

@@ -144,6 +144,7 @@ TEST(PbrtMaterials, OthersOfV4AreExact) {
       exact<CoatedDiffuseMaterial>("Material \"coateddiffuse\" \"rgb albedo\" [.3 .3 .3] \"float g\" .5");
   EXPECT_EQ(coated.volume.g, FloatParameter{.5f});
   EXPECT_EQ(coated.volume.albedo, SpectrumParameter{reflectance_from_rgb({.3, .3, .3})});
+  EXPECT_EQ(exact<CoatedDiffuseMaterial>("Material \"coateddiffuse\"").volume, CoatingVolume{});
   const auto through =
       exact<DiffuseTransmissionMaterial>("Material \"diffusetransmission\" \"float scale\" 2");
   EXPECT_EQ(through, (DiffuseTransmissionMaterial{number(.25f), number(.25f), 2}));
@@ -163,6 +164,10 @@ TEST(PbrtMaterials, OthersOfV4AreExact) {
   EXPECT_EQ(hair.eumelanin, FloatParameter{.5f});
   EXPECT_EQ(hair.beta_m, FloatParameter{.25f});
   EXPECT_FALSE(hair.color || hair.sigma_a || hair.pheomelanin);
+  HairMaterial brown;
+  brown.eumelanin = 1.3f;
+  EXPECT_EQ(model_of<HairMaterial>(import_v4("Material \"hair\" " + triangle)), brown);
+  EXPECT_EQ(model_of<HairMaterial>(import_v4("Material \"hair\" \"float eta\" 1.25 " + triangle)).eta, 1.25f);
 }
 
 double value(const SpectrumParameter& parameter) { return luminance(std::get<Spectrum>(parameter)); }
@@ -213,8 +218,12 @@ TEST(PbrtMaterials, SubstrateHasItsReflectanceAtNormalIncidence) {
 TEST(PbrtMaterials, OfV3AreMappedWithoutDroppingParts) {
   const auto disney =
       exact<PrincipledMaterial>("Material \"disney\" \"float metallic\" .75 \"bool thin\" true", true);
-  EXPECT_EQ(disney.metallic, FloatParameter{.75f});
-  EXPECT_TRUE(disney.thin);
+  PrincipledMaterial expected;
+  expected.metallic = .75f;
+  expected.sheen_tint = .5f;
+  expected.clearcoat_gloss = expected.diff_trans = 1.0f;
+  expected.thin = true;
+  EXPECT_EQ(disney, expected);
 }
 
 TEST(PbrtMaterials, UberKeepsOpacityMirrorAndTransmission) {

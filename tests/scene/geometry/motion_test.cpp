@@ -35,6 +35,8 @@ TEST(Motion, StandsStillBeforeAndAfter) {
   EXPECT_EQ(motion.at(0), a);
   EXPECT_EQ(motion.at(1), b);
   EXPECT_EQ(motion.at(7), b);
+  const Motion sheared({{0, a * scale({1, 2, 3}) * a}, {1, b}});
+  EXPECT_EQ(sheared.at(0), a * scale({1, 2, 3}) * a) << "to the bit, though its parts are rounded";
 }
 
 TEST(Motion, GoesThroughEveryKeyframe) {

@@ -56,6 +56,17 @@ TEST(Patterns, ThoseOfDistances) {
                 [](Point3d p) { return 1 - std::abs(2 * rest(repeated(std::hypot(p.x, p.y))) - 1); });
 }
 
+TEST(Patterns, RipplesComeFromTenPoints) {
+  expect_values(of(Kind::ripples), [](Point3d p) {
+    double sum = 0;
+    for (int i = 0; i < 10; ++i) {
+      const CellNumbers n = numbers_of_cell(i, 0, 0, 5);
+      sum += std::sin(2 * pi * std::hypot(p.x - n.x, p.y - n.y, p.z - n.z));
+    }
+    return (1 + sum / 10) / 2;
+  });
+}
+
 TEST(Patterns, ThoseOfCoordinates) {
   expect_values(of(Kind::marble, Wave::triangle),
                 [](Point3d p) { return 1 - std::abs(2 * rest(repeated(p.x)) - 1); });
@@ -198,6 +209,17 @@ TEST(Patterns, ThoseOfPlaces) {
   // Just within the corner of the first, and beyond it.
   EXPECT_EQ(place(Kind::hexagon, {0.99, 0, 0}), 0u);
   EXPECT_NE(place(Kind::hexagon, {1.01, 0, 0.1}), 0u);
+  // Wherever a point lies, it is in the hexagon whose centre is the nearest.
+  for_points([&](Point3d p) {
+    double nearest = 1e9;
+    int found = 0;
+    for (int i = -12; i <= 12; ++i)
+      for (int j = -12; j <= 12; ++j) {
+        const double distance = std::hypot(p.x - 1.5 * i, p.z - across * (j + 0.5 * i));
+        if (distance < nearest) nearest = distance, found = ((2 * i + j) % 3 + 3) % 3;
+      }
+    EXPECT_EQ(place(Kind::hexagon, p), static_cast<std::size_t>(found)) << p.x << " " << p.z;
+  });
   // Bricks of 8 × 3 × 4.5 that end in mortar of ½; layers are half a brick on along x and along z in turn, as
   // in POV-Ray's pictures.
   EXPECT_EQ(place(Kind::brick, {3, 1, 1}), 1u);

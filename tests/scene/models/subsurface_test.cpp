@@ -92,6 +92,22 @@ TEST(MeasuredMedia, AreKnownByName) {
   EXPECT_EQ(measured_medium_eta("Espresso"), 1.33);
 }
 
+TEST(Interiors, OfMeasuredMediaAreTheirs) {
+  SubsurfaceMaterial m;
+  m.interior = SubsurfaceMaterial::Named{"Marble"};
+  m.g = 0.5f;
+  const Medium marble = interior_of(m).value();
+  EXPECT_EQ(marble.coefficients, (decltype(Medium::coefficients){measured_medium("Marble").value()}));
+  EXPECT_EQ(marble.g, 0);
+}
+
+TEST(Interiors, OfMeanFreePathsAreScaled) {
+  SubsurfaceMaterial m;
+  m.interior = SubsurfaceMaterial::Effective{grey(0.5f), grey(1)};
+  m.scale = 4;
+  EXPECT_EQ(interior_of(m).value().scale, 0.25f);
+}
+
 TEST(Interiors, OfTexturesAndUnknownNamesAreNotKnown) {
   SubsurfaceMaterial m;
   m.interior = SubsurfaceMaterial::Named{"Nothing"};

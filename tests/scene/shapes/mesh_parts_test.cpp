@@ -124,6 +124,13 @@ TEST(MeshParts, SomeTrianglesKeepTheirAttributes) {
   EXPECT_EQ(one.positions, (std::vector<Point3f>{{0, 0, 1}, {2, 1, 1}, {0, 1, 1}}));
   EXPECT_EQ(one.uvs, (std::vector<Point2f>{{4, 0}, {6, 0}, {7, 0}}));
   EXPECT_EQ(one.attributes[0].values, std::vector<float>{13});
+  // Vertices are kept once, in the order of the mesh.
+  const std::vector<std::uint32_t> both{3, 0, 2};
+  const TriangleMesh some = only_triangles(mesh, both);
+  ASSERT_EQ(some.positions.size(), 7u);
+  for (std::size_t t = 0; t < 3; ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(some.uvs.at(some.triangles.at(t)[k]), mesh.uvs.at(mesh.triangles[both[t]][k])) << t;
 }
 
 }  // namespace
