@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 
+#include "bundle/domain_layout.h"
 #include "bundle/manifest.h"
 #include "scene/system/diagnostics.h"
 #include "tests/bundle/sample_bundle.h"
@@ -71,8 +72,8 @@ TEST_F(DomainFile, EqualContentEqualHash) {
 }
 
 TEST(DomainHeaders, AreCheckedWithTheirTable) {
-  const DomainHeader header{};
-  DomainHeader other{};
+  const layout::DomainHeader header{};
+  layout::DomainHeader other{};
   other.version = header.version + 1;
   const std::array<std::byte, 8> table{};
   EXPECT_EQ(layout::checksum_of(header, table), layout::checksum_of(header, table));

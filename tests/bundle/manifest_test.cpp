@@ -253,6 +253,11 @@ TEST_F(ManifestFile, TheHashOfRecordsSeesEachOfThem) {
     changes[i](m);
     EXPECT_NE(hash_of_records(m), hash) << "change " << i;
   }
+  Manifest moving = sample_manifest();
+  moving.requirements.motion = true;
+  const std::uint64_t hash_of_moving = hash_of_records(moving);
+  moving.shutter.close_s += 1;
+  EXPECT_NE(hash_of_records(moving), hash_of_moving);
 }
 
 TEST_F(ManifestFile, WithoutAnyTriangle) {
@@ -319,9 +324,7 @@ TEST_F(ManifestFile, WrongContentIsFound) {
       [](Manifest& m) { m.attributes = max_attributes + 1; },
       [](Manifest& m) { m.emissive_triangles[0].triangle = 11; },
       [](Manifest& m) { m.emissive_triangles[0].area_light = 2; },
-      [](Manifest& m) {
-        m.emissive_quadrics.push_back({{Quadric{QuadricKind::sphere, 0.5, 0.25}}});
-      },
+      [](Manifest& m) { m.emissive_quadrics.push_back({{Quadric{.low = 0.5, .high = 0.25}}}); },
       [](Manifest& m) { m.offset.y = nan; },
       [](Manifest& m) { std::get<PointLight>(m.lights[0].model).position.x = nan; },
       [](Manifest& m) { std::get<OrthographicCamera>(m.camera).camera_to_world.m[1][1] = nan; },

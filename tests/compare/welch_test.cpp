@@ -7,6 +7,9 @@
 #include <random>
 
 #include "compare/comparison.h"
+#include "compare/ztest.h"
+#include "scene/spectra/color.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail::welch_tests {
 namespace {
@@ -54,6 +57,25 @@ TEST(Welch, FindsABiasBelowTheNoiseOfAPixel) {
   const WelchTest test = welch_test(a.tested(), b.tested());
   EXPECT_GT(test.distance, test.allowed_distance);
   EXPECT_GT(test.histogram[0], 150u);
+}
+
+// By hand: σ² of the sums is 64·Σσ²; equal estimates of one degree each count 3·64 − 2 together.
+TEST(Welch, IsStudentsTestOfATile) {
+  Render a{black_image(8, 8, 3), {8, 8, 1, std::vector<float>(64, 0.01f)}}, b = a;
+  double difference = 0;
+  for (std::size_t p = 0; p < 64; ++p) {
+    const float blue = 0.01f * static_cast<float>(p);
+    a.image.values[3 * p + 2] = blue;
+    difference += srgb_to_xyz({0, 0, static_cast<double>(blue)}).y;
+  }
+  for (const float of_b : {0.01f, 0.04f}) {
+    b.variance.values.assign(64, of_b);
+    const double va = 64 * 0.01, vb = 64 * static_cast<double>(of_b);
+    const double freedom = (va + vb) * (va + vb) / (va * va / 190 + vb * vb / 190);
+    EXPECT_NEAR(welch_test(a.tested(), b.tested()).p_values.at(0),
+                two_sided_p(difference / std::sqrt(va + vb), static_cast<int>(freedom)), 1e-6);
+  }
+  EXPECT_THROW(welch_test(a.tested(), render(1, 1, none).tested()), Error);
 }
 
 TEST(Welch, IsAMetricWhoseValueIsTheDistance) {

@@ -9,6 +9,7 @@
 #include "compare/comparison.h"
 #include "compare/variance.h"
 #include "film/develop.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail::ztest_test {
 namespace {
@@ -102,6 +103,17 @@ TEST(ZTest, KnowsAnErrorThatPixelsShare) {
   EXPECT_FALSE(ztest(input).means_differ);
   input.shared_error = 1e-5;
   EXPECT_NEAR(ztest(input).mean_sigmas, 30, 1) << "the larger of both counts";
+  Image below = grey;
+  for (float& v : below.values) v = -v;
+  for (float& v : bright.values) v = -v;
+  input.reference = &below;
+  input.shared_error = 0.01;
+  EXPECT_NEAR(ztest(input).mean_sigmas, 3, 0.1) << "of filters that go below zero";
+}
+
+TEST(ZTest, TakesPicturesOfOneSize) {
+  const Image small{1, 1, 3, {0, 0, 0}};
+  EXPECT_THROW(ztest({&small, &grey, {1}, {}}), Error);
 }
 
 TEST(ZTest, CountsNotANumberAsFailed) {

@@ -202,6 +202,9 @@ TEST(Products, AreBroughtIntoRange) {
   EXPECT_EQ(pane.rows[0].at, (PaneValues{0, 1, 0.2}));
   EXPECT_EQ(pane.rows[1].at, (PaneValues{0.5, 0.5, 0}));
   EXPECT_EQ(pane.notes.size(), 3u);
+  EXPECT_NO_THROW(products_of("wavelength_nm T Rf Rb\n500 0.5 0.7 -0.49\n"));
+  EXPECT_THROW(products_of("wavelength_nm T Rf Rb\n500 0.5 0.7 -0.5\n"), Error);
+  EXPECT_THROW(products_of("wavelength_nm T Rf Rb\n500 0.5 2 0\n"), Error);
 }
 
 TEST(Products, AreFoundByName) {

@@ -108,6 +108,8 @@ TEST_F(SessionTest, RunsSayWhatTheyTookWhenTheyAreReadAgain) {
     EXPECT_NEAR(result.picture.values.at(0), 2, 0.01) << from;
     render_ = [](const Words&) { ADD_FAILURE() << "it is known"; };
   }
+  for (const auto& file : std::filesystem::directory_iterator(directory_ / "out/runs"))
+    EXPECT_TRUE(file.path().extension() == ".json" || file.path().extension() == ".rgb") << file.path();
 }
 
 TEST_F(SessionTest, SettingsAreIdenticalWhereAllSeedsAre) {
