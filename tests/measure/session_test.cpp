@@ -59,7 +59,8 @@ class SessionTest : public testing::Test {
   Runs runs_{directory_ / "scene.pbrt", directory_ / "out", 32,
              [this](const std::string& program, const Words& words, const std::filesystem::path&) {
                if (program == "vitrail-render") return render_(words);
-               std::filesystem::create_directory(after(words, "-o"));
+               std::filesystem::create_directories(after(words, "-o") + "/domains");
+               std::ofstream(after(words, "-o") + "/domains/000000.dom") << "12345";
              }};
   MeasureNews news_{[](const std::string&) {}, [](double, const char*) {}};
   Session session_{runs_, options_, 4, 10, news_};
@@ -105,6 +106,7 @@ TEST_F(SessionTest, RunsSayWhatTheyTookWhenTheyAreReadAgain) {
     const RunResult result = runs_(request);
     EXPECT_EQ(result.wall_s, 2) << from;
     EXPECT_EQ(result.rays, 7) << from;
+    EXPECT_EQ(result.bundle_bytes, 5) << from;
     EXPECT_NEAR(result.picture.values.at(0), 2, 0.01) << from;
     render_ = [](const Words&) { ADD_FAILURE() << "it is known"; };
   }

@@ -10,6 +10,7 @@
 
 #include "compare/flip.h"
 #include "compare/metrics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail::statistics_test {
 namespace {
@@ -97,11 +98,16 @@ TEST(Statistics, BiasThatWasNotSeenMayStillBe) {
   EXPECT_EQ(expected_bias({-0.5, 0}), 0);
   EXPECT_NEAR(expected_bias({0, 1.96}), std::sqrt(2 / std::numbers::pi), 1e-6);  // of a half normal
   EXPECT_NEAR(expected_bias({10, 1.96}), 10, 1e-6);
+  EXPECT_NEAR(expected_bias({-10, 1.96}), 0.09809, 1e-4);  // φ(10)/Q(10) − 10
   double last = 0;
   for (const double value : {-40.0, -10.0, -5.1, -4.9, -1.0, 0.0, 1.0, 5.0}) {
     EXPECT_GT(expected_bias({value, 1.96}), last) << value;
     last = expected_bias({value, 1.96});
   }
+}
+
+TEST(Statistics, ReferencesAreOfOneSize) {
+  EXPECT_THROW(make_reference(noisy(1, 0.1), black_image(1, 1, 3)), Error);
 }
 
 TEST(Statistics, IntervalsAreStudents) {

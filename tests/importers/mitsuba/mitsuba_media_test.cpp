@@ -171,6 +171,9 @@ TEST_F(MitsubaMedia, OlderForms) {
   EXPECT_EQ(medium("<float name='sigma_a' value='2'/><float name='sigma_s' value='3'/>").coefficients,
             (decltype(Medium::coefficients){
                 AbsorptionScattering{Spectrum{ConstantSpectrum{2}}, Spectrum{ConstantSpectrum{3}}}}));
+  EXPECT_EQ(medium("<float name='sigma_a' value='2'/>").coefficients,
+            (decltype(Medium::coefficients){
+                AbsorptionScattering{Spectrum{ConstantSpectrum{2}}, Spectrum{ConstantSpectrum{1}}}}));
   EXPECT_EQ(medium("<volume type='constvolume' name='density'><float name='value' value='7'/></volume>",
                    "heterogeneous")
                 .coefficients,
@@ -196,6 +199,9 @@ TEST_F(MitsubaMedia, GridsLieInTheUnitCubeOrTheirBox) {
   EXPECT_EQ(bounds(medium(grid("sigma_t"), "heterogeneous")), (Bounds3d{{0, 0, 0}, {1, 1, 1}}));
   const std::string box = "<boolean name='use_grid_bbox' value='true'/>";
   EXPECT_EQ(bounds(medium(grid("sigma_t", box), "heterogeneous")), (Bounds3d{{-1, -2, -3}, {1, 2, 3}}));
+  medium(grid("sigma_t", "<boolean name='raw' value='true'/><boolean name='accel' value='false'/>"),
+         "heterogeneous");
+  EXPECT_THAT(diagnostics_, IsEmpty());
 }
 
 TEST_F(MitsubaMedia, TheSecondGridIsInTheFrameOfTheFirst) {
@@ -227,6 +233,8 @@ TEST_F(MitsubaMedia, WhatIsNotExactIsSaid) {
   EXPECT_NEAR(
       medium("<phase type='mixturephase'><string name='weights' value='1, 3'/>" + lobes + "</phase>").g,
       -0.15, 1e-6);
+  EXPECT_EQ(medium("<phase type='mixturephase'><string name='weights' value='0, 0'/>" + lobes + "</phase>").g,
+            0);
   // 1 + μ: ∫μ(1 + μ) ÷ ∫(1 + μ) = 1/3
   EXPECT_NEAR(medium("<phase type='tabphase'><string name='values' value='0, 1, 2'/></phase>").g, 1.0 / 3,
               1e-6);

@@ -310,6 +310,7 @@ TEST(MitsubaIntegrator, AovsAreLayersOfTheFilm) {
                      "'/><integrator type='path'/></integrator>");
   };
   EXPECT_THAT(aovs("p:position,t:uv").diagnostics, IsEmpty());
+  EXPECT_EQ(names_of(aovs(",p:position, ,t:uv,").scene.film.layers), "position,uv");
   EXPECT_THAT(aovs("p:position,q:dp_du").diagnostics, says("\"q:dp_du\""));
   EXPECT_EQ(names_of(aovs("p:position,q:dp_du").scene.film.layers), "position");
 }

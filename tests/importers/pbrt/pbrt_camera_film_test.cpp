@@ -186,6 +186,9 @@ TEST(PbrtFilm, WhatItLosesIsReported) {
       "develop --white-balance 3200"));
   EXPECT_TRUE(mentions(settings("Film \"rgb\" \"integer xresoluton\" 3").diagnostics,
                        "did you mean \"xresolution\""));
+  EXPECT_TRUE(
+      mentions(settings("Camera \"perspective\" \"float fow\" 40").diagnostics, "did you mean \"fov\""));
+  expect_no_diagnostics(settings("Film \"rgb\" \"string filename\" \"a.exr\" \"bool savefp16\" false"));
 }
 
 TEST(PbrtFilm, TheGbufferKeepsLayers) {
@@ -197,6 +200,7 @@ TEST(PbrtFilm, TheGbufferKeepsLayers) {
   EXPECT_FALSE(layers("Film \"gbuffer\" \"string coordinatesystem\" \"world\"").in_camera_space);
   EXPECT_THROW(layers("Film \"gbuffer\" \"string coordinatesystem\" \"object\""), Error);
   EXPECT_EQ(layers("Film \"rgb\""), FilmLayers{});
+  EXPECT_EQ(layers("Film \"gbuffer\" Film \"rgb\""), FilmLayers{}) << "the last counts";
 }
 
 TEST(PbrtFilter, KindsAndDefaultsAreThoseOfTheVersion) {
@@ -311,6 +315,7 @@ TEST(PbrtIntegrators, OthersSayWhatTheyMiss) {
         << name;
   EXPECT_TRUE(says(integrator("ambientocclusion"), "becomes a path tracer"));
   EXPECT_TRUE(says(integrator("phath"), "did you mean \"path\""));
+  EXPECT_TRUE(says("Film \"rgb\" Integrator \"path\" \"bool regularize\" true", "not regularised"));
 }
 
 TEST(PbrtIntegrators, SppmTracesPhotons) {

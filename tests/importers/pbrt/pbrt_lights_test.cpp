@@ -186,6 +186,14 @@ TEST(PbrtLights, ImagesOfEnvironmentsAreKept) {
   EXPECT_EQ(old.projection, EnvironmentLight::Projection::latitude_longitude);
 }
 
+TEST(PbrtLights, PortalsStandWhereTheTransformPutsThem) {
+  const ImportedScene imported = import_v4(
+      "Translate 10 20 30 LightSource \"infinite\" \"string filename\" \"sky.exr\" "
+      "\"point3 portal\" [1 2 3 4 5 6 7 8 9 10 11 12]");
+  EXPECT_EQ(std::get<EnvironmentLight>(imported.scene.lights.at(0).model).portal->value(),
+            (std::array<Point3d, 4>{{{11, 22, 33}, {14, 25, 36}, {17, 28, 39}, {20, 31, 42}}}));
+}
+
 TEST(PbrtLights, ProjectionsKeepPowerAndScaleApart) {
   const ImportedScene imported = import_v4(
       "LightSource \"projection\" \"string filename\" \"slide.exr\" \"float power\" 50 \"float scale\" 3");
@@ -274,6 +282,10 @@ TEST(PbrtAreaLights, DivideTheirPowerByTheirArea) {
       area_radiance(import_v4(light + "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0]")),
       10 / (pi * 9), 1e-4);
   EXPECT_NEAR(area_radiance(import_v4(light + "Shape \"disk\"")) / (10 / (pi * pi * 9)), 1, 1e-4);
+  EXPECT_NEAR(
+      area_radiance(import_v4(light + "Shape \"curve\" \"string type\" \"ribbon\" \"normal N\" [0 0 1 0 0 1] "
+                                      "\"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"float width\" 2")),
+      10 / (pi * 9 * 6), 1e-4);
   const ImportedScene several = import_v4(light + square + "Shape \"disk\"");
   EXPECT_EQ(several.scene.area_lights.size(), 2u);
 }

@@ -336,6 +336,24 @@ TEST(PbrtAlpha, IsNoEventAndAThinSheetIsOne) {
         << integrator;
 }
 
+TEST(PbrtMedia, KeepTheirNamesScalesAndTemperatures) {
+  for (const char* kind : {"homogeneous\" \"rgb Le\" [1 1 1]", "uniformgrid\" \"float density\" [1]"}) {
+    const Medium medium =
+        import_v4(
+            "Translate 1 2 3 MakeNamedMedium \"fog\" \"float scale\" 3 \"float g\" .25 "
+            "\"float temperaturescale\" 2 \"float temperatureoffset\" 100 \"string type\" \"" +
+            std::string(kind))
+            .scene.media.at(0);
+    EXPECT_EQ(medium.name, "fog") << kind;
+    EXPECT_EQ(medium.scale, 3) << kind;
+    EXPECT_EQ(medium.g, 0.25f) << kind;
+    EXPECT_EQ(medium.medium_to_world, translate({1, 2, 3})) << kind;
+    const bool has_temperature = std::string(kind).starts_with("uniformgrid");
+    EXPECT_EQ(medium.temperature_scale, has_temperature ? 2 : 1) << kind;
+    EXPECT_EQ(medium.temperature_offset, has_temperature ? 100 : 0) << kind;
+  }
+}
+
 TEST(PbrtMaterials, UnknownMeasuredMediaAreTheDefault) {
   for (const char* text :
        {"WorldBegin Material \"subsurface\" \"string name\" \"Skin3\" ",

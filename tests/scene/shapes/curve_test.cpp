@@ -105,7 +105,13 @@ TEST(Tubes, OfStraightCurvesAreCylindersAndCones) {
     const double slope = (last - 1) / 4;
     const TriangleMesh mesh = tube(last, false);
     ASSERT_EQ(mesh.positions.size(), 27u);  // three rings of eight corners and the first again
-    EXPECT_EQ(mesh.triangles.size(), 32u);
+    ASSERT_EQ(mesh.triangles.size(), 32u);
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Normal3f n = mesh.normals[a];
+      const Vector3f across =
+          cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+      EXPECT_GT(across.x * n.x + across.y * n.y + across.z * n.z, 0) << "the front is outside";
+    }
     for (std::size_t i = 0; i < 27; ++i) {
       const Point3d p = cast<double>(mesh.positions[i]);
       const Normal3f n = mesh.normals[i];
@@ -127,7 +133,9 @@ TEST(Tubes, RoundEndsAreHalfSpheres) {
     const Point3d p = cast<double>(mesh.positions[i]);
     const double off = p.x - std::clamp(p.x, 0.0, 4.0);
     EXPECT_NEAR(std::hypot(off, std::hypot(p.y, p.z) / to_corner), 1, 1e-6);
-    EXPECT_NEAR(mesh.normals[i].x, off, 1e-6);
+    const Normal3f n = mesh.normals[i];
+    EXPECT_NEAR(n.x, off, 1e-6);
+    EXPECT_NEAR(std::hypot(n.x, n.y, n.z), 1, 1e-6);
   }
   EXPECT_NEAR(mesh.positions.front().x, -1, 1e-6);
   EXPECT_NEAR(mesh.positions[9].x, -std::cos(pi / 8), 1e-6);
