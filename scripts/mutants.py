@@ -137,7 +137,7 @@ def expression(code, start, end, kind="expression"):
 
 def slots_of(code, is_function, starts):
     """Yields the slots of a blanked line, the smallest last; `starts`: a statement begins with the line."""
-    if re.search(r"\bconstexpr\b.* = |\bif constexpr\b", code):
+    if re.search(r"\bconstexpr\b.*(?: = |\w\{)|\bif constexpr\b", code):
         return
     at = len(code) - len(code.lstrip())
     while starts and (head := re.compile(HEAD).match(code, at)):
@@ -155,6 +155,8 @@ def slots_of(code, is_function, starts):
     end = len(code)
     is_whole = starts and code.endswith(";") and closing(code, at) is None and len(list(parts(code, at, end, ";"))) == 2
     if is_whole and re.fullmatch(DECLARED + " = .*", code[at:end]):
+        if not is_function and code[0] != " ":
+            return  # a variable of a namespace, whose value the compiler finds
         yield from expression(code, at, end - 1)
     elif is_whole and is_function and re.match(SIMPLE, code[at:]):
         yield Slot(at, end, "statement")
