@@ -110,20 +110,16 @@ TEST(Recommendation, MeetsTheScenesOwnWithoutAGoal) {
   MeasureOptions options;
   options.axes = {"roulette"};
   options.most_bias = 0.25;
-  const Measurement m = measured(options, [](const Words& words, int spp) {
-    return Pretended{1, 1.0 / spp, has(words, "early") ? 0.5 : 1.0};
-  });
+  const Measurement m = measured(options, [](const Words&, int spp) { return Pretended{1, 1.0 / spp, 1}; });
   EXPECT_EQ(m.scene_spp, 64);
   EXPECT_EQ(m.most_bias, 0.25);
   ASSERT_EQ(m.recommendations.size(), 2u);
   for (const Recommendation& r : m.recommendations) {
     EXPECT_NE(r.goal.find("at its 64 samples"), std::string::npos) << r.goal;
     ASSERT_TRUE(r.found);
-    EXPECT_EQ(r.name, "roulette early");
     EXPECT_EQ(r.most_bias, 0.25);
+    EXPECT_NEAR(r.spp, 64, 16);
   }
-  EXPECT_NEAR(m.recommendations[0].spp, 64, 16) << "of the same noise";
-  EXPECT_NEAR(m.recommendations[1].spp, 128, 32) << "half as long a sample";
 }
 
 // What would take longer to render than the budget has is not promised.
