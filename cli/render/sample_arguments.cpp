@@ -63,6 +63,7 @@ void declare_sample_options(CLI::App& app, SampleArguments& a) {
          "when Russian roulette may end a path, after the first surface that is no mirror or clear glass: "
          "once it carries less than a camera ray (early), less than a quarter of that (default), or after "
          "254 events (never). Early is quicker and noisier, never is slower; the mean is the same")
+      ->transform([](const std::string& word) { return word == "usual" ? "default" : word; })  // its old name
       ->check(CLI::IsMember({"early", "default", "never"}))
       ->capture_default_str();
   app.add_option("--wavelengths", a.wavelengths,

@@ -56,17 +56,6 @@ TEST(Patterns, ThoseOfDistances) {
                 [](Point3d p) { return 1 - std::abs(2 * rest(repeated(std::hypot(p.x, p.y))) - 1); });
 }
 
-TEST(Patterns, RipplesComeFromTenPoints) {
-  expect_values(of(Kind::ripples), [](Point3d p) {
-    double sum = 0;
-    for (int i = 0; i < 10; ++i) {
-      const CellNumbers n = numbers_of_cell(i, 0, 0, 5);
-      sum += std::sin(2 * pi * std::hypot(p.x - n.x, p.y - n.y, p.z - n.z));
-    }
-    return (1 + sum / 10) / 2;
-  });
-}
-
 TEST(Patterns, ThoseOfCoordinates) {
   expect_values(of(Kind::marble, Wave::triangle),
                 [](Point3d p) { return 1 - std::abs(2 * rest(repeated(p.x)) - 1); });
