@@ -185,9 +185,13 @@ void conclude(const YearArguments& a, const Known& known, bool is_whole) {
   if (!a.heat.empty()) report.heat = heat_of(a, known, states, open);
   report.states = {open, open, known.rules.otherwise};
   if (!a.blinds.empty()) {
-    const auto closed = std::ranges::find(report.state_names, a.blinds) - report.state_names.begin();
-    report.states = close_blinds(known.year, states, std::move(report.states),
-                                 static_cast<std::size_t>(closed), report.in_area);
+    std::vector<std::size_t> closed;
+    for (const std::string& name : a.blinds)
+      closed.push_back(
+          static_cast<std::size_t>(std::ranges::find(report.state_names, name) - report.state_names.begin()));
+    const std::size_t traced = states.size();
+    report.states = close_blinds(known.year, states, std::move(report.states), closed, report.in_area);
+    for (std::size_t i = traced; i < states.size(); ++i) report.state_names.push_back(states[i].name);
   }
   report.blinds_move = !a.blinds.empty();
   report.counted = counted_hours(known.year, a.figures);

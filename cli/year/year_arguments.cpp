@@ -31,7 +31,9 @@ void declare(CLI::App& app, YearArguments& a) {
                  "JSON that tells the state of each hour; default: the first state, always");
   app.add_option("--blinds", a.blinds,
                  "the state in which blinds are closed: that of each hour in which more than 2 % of the "
-                 "sensors that face up would have more than 1000 lx of the sun alone (LM-83)");
+                 "sensors that face up would have more than 1000 lx of the sun alone (LM-83). It may repeat: "
+                 "one state for each group of windows, in which that group alone is closed")
+      ->allow_extra_args(false);
   app.add_option("--up", a.up,
                  "axis of the scene that points up, as z; default: as in the bundle's sky, else z");
   app.add_option("--north", a.north,
@@ -144,9 +146,13 @@ void interpret(YearArguments& a) {
   const std::vector<YearState> states = states_of(a);
   if (a.photochromic && (a.heat.empty() || !a.rules.empty() || states.size() < 2))
     throw UsageError("--photochromic needs --heat and at least two --state, and no --rules");
-  if (!a.blinds.empty() &&
-      (states.size() < 2 || std::ranges::find(states, a.blinds, &YearState::name) == states.end()))
-    throw UsageError("--blinds takes one of at least two states, which --state names: " + a.blinds);
+  for (const std::string& closed : a.blinds)
+    if (states.size() < 2 || std::ranges::find(states, closed, &YearState::name) == states.end() ||
+        std::ranges::count(a.blinds, closed) > 1)
+      throw UsageError("--blinds takes each of at least two states, which --state names, once: " + closed);
+  if (a.blinds.size() > 1 && (!a.rules.empty() || a.photochromic))
+    throw UsageError(
+        "several --blinds are changes of the first state: they take no --rules or --photochromic");
 }
 
 HeatThrough heat_through(const YearArguments& a, std::size_t sensors) {

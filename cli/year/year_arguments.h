@@ -21,8 +21,8 @@ struct YearState {
 
 struct YearArguments {
   std::filesystem::path bundle, weather, sensors, output, rules;
-  std::string up, north, memory, blinds, heat, use = "8-18", progress = "auto";
-  std::vector<std::string> states, settings;
+  std::string up, north, memory, heat, use = "8-18", progress = "auto";
+  std::vector<std::string> states, settings, blinds;
   int division = 4, max_depth = -1;
   std::uint32_t sky_paths = 32768, sun_paths = 16;
   double ground = 0.2, sun_blur_deg = 3;

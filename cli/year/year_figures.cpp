@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
 
 #include "scene/geometry/pi.h"
@@ -20,6 +21,7 @@ constexpr double enough_sun_lx = 1000, most_sun_hours = 250;  // of ASE
 constexpr double glare_lx = 3473;                             // 6.22·10⁻⁵ of it + 0.184 is 0.40
 constexpr double enough_melanopic_lx = 250;                   // Brown et al. 2022, by day
 constexpr double most_sunlit = 0.02;                          // of the area, with open blinds
+constexpr float taken_by_blinds = 0.1f;  // of the sun, at least, where it comes through them
 
 // Normal numbers of mean 0 and variance 1 (Box & Muller 1958), a function of the seed.
 class NormalNumbers {
@@ -202,16 +204,63 @@ double median_diffuse_lx(const SkyYear& year, const CountedHours& counted) {
   return *middle;
 }
 
-StatesOfYear close_blinds(const SkyYear& year, const std::vector<StateCoefficients>& coefficients,
-                          StatesOfYear states, std::size_t closed, const std::vector<bool>& in_area) {
+namespace {
+
+// The coefficients with open blinds less what each of the closed groups takes away.
+Coefficients together(const Coefficients& open, const std::vector<const Coefficients*>& closed) {
+  Coefficients sum = open;
+  const auto others = static_cast<float>(closed.size() - 1);
+  for (std::size_t i = 0; i < sum.mean.size(); ++i) {
+    float mean = -others * open.mean[i], melanopic = -others * open.melanopic[i],
+          variance = others * others * open.error[i] * open.error[i];
+    for (const Coefficients* c : closed)
+      mean += c->mean[i], melanopic += c->melanopic[i], variance += c->error[i] * c->error[i];
+    sum.mean[i] = mean, sum.melanopic[i] = melanopic, sum.error[i] = std::sqrt(variance);
+  }
+  return sum;
+}
+
+StateCoefficients together(const std::vector<StateCoefficients>& states, std::size_t open,
+                           const std::vector<std::size_t>& closed) {
+  const auto sum = [&](Coefficients StateCoefficients::*part) {
+    std::vector<const Coefficients*> parts;
+    for (const std::size_t state : closed) parts.push_back(&(states[state].*part));
+    return together(states[open].*part, parts);
+  };
+  StateCoefficients both{"", sum(&StateCoefficients::sky), sum(&StateCoefficients::suns),
+                         sum(&StateCoefficients::beams), sum(&StateCoefficients::reflected)};
+  for (const std::size_t state : closed) both.name += (both.name.empty() ? "" : "+") + states[state].name;
+  return both;
+}
+
+}  // namespace
+
+StatesOfYear close_blinds(const SkyYear& year, std::vector<StateCoefficients>& coefficients,
+                          StatesOfYear states, const std::vector<std::size_t>& closed,
+                          const std::vector<bool>& in_area) {
   const auto all = static_cast<double>(std::ranges::count(in_area, true));
+  std::map<std::vector<std::size_t>, std::size_t> of_several;
   for (std::size_t h = 0; h < year.hours.size(); ++h) {
-    if (!year.hours[h].sun) continue;
+    const YearHour& hour = year.hours[h];
+    if (!hour.sun) continue;
     const Coefficients& beams = coefficients[states.with_open_blinds[h]].beams;
-    std::size_t sunlit = 0;
-    for (std::size_t s = 0; s < in_area.size(); ++s)
-      sunlit += in_area[s] && is_sunlit(year.hours[h], beams.of(s));
-    if (static_cast<double>(sunlit) > most_sunlit * all) states.of_hours[h] = closed;
+    std::vector<std::size_t> asked;
+    for (const std::size_t group : closed) {
+      std::size_t sunlit = 0;
+      for (std::size_t s = 0; s < in_area.size(); ++s)
+        sunlit +=
+            in_area[s] && is_sunlit(hour, beams.of(s)) &&
+            coefficients[group].beams.of(s)[*hour.sun] <= (1 - taken_by_blinds) * beams.of(s)[*hour.sun];
+      if (static_cast<double>(sunlit) > most_sunlit * all) asked.push_back(group);
+    }
+    if (asked.empty()) continue;
+    if (asked.size() == 1) {
+      states.of_hours[h] = asked.front();
+      continue;
+    }
+    const auto [known, is_new] = of_several.try_emplace(asked, coefficients.size());
+    if (is_new) coefficients.push_back(together(coefficients, states.usual, asked));
+    states.of_hours[h] = known->second;
   }
   return states;
 }

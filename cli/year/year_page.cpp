@@ -261,7 +261,7 @@ std::string legend_of(const YearReport& r) {
              r.settings.target_lx,
              r.blinds_move
                  ? ": blinds are closed in the hours in which more than 2 % of the area would have more "
-                   "than 1000 lx of the sun alone. ASE counts with open blinds"
+                   "than 1000 lx of the sun alone through them. ASE counts with open blinds"
                  : ", but that blinds do not move");
 }
 

@@ -119,8 +119,9 @@ TEST(YearFigures, BlindsCloseWhereTheSunIsOnMoreThanTwoPerCent) {
   };
   const auto closed_in_hour_1 = [&](std::vector<float> open, const std::vector<bool>& in_area) {
     const std::vector<float> none(open.size());
-    const StatesOfYear states =
-        close_blinds(year, {state(none), state(open)}, {{0, 1, 1, 1}, {0, 1, 1, 1}, 1}, 0, in_area);
+    std::vector<StateCoefficients> both{state(none), state(open)};
+    const StatesOfYear states = close_blinds(year, both, {{0, 1, 1, 1}, {0, 1, 1, 1}, 1}, {0}, in_area);
+    EXPECT_EQ(both.size(), 2u);
     EXPECT_EQ(states.with_open_blinds, (std::vector<std::size_t>{0, 1, 1, 1}));
     EXPECT_EQ(states.of_hours[0], 0u);
     EXPECT_EQ(states.of_hours[2], 1u);
@@ -136,16 +137,51 @@ TEST(YearFigures, BlindsCloseWhereTheSunIsOnMoreThanTwoPerCent) {
   EXPECT_TRUE(closed_in_hour_1(one_in_fifty, std::vector<bool>(49, true)));
 }
 
+// Suns of the three hours shine through the east window, through the west window, and through both. What each
+// lets in adds up; blinds leave a tenth of the sky.
+TEST(YearFigures, EachGroupOfBlindsClosesByItsOwnSun) {
+  SkyYear year;
+  year.patches = 2;
+  for (int h = 0; h < 3; ++h) {
+    YearHour hour;
+    hour.middle.hour = h + 9.5, hour.direct_normal_lx = 10000;
+    hour.sun = year.suns.size(), hour.sky = 0;
+    year.suns.push_back({0, 0, 1}), year.hours.push_back(hour);
+  }
+  year.luminances = {0, 1000}, year.overcast = {0, 1};
+  const NearSuns near = near_suns(year.suns, 0);
+  const auto state = [&](const char* name, float east, float west) {
+    const auto on = [](float part) { return part == 1 ? 1.0f : 0.0f; };
+    StateCoefficients c{name, coefficients({0, 0.3f * east + 0.2f * west}, {0, 0.01f}), {}, {}, {}};
+    set_suns(c,
+             coefficients({0.5f * on(east), 0.25f * on(west), 0.5f * on(east) + 0.25f * on(west)}, {0, 0, 0}),
+             coefficients({0, 0, 0}, {0, 0, 0}), near);
+    return c;
+  };
+  std::vector<StateCoefficients> states{state("open", 1, 1), state("east", 0.1f, 1), state("west", 1, 0.1f)};
+  const StatesOfYear of = close_blinds(year, states, {{0, 0, 0}, {0, 0, 0}, 0}, {1, 2}, {true});
+  EXPECT_EQ(of.of_hours, (std::vector<std::size_t>{1, 2, 3}));
+  EXPECT_EQ(of.with_open_blinds, (std::vector<std::size_t>{0, 0, 0}));
+  ASSERT_EQ(states.size(), 4u);
+  EXPECT_EQ(states[3].name, "east+west");
+  const SensorYear s = sensor_year(year, near, states, of, 0, counted_hours(year, {}), {});
+  EXPECT_NEAR(s.lux[0], 1000 * (0.03 + 0.2), 1e-2);
+  EXPECT_NEAR(s.lux[1], 1000 * (0.3 + 0.02), 1e-2);
+  EXPECT_NEAR(s.lux[2], 1000 * (0.03 + 0.02), 1e-2);
+  EXPECT_NEAR(s.melanopic[2], 500 * (0.03 + 0.02), 1e-2);
+  EXPECT_NEAR(s.error[2], 1000 * 0.01 * std::sqrt(3), 1e-2);
+  EXPECT_NEAR(s.estimate(Figure::sun_hours).value, 3, 1e-9);  // as with open blinds
+}
+
 // Blinds that are closed take light, but ASE counts as if they were open.
 TEST(YearFigures, SunHoursAreThoseOfOpenBlinds) {
   const SkyYear year = four_hours();
   const NearSuns near = near_suns(year.suns, 3);
   StateCoefficients closed{"closed", coefficients({0, 0}, {0, 0}), {}, {}, {}};
   set_suns(closed, coefficients({0}, {0}), coefficients({0}, {0}), near);
-  const StatesOfYear states =
-      close_blinds(year, {state(near, 0), closed}, {{0, 0, 0, 0}, {0, 0, 0, 0}, 0}, 1, {true});
-  const SensorYear s =
-      sensor_year(year, near, {state(near, 0), closed}, states, 0, counted_hours(year, {}), {});
+  std::vector<StateCoefficients> both{state(near, 0), closed};
+  const StatesOfYear states = close_blinds(year, both, {{0, 0, 0, 0}, {0, 0, 0, 0}, 0}, {1}, {true});
+  const SensorYear s = sensor_year(year, near, both, states, 0, counted_hours(year, {}), {});
   EXPECT_EQ(s.lux, (std::vector<float>{50, 0, 4000, 360}));
   EXPECT_EQ(s.estimate(Figure::sun_hours).value, 1);
 }

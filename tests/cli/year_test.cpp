@@ -201,6 +201,66 @@ TEST_F(Year, BlindsCloseByTheRuleOfLm83) {
   EXPECT_GT(closed, 5);
 }
 
+// A black room of 4 × 4 × 3 with a window to the east and one to the west, from 1 to 2. A closed one is wall.
+TEST_F(Year, EachGroupOfWindowsClosesByItself) {
+  const auto room = [&](const std::string& name, bool east, bool west) {
+    std::ofstream out(directory_ / (name + ".pbrt"));
+    out << "LookAt 0 -9 5  0 0 0  0 0 1\nCamera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
+           "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
+    const auto wall = [&](const std::string& points) {
+      out << "Shape \"trianglemesh\" \"point3 P\" [" << points << "] \"integer indices\" [0 1 2 0 2 3]\n";
+    };
+    for (const double z : {-0.1, 3.0}) wall(fmt::format("-2 -2 {0}  2 -2 {0}  2 2 {0}  -2 2 {0}", z));
+    for (const double y : {-2.0, 2.0}) wall(fmt::format("-2 {0} -0.1  2 {0} -0.1  2 {0} 3  -2 {0} 3", y));
+    for (const bool is_east : {true, false}) {
+      const auto strip = [&](double low, double high) {
+        wall(fmt::format("{0} -2 {1}  {0} 2 {1}  {0} 2 {2}  {0} -2 {2}", is_east ? 2 : -2, low, high));
+      };
+      strip(-0.1, 1), strip(2, 3);
+      if (is_east ? !east : !west) strip(1, 2);
+    }
+    out.close();
+    EXPECT_EQ(verb("partition", fmt::format("{0}.pbrt -o {0}.vit", name)).status, 0);
+  };
+  room("room", true, true), room("no-east", false, true), room("no-west", true, false);
+  std::ofstream grid(directory_ / "grid.txt");
+  for (int i = 0; i < 25; ++i)
+    grid << fmt::format("{} {} 0.01  0 0 1\n", -1.6 + i % 5 * 0.8, -1.6 + i / 5 * 0.8);
+  grid.close();
+  const CommandResult done =
+      verb("year",
+           "room.vit --weather w.epw --sensors grid.txt -o rooms --patches 1 --paths 2k --sun-paths 2 "
+           "--quiet --state open= --state east=no-east.vit --state west=no-west.vit --blinds east "
+           "--blinds west");
+  ASSERT_EQ(done.status, 0) << done.output;
+  const Table hours = table(directory_ / "rooms" / "hours.csv");
+  std::set<std::string> seen;
+  for (std::size_t h = 1; h < hours.size(); ++h) {
+    const double degree = 3.14159265 / 180, elevation = std::stod(hours[h][3]) * degree,
+                 azimuth = std::stod(hours[h][4]) * degree, direct = std::stod(hours[h][5]);
+    const double x = std::sin(azimuth) * std::cos(elevation), y = std::cos(azimuth) * std::cos(elevation),
+                 z = std::sin(elevation);
+    // Whether a sensor sees the sun through a window that is larger by `more`.
+    const auto asks = [&](double more) {
+      bool any = false;
+      for (int i = 0; i < 25; ++i) {
+        const double sx = -1.6 + i % 5 * 0.8, sy = -1.6 + i / 5 * 0.8;
+        const double way = ((x > 0 ? 2 : -2) - sx) / x;
+        any |= std::abs(sy + way * y) < 2 + more && std::abs(0.01 + way * z - 1.5) < 0.5 + more;
+      }
+      return any && direct * z > 1000;
+    };
+    if (direct > 0 && asks(0.05) != asks(-0.05)) continue;  // at an edge
+    const std::string expected = direct <= 0 || !asks(0) ? "open" : x > 0 ? "east" : "west";
+    EXPECT_EQ(hours[h][8], expected) << h;
+    if (direct > 0) seen.insert(expected);
+    // No sun is left, and no more sky than the windows' share of it.
+    for (std::size_t s = 0; s < 25 && expected != "open"; ++s)
+      EXPECT_LT(std::stod(hours[h][9 + s]), 5000) << h;
+  }
+  EXPECT_EQ(seen, (std::set<std::string>{"east", "open", "west"}));
+}
+
 // The sensor that looks south on the equinox has the sun from 6 to 18 h of the sun's time: above 10° that is
 // while the sine of its height, which is that of the noon times the cosine of its hour, is more than that of
 // 10°.
@@ -228,6 +288,8 @@ TEST_F(Year, MistakesAreNamed) {
   EXPECT_EQ(year("--heat window=panes.json@3").status, 2);  // there are two sensors
   EXPECT_EQ(year("--photochromic").status, 2);
   EXPECT_EQ(year("--state a= --state b= --blinds c").status, 2);
+  EXPECT_EQ(year("--state a= --state b= --blinds b --blinds b").status, 2);
+  EXPECT_EQ(year("--state a= --state b= --state c= --blinds b --blinds c --rules rules.json").status, 2);
   EXPECT_EQ(year("--state clear=window.state=1").status, 2);  // the scene has no such glass
   EXPECT_EQ(year("--rules rules.json").status, 2);
   EXPECT_EQ(year("--up z --north -z").status, 2);
