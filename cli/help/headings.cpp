@@ -111,7 +111,8 @@ const std::vector<Heading> of_sky{{"Where and when", "SKY=SKY"},
 
 const std::vector<Heading> of_year{
     {"What to measure",
-     "bundle=BUNDLE weather=FILE sensors=FILE up=AXIS north=AXIS ground=REFLECTANCE set=NAME.PROPERTY=VALUE "
+     "bundle=BUNDLE weather=FILE file-lux sensors=FILE up=AXIS north=AXIS ground=REFLECTANCE "
+     "set=NAME.PROPERTY=VALUE "
      "state=NAME=SETTINGS rules=FILE blinds=STATE use=HOURS target=LUX sun-day=DAY "
      "sun-above=DEGREES heat=GLASS photochromic"},
     {"How good", "patches paths=COUNT sun-paths=COUNT sun-blur=DEGREES max-depth seed"},

@@ -16,7 +16,7 @@ constexpr double lowest_sun_deg = 3;  // of Perez's sky
 
 bool is_whole_year(const SkyYear& year) { return year.hours.size() >= std::size_t{365} * 24; }
 
-SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double ground) {
+SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double ground, bool file_lux) {
   SkyYear year;
   year.patches = patches.count();
   const PatchSkies skies(patches);
@@ -30,7 +30,14 @@ SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double g
     // An hour at whose middle the sun has not risen has the sky of one that has just done so.
     const bool is_up = sun.elevation_deg > 0;
     const SunPosition of_sky{std::max(sun.elevation_deg, lowest_sun_deg), sun.azimuth_deg};
-    const MeasuredSky measured = perez_sky(w.direct_normal_w, w.diffuse_horizontal_w, of_sky, w.middle);
+    MeasuredSky measured = perez_sky(w.direct_normal_w, w.diffuse_horizontal_w, of_sky, w.middle);
+    if (file_lux && measured.distribution.diffuse_lx > 0) {
+      if (w.lux && w.lux->diffuse_horizontal > 0)
+        measured.distribution.diffuse_lx = w.lux->diffuse_horizontal,
+        measured.direct_normal_lx = w.lux->direct_normal;
+      else
+        ++year.without_lux;
+    }
     YearHour hour{w.middle, sun.elevation_deg, sun.azimuth_deg};
     if (measured.distribution.diffuse_lx > 0) {
       const Vector3d to_sun = direction_of(sun);

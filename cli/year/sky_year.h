@@ -25,6 +25,7 @@ struct YearHour {
 
 struct SkyYear {
   std::vector<YearHour> hours;
+  std::size_t without_lux = 0;  // lit hours whose own lux, asked for, are missing in the file
   std::vector<Vector3d> suns;
   std::size_t patches = 0;
   std::vector<float> luminances;  // [sky][patch], cd/m²; the first patch is the ground
@@ -39,8 +40,9 @@ bool is_whole_year(const SkyYear& year);
 
 // Makes of each hour the all-weather sky of Perez (sky_distribution.h) and the sun where it stands in the
 // middle of the hour. The ground is as bright as a white sheet that reflects `ground` of the global
-// illuminance. Where the sun is below the horizon then, there is the hour's sky without sun.
-SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double ground);
+// illuminance. Where the sun is below the horizon then, there is the hour's sky without sun. Its lux follow
+// from the watts by Perez's efficacies, or are the `file_lux` where the file has them.
+SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double ground, bool file_lux = false);
 
 // Returns where the sun stands in the middle of each minute of a day of the weather's year, while it is
 // higher than `above_deg`.

@@ -78,7 +78,7 @@ Known read_all(const YearArguments& a) {
               .minutes = {},
               .near = {},
               .rules = {}};
-  known.year = sky_year(known.weather, SkyPatches(a.division), a.ground);
+  known.year = sky_year(known.weather, SkyPatches(a.division), a.ground, a.file_lux);
   known.near = near_suns(known.year.suns, a.sun_blur_deg);
   if (!a.heat.empty()) heat_through(a, known.sensors.size());
   if (!a.rules.empty()) known.rules = read_state_rules(a.rules, names_of(states_of(a)), known.sensors.size());
@@ -91,6 +91,9 @@ void say_what_is_known(const YearArguments& a, const Known& known) {
   if (known.weather.missing > 0)
     say("vitrail: {}: {} hours have no measurement (9999) and count as dark\n", a.weather.string(),
         known.weather.missing);
+  if (known.year.without_lux > 0)
+    say("vitrail: {}: {} hours have no illuminances: theirs are of the W/m2, by Perez\n", a.weather.string(),
+        known.year.without_lux);
   if (!is_whole_year(known.year))
     say("vitrail: {}: {} hours are no year: DA, UDI, sDA, ASE and EN 17037 are of these hours alone\n",
         a.weather.string(), known.year.hours.size());

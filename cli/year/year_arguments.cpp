@@ -42,6 +42,8 @@ void declare(CLI::App& app, YearArguments& a) {
                  "the sky has 145 patches (1), 577 (2) or 2305 (4): Reinhart's division of Tregenza's")
       ->check(CLI::IsMember({1, 2, 4}))
       ->capture_default_str();
+  app.add_flag("--file-lux", a.file_lux,
+               "take the illuminances of the .epw, where it has them, not its W/m² by Perez's efficacies");
   app.add_option("--ground", a.ground, "reflectance of the ground below the horizon, where no surface is")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();

@@ -32,7 +32,7 @@ struct YearArguments {
   FigureSettings figures;
   JobResources resources;
   std::uint64_t seed = 0;
-  bool force = false, quiet = false, table = false, photochromic = false;
+  bool force = false, quiet = false, table = false, file_lux = false, photochromic = false;
   std::string command;
 };
 

@@ -72,6 +72,8 @@ int cie_type(const std::string& word) {
 // What is told of a sky that is not the model's clear one.
 struct Given {
   std::optional<int> cie;
+  bool is_of_weather = false, takes_file_lux = false;
+  std::optional<WeatherLux> file_lux;
   std::optional<Measured> direct, diffuse;
 };
 
@@ -86,6 +88,8 @@ void set(GivenSky& sky, Given& given, const std::string& key, const std::string&
     sky.light.sky_scale = static_cast<float>(number(value, 0, 1e6));
   else if (key == "cie")
     given.cie = cie_type(value);
+  else if (key == "lux" && (value == "file" || value == "perez"))
+    given.takes_file_lux = value == "file";
   else if (key == "direct" || key == "diffuse")
     (key == "direct" ? given.direct : given.diffuse) = measured(key, value);
   else if (key == "up" || key == "north")
@@ -93,7 +97,7 @@ void set(GivenSky& sky, Given& given, const std::string& key, const std::string&
   else
     throw UsageError(
         fmt::format("--sky: there is no \"{}\"; there are turbidity, albedo, cie, diffuse, direct, "
-                    "up, north, sun and sky",
+                    "lux=file, up, north, sun and sky",
                     key));
 }
 
@@ -107,6 +111,10 @@ std::optional<MeasuredSky> measured_sky(const GivenSky& sky, const Given& given)
     throw UsageError("--sky: direct= and diffuse= are both in W or both in lx");
   MeasuredSky of =
       (diffuse.in_lux ? perez_sky_of_lux : perez_sky)(direct.value, diffuse.value, sky.sun, sky.time);
+  if (given.file_lux && given.takes_file_lux) {
+    of.distribution.diffuse_lx = given.file_lux->diffuse_horizontal;
+    of.direct_normal_lx = sky.sun.elevation_deg > 0 ? given.file_lux->direct_normal : 0;
+  }
   if (!given.cie) return of;
   const double lx = of.distribution.diffuse_lx;
   of.distribution = cie_sky(*given.cie, sky.sun, sky.time).distribution;
@@ -155,6 +163,7 @@ void set_by_weather(GivenSky& sky, Given& given, const std::string& word) {
       read_weather_hour(word.substr(0, at), moment_of(leap_year + word.substr(at + 1) + "Z"));
   sky.place = hour.place, sky.time = hour.middle;
   given.direct = Measured{hour.direct_normal_w}, given.diffuse = Measured{hour.diffuse_horizontal_w};
+  given.is_of_weather = true, given.file_lux = hour.lux;
 }
 
 }  // namespace
@@ -185,6 +194,10 @@ GivenSky parse_sky(const std::string& words) {
     if (!keys.insert(key).second) throw UsageError(fmt::format("--sky: {} is given twice", key));
     set(sky, given, key, at == std::string::npos ? parts[i] : parts[i].substr(at + 1));
   }
+  if (given.takes_file_lux && !given.is_of_weather)
+    throw UsageError("--sky: lux=file is of an hour of a weather file, such as paris.epw@06-21T12:00");
+  if (given.takes_file_lux && !given.file_lux)
+    throw Error("the file has no illuminances of this hour: leave out lux=file", {parts[0]});
   if (const auto of = measured_sky(sky, given)) take(sky.light, *of);
   return sky;
 }

@@ -19,7 +19,8 @@ namespace vitrail {
 // the sun across its direction. Without cie the sky is Perez's for these two.
 //
 // "FILE@MM-DDTHH:MM[,KEY=VALUE …]" takes place, zone, direct and diffuse from an hour of a weather file (.epw
-// or .wea); the sun stands where it does in the middle of that hour.
+// or .wea); the sun stands where it does in the middle of that hour. With lux=file the brightness is the
+// file's own illuminances, not the watts by Perez's efficacies.
 struct GivenSky {
   Place place;
   LocalTime time;

@@ -67,6 +67,7 @@ class WeatherReader {
       if (direct_w >= missing_w || diffuse_w >= missing_w) direct_w = diffuse_w = 0, ++year.missing;
       year.hours.push_back(measured(moment, direct_w, diffuse_w));
       year.hours.back().middle.year = is_epw ? static_cast<int>(number(words, 0)) : moment.year;
+      if (is_epw) year.hours.back().lux = lux_of(words);
       if (year.hours.size() > 1 && is_same_hour(year.hours.end()[-2].middle, year.hours.back().middle))
         fail("this hour has several lines; one an hour is needed");
     }
@@ -135,13 +136,25 @@ class WeatherReader {
       if (line_.starts_with("DATA PERIODS")) return;
     fail("there are no DATA PERIODS");
   }
-  // Year, month, day, hour from 1 to 24, which it ends; direct and diffuse are values 15 and 16.
+  // Year, month, day, hour from 1 to 24, which it ends; direct and diffuse are values 15 and 16, in W/m², and
+  // 18 and 19, in lx.
   std::optional<WeatherHour> epw_hour(const std::vector<std::string_view>& words, const LocalTime& moment) {
     if (number(words, 1) != moment.month || number(words, 2) != moment.day ||
         number(words, 3) != whole(moment) + 1)
       return {};
     hour_.middle.year = static_cast<int>(number(words, 0));
+    hour_.lux = lux_of(words);
     return measured(moment, number(words, 14), number(words, 15));
+  }
+
+  // A file may end its lines before them.
+  std::optional<WeatherLux> lux_of(const std::vector<std::string_view>& words) const {
+    constexpr double missing_lx = 999900;
+    if (words.size() < 19 || words[17].empty() || words[18].empty()) return {};
+    const WeatherLux lux{number(words, 17), number(words, 18)};
+    const auto is_there = [](double lx) { return lx >= 0 && lx < missing_lx; };
+    if (!is_there(lux.direct_normal) || !is_there(lux.diffuse_horizontal)) return {};
+    return lux;
   }
 
   // Six lines of a name and a value: west is positive, the zone in degrees.

@@ -3,11 +3,18 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "scene/daylight/sun_position.h"
 
 namespace vitrail {
+
+// Illuminances that a file has beside the watts.
+struct WeatherLux {
+  double direct_normal = 0;       // of the sun, across its direction
+  double diffuse_horizontal = 0;  // of the sky, on a horizontal plane
+};
 
 // The sun and the sky of an hour, W/m².
 struct WeatherHour {
@@ -15,6 +22,7 @@ struct WeatherHour {
   LocalTime middle;                 // of the hour, by the file's clock
   double direct_normal_w = 0;       // of the sun, across its direction
   double diffuse_horizontal_w = 0;  // of the sky, on a horizontal plane
+  std::optional<WeatherLux> lux;    // none: the file has none for it (from 999900 on, and below 0: missing)
 };
 
 // Reads the hour that `moment` lies in, of an EnergyPlus weather file (.epw) or of Radiance's (.wea): its

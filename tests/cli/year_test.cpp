@@ -261,6 +261,28 @@ TEST_F(Year, EachGroupOfWindowsClosesByItself) {
   EXPECT_EQ(seen, (std::set<std::string>{"east", "open", "west"}));
 }
 
+// The file's own lux, where it has them.
+TEST_F(Year, TakesTheLuxOfTheFile) {
+  std::ofstream weather(directory_ / "lux.epw");
+  weather << "LOCATION,Own,-,-,own,0,48.86,2.35,1.0,40\nDATA PERIODS,1,1,Data,Sunday,1/1,12/31\n";
+  for (const char* lux : {"90000,60000,30000", "999999,999999,999999"})
+    weather << fmt::format("2001,3,{},13,60,?,1,1,70,101325,0,0,300,0,600,120,{},9999\n",
+                           lux[0] == '9' && lux[1] == '0' ? 21 : 22, lux);
+  weather.close();
+  const CommandResult done = year("--weather lux.epw --file-lux", "own"),
+                      perez = year("--weather lux.epw", "perez");
+  ASSERT_EQ(done.status, 0) << done.output;
+  EXPECT_THAT(done.output, HasSubstr("1 hours have no illuminances"));
+  const Table own = table(directory_ / "own" / "hours.csv"),
+              by_perez = table(directory_ / "perez" / "hours.csv");
+  EXPECT_EQ(std::stod(own[1][5]), 60000);
+  EXPECT_EQ(std::stod(own[1][6]), 30000);
+  EXPECT_NEAR(std::stod(own[1][9]), std::stod(own[1][7]), 0.01 * std::stod(own[1][7]));
+  EXPECT_NE(own[1], by_perez[1]);
+  EXPECT_EQ(own[2][5], by_perez[2][5]);
+  EXPECT_EQ(own[2][6], by_perez[2][6]);
+}
+
 // The sensor that looks south on the equinox has the sun from 6 to 18 h of the sun's time: above 10° that is
 // while the sine of its height, which is that of the noon times the cosine of its hour, is more than that of
 // 10°.

@@ -84,14 +84,21 @@ TEST(GivenSky, TakesAnHourOfAWeatherFile) {
                  words = parse_sky("48.86,2.35,2019-06-21T11:30+01:00,direct=640W,diffuse=110W");
   EXPECT_EQ(hour.light, words.light);
   EXPECT_EQ(hour.up, "z");
+  EXPECT_THROW(parse_sky(file + "@06-21T11:00,lux=file"), Error);  // it has none
+  std::ofstream(directory / "a.b.epw", std::ios::app)
+      << "2019,6,21,14,60,?,20,10,50,99000,0,1400,300,500,640,110,90000,60000,30000,9999\n";
+  const SkyModel own(parse_sky(file + "@06-21T13:00,lux=file").light);
+  EXPECT_NEAR(lux(own.sun_irradiance(own.to_sun())), 60000, 6);
+  EXPECT_NEAR(lux(own.sky_irradiance()), 30000, 3);
   EXPECT_THROW(parse_sky(file + "@06-21T12:00"), Error);
   EXPECT_THROW(parse_sky(file + "@13-21T12:00"), UsageError);
 }
 
 TEST(GivenSky, RefusesWhatItCannotMean) {
   const std::string place = "48.86,2.35,2026-03-20T12:00+01:00,";
-  for (const char* words : {"cie=0", "cie=16", "cie=1.5", "cie=cloudy", "direct=640", "direct=640W",
-                            "diffuse=-1W", "direct=640W,diffuse=100lx", "diffuse=nanW", "diffuse=1e9lx"})
+  for (const char* words :
+       {"cie=0", "cie=16", "cie=1.5", "cie=cloudy", "direct=640", "direct=640W", "diffuse=-1W",
+        "direct=640W,diffuse=100lx", "diffuse=nanW", "diffuse=1e9lx", "lux=file", "lux=1"})
     EXPECT_THROW(parse_sky(place + words), UsageError) << words;
 }
 

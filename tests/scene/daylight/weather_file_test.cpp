@@ -54,6 +54,21 @@ TEST_F(WeatherFile, HoursOfAnEpwEndAtTheirNumber) {
   EXPECT_EQ(before.direct_normal_w, 640);
 }
 
+TEST_F(WeatherFile, AnEpwMayHaveLux) {
+  const LocalTime noon{2024, 6, 21, 12, 0};
+  const auto with = [&](const std::string& lux) {
+    return read("a.epw", epw_head + "1999,6,21,13,60,?,20,10,50,99000,0,1400,300,500,640,110" + lux + "\n",
+                noon)
+        .lux;
+  };
+  ASSERT_TRUE(with(",90000,60000,30000,9999"));
+  EXPECT_EQ(with(",90000,60000,30000,9999")->direct_normal, 60000);
+  EXPECT_EQ(with(",90000,60000,30000,9999")->diffuse_horizontal, 30000);
+  for (const char* missing :
+       {"", ",90000,60000", ",90000,999900,30000", ",90000,60000,999999", ",90000,,30000", ",90000,60000,-1"})
+    EXPECT_FALSE(with(missing)) << missing;
+}
+
 TEST_F(WeatherFile, WestIsPositiveInAWea) {
   const std::string text =
       "place Denver_USA\nlatitude 39.74\nlongitude 105.18\ntime_zone 105\nsite_elevation 1829.0\n"
