@@ -132,7 +132,7 @@ void interpret_sun_day(YearArguments& a) {
 
 bool is_plain_name(const std::string& name) {
   return !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
+    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.' || c == '+';
   }) && name.front() != '.';
 }
 
@@ -180,7 +180,7 @@ std::vector<YearState> states_of(const YearArguments& a) {
     YearState state{text.substr(0, equals), a.settings, a.bundle};
     if (equals == text.npos || !is_plain_name(state.name))
       throw UsageError(
-          "--state takes a name of letters, digits, - and _, and settings behind it, as in "
+          "--state takes a name of letters, digits, -, + and _, and settings behind it, as in "
           "dark=window.state=1: " +
           text);
     if (std::ranges::find(states, state.name, &YearState::name) != states.end())

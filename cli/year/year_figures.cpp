@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <numeric>
+#include <span>
 
 #include "scene/geometry/pi.h"
 #include "tracer/sampling/sampler.h"
@@ -220,17 +220,23 @@ Coefficients together(const Coefficients& open, const std::vector<const Coeffici
   return sum;
 }
 
-StateCoefficients together(const std::vector<StateCoefficients>& states, std::size_t open,
-                           const std::vector<std::size_t>& closed) {
+// Returns the state in which these groups are closed: where they are several, the one of their names, else
+// one that is appended.
+std::size_t state_with(std::vector<StateCoefficients>& states, std::size_t open,
+                       const std::vector<std::size_t>& closed) {
+  if (closed.size() == 1) return closed.front();
+  std::string name = states[closed.front()].name;
+  for (const std::size_t state : std::span(closed).subspan(1)) name += "+" + states[state].name;
+  const auto traced = std::ranges::find(states, name, &StateCoefficients::name);
+  if (traced != states.end()) return static_cast<std::size_t>(traced - states.begin());
   const auto sum = [&](Coefficients StateCoefficients::*part) {
     std::vector<const Coefficients*> parts;
     for (const std::size_t state : closed) parts.push_back(&(states[state].*part));
     return together(states[open].*part, parts);
   };
-  StateCoefficients both{"", sum(&StateCoefficients::sky), sum(&StateCoefficients::suns),
-                         sum(&StateCoefficients::beams), sum(&StateCoefficients::reflected)};
-  for (const std::size_t state : closed) both.name += (both.name.empty() ? "" : "+") + states[state].name;
-  return both;
+  states.push_back({name, sum(&StateCoefficients::sky), sum(&StateCoefficients::suns),
+                    sum(&StateCoefficients::beams), sum(&StateCoefficients::reflected)});
+  return states.size() - 1;
 }
 
 }  // namespace
@@ -239,7 +245,6 @@ StatesOfYear close_blinds(const SkyYear& year, std::vector<StateCoefficients>& c
                           StatesOfYear states, const std::vector<std::size_t>& closed,
                           const std::vector<bool>& in_area) {
   const auto all = static_cast<double>(std::ranges::count(in_area, true));
-  std::map<std::vector<std::size_t>, std::size_t> of_several;
   for (std::size_t h = 0; h < year.hours.size(); ++h) {
     const YearHour& hour = year.hours[h];
     if (!hour.sun) continue;
@@ -254,13 +259,7 @@ StatesOfYear close_blinds(const SkyYear& year, std::vector<StateCoefficients>& c
       if (static_cast<double>(sunlit) > most_sunlit * all) asked.push_back(group);
     }
     if (asked.empty()) continue;
-    if (asked.size() == 1) {
-      states.of_hours[h] = asked.front();
-      continue;
-    }
-    const auto [known, is_new] = of_several.try_emplace(asked, coefficients.size());
-    if (is_new) coefficients.push_back(together(coefficients, states.usual, asked));
-    states.of_hours[h] = known->second;
+    states.of_hours[h] = state_with(coefficients, states.usual, asked);
   }
   return states;
 }

@@ -96,8 +96,9 @@ struct StatesOfYear {
 // Closes blinds, each group of windows by itself: in each hour in which more than 2 % of the area's sensors
 // have more than 1000 lx of the sun alone through it while all are open (IES LM-83-12). `closed` holds for
 // each group the state in which it alone is closed. Sun comes through the group where that state takes a
-// tenth or more of it. For hours in which several are closed a state is appended to `coefficients`: that with
-// open blinds less what each group takes away. It leaves out what is taken from the same light twice.
+// tenth or more of it. An hour in which several close has the state of their names, "east+west". Where there
+// is none it is appended to `coefficients`: that with open blinds less what each group takes away. It leaves
+// out what is taken from the same light twice.
 StatesOfYear close_blinds(const SkyYear& year, std::vector<StateCoefficients>& coefficients,
                           StatesOfYear states, const std::vector<std::size_t>& closed,
                           const std::vector<bool>& in_area);

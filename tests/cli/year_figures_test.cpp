@@ -159,6 +159,10 @@ TEST(YearFigures, EachGroupOfBlindsClosesByItsOwnSun) {
     return c;
   };
   std::vector<StateCoefficients> states{state("open", 1, 1), state("east", 0.1f, 1), state("west", 1, 0.1f)};
+  std::vector<StateCoefficients> traced = states;
+  traced.push_back(state("east+west", 0.05f, 0.05f));
+  EXPECT_EQ(close_blinds(year, traced, {{0, 0, 0}, {0, 0, 0}, 0}, {1, 2}, {true}).of_hours[2], 3u);
+  EXPECT_EQ(traced.size(), 4u);
   const StatesOfYear of = close_blinds(year, states, {{0, 0, 0}, {0, 0, 0}, 0}, {1, 2}, {true});
   EXPECT_EQ(of.of_hours, (std::vector<std::size_t>{1, 2, 3}));
   EXPECT_EQ(of.with_open_blinds, (std::vector<std::size_t>{0, 0, 0}));
