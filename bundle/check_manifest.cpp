@@ -12,6 +12,7 @@
 #include "bundle/manifest_json.h"
 #include "bundle/record_fields.h"
 #include "bundle/triangle_number.h"
+#include "scene/daylight/daylight_illuminant.h"
 #include "scene/records/film_extent.h"
 #include "scene/records/nesting_limits.h"
 #include "scene/system/diagnostics.h"
@@ -254,6 +255,12 @@ void check_lights(const Checker& c, const Manifest& m) {
   for (const Light& light : m.lights)
     if (const auto* sky = std::get_if<SkyLight>(&light.model))
       c.require(std::abs(length(sky->to_sun) - 1) < 1e-6 && sky->sun_diameter_deg > 0, "a sky has no sun");
+  for (const Light& light : m.lights)
+    if (const auto* sky = std::get_if<SkyLight>(&light.model)) {
+      c.require(sky->ground >= 0 && sky->ground <= 1, "a sky's ground reflects no share from 0 to 1");
+      c.require(sky->color_temperature_k == 0 || is_daylight(static_cast<double>(sky->color_temperature_k)),
+                "a sky has the temperature of no daylight");
+    }
   for (const Light& light : m.lights)
     if (const auto* sky = std::get_if<SkyLight>(&light.model); sky && *sky->distribution)
       c.require((*sky->distribution)->diffuse_lx >= 0, "a sky has a negative illuminance");

@@ -221,7 +221,8 @@ Features features_of(const Manifest& m) {
   require(std::ranges::any_of(m.lights,
                               [](const Light& light) {
                                 const auto* sky = std::get_if<SkyLight>(&light.model);
-                                return sky && sky->distribution->has_value();
+                                return sky && (sky->distribution->has_value() || sky->ground != 0 ||
+                                               sky->color_temperature_k != 0);
                               }),
           required_feature::skies);
   require(has_shadowless_materials(m) || !std::ranges::all_of(m.lights, &Light::casts_shadows),

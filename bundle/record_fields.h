@@ -338,17 +338,21 @@ void fields(auto& io, Is<EnvironmentLight> auto& l) {
   fields(io, l.filename), fields(io, *l.light_to_world), fields(io, l.projection), fields(io, *l.scale);
   fields(io, l.illuminance), fields(io, *l.portal);
 }
-// The lowest bit of a byte, and the next one, which only those of the feature `skies` have.
+// A byte says whether the limb is dark (1), and what follows: a distribution (2), the ground (4), a
+// temperature (8). Those three are of the feature `skies`.
 void fields(auto& io, Is<SkyLight> auto& l) {
   fields(io, *l.light_to_world), fields(io, l.to_sun), fields(io, l.turbidity), fields(io, *l.albedo);
   fields(io, l.sky_scale), fields(io, l.sun_scale), fields(io, l.sun_diameter_deg);
-  auto byte = static_cast<std::uint8_t>(l.limb_darkening | l.distribution->has_value() << 1);
+  auto byte = static_cast<std::uint8_t>(l.limb_darkening | l.distribution->has_value() << 1 |
+                                        (l.ground != 0) << 2 | (l.color_temperature_k != 0) << 3);
   io(byte);
   if constexpr (reads<decltype(io)>) {
     l.limb_darkening = byte & 1;
     if (byte & 2) l.distribution->emplace();
   }
   if (*l.distribution) fields(io, **l.distribution);
+  if (byte & 4) fields(io, l.ground);
+  if (byte & 8) fields(io, l.color_temperature_k);
 }
 // The kind, in its highest bit whether something follows its fields, in the next one whether it casts no
 // shadows (the feature `shadowless`).

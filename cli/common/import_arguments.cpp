@@ -58,7 +58,7 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
   app.add_option(
       "--sky", a.sky,
       "replace all light from infinitely far by sky and sun: "
-      "LATITUDE,LONGITUDE,TIME[,turbidity=3,albedo=0.2,up=y,north=-z,sun=1,sky=1], TIME as "
+      "LATITUDE,LONGITUDE,TIME[,turbidity=3,ground=0,up=y,north=-z,sun=1,sky=1], TIME as "
       "2026-06-21T12:00+02:00; default of up: the camera's. The sky is clear, or with cie=1 … 15 one "
       "of the CIE's, or with diffuse=210W,direct=640W (or lx) Perez's; paris.epw@06-21T12:00 is an "
       "hour of a weather file (.epw, .wea)");

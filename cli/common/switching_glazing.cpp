@@ -48,8 +48,8 @@ GlazingSetting parse_setting(const std::string& text) {
   const auto* kind = std::ranges::find(kinds, quantity, &QuantityKind::name);
   if (kind == std::end(kinds))
     refuse(
-        "these can be set: scale, sun, turbidity or sky of lights; color or roughness of materials; state, "
-        "temperature, uv or seconds of switchable glazing");
+        "these can be set: scale, sun, turbidity, ground or sky of lights; color or roughness of materials; "
+        "state, temperature, uv or seconds of switchable glazing");
   GlazingSetting setting{text.substr(0, dot), kind->quantity};
   const char* end = number.data() + number.size();
   const auto parsed = std::from_chars(number.data(), end, setting.value);

@@ -78,7 +78,7 @@ void declare_picture(CLI::App& app, RenderArguments& a) {
   app.add_option("--set", a.settings,
                  "change the scene without partitioning it again; may repeat. Lights, by the names of "
                  "inspect or of their material: NAME.scale=2; a sky: NAME.sun=X:Y:Z (towards it) and "
-                 "NAME.turbidity=3, or NAME.sky= and the words of --sky. Materials: "
+                 "NAME.turbidity=3, NAME.ground=0.2, or NAME.sky= and the words of --sky. Materials: "
                  "NAME.color=R:G:B, NAME.roughness=0.2. Switchable glazing: NAME.state=0.6, "
                  "NAME.temperature (°C), NAME.uv (W/m²), NAME.seconds")
       ->allow_extra_args(false);

@@ -49,7 +49,6 @@ Json measured(const Bands& bands) {
   return j;
 }
 
-// Without what the ground sends back.
 Bands on_wall(const SkyModel& model, Vector3d normal) {
   return sum(model.sun_irradiance(normal), model.sky_irradiance(normal));
 }
@@ -109,11 +108,11 @@ int main(int argc, char** argv) {
   using namespace vitrail;
   CLI::App app("The sun's position, and the light of the sun and the sky, by place and time.", "vitrail sky");
   Arguments a;
-  app.add_option(
-         "SKY", a.sky,
-         "LATITUDE,LONGITUDE,TIME[,turbidity=3,albedo=0.2,cie=1,direct=640W,diffuse=210W,sun=1,sky=1], "
-         "degrees as 33.9S, TIME as 2026-06-21T12:00+02:00; or an hour of a weather file: "
-         "paris.epw@06-21T12:00")
+  app.add_option("SKY", a.sky,
+                 "LATITUDE,LONGITUDE,TIME[,turbidity=3,ground=0,albedo=0.2,cie=1,direct=640W,diffuse=210W,"
+                 "sun=1,sky=1], "
+                 "degrees as 33.9S, TIME as 2026-06-21T12:00+02:00; or an hour of a weather file: "
+                 "paris.epw@06-21T12:00")
       ->required();
   app.add_option("-o,--output", a.output,
                  "write the sky without the sun as .exr in linear sRGB, by latitude and longitude: the "

@@ -35,6 +35,7 @@ struct Property {
 constexpr Property properties[] = {{"scale", 1, 0, infinite, "a scale is a number that is not negative"},
                                    {"sun", 3, -infinite, infinite, "a direction has three numbers, x:y:z"},
                                    {"turbidity", 1, 1, 10, "a turbidity is in [1, 10]"},
+                                   {"ground", 1, 0, 1, "a ground reflects a share in [0, 1]"},
                                    {"color", 3, 0, 1, "a colour has three numbers in [0, 1], r:g:b"},
                                    {"roughness", 1, 0, 1, "a roughness is in [0, 1]"},
                                    {"sky", 0, 0, 0, "a sky is told as of --sky"}};
@@ -118,6 +119,8 @@ void edit_light(Light& light, const SceneEdit& edit) {
     scale_given(light, edit.values[0]);
   } else if (edit.property == "turbidity" && sky) {
     sky->turbidity = static_cast<float>(edit.values[0]);
+  } else if (edit.property == "ground" && sky) {
+    sky->ground = static_cast<float>(edit.values[0]);
   } else if (edit.property == "sun" && (sky || distant)) {
     const Vector3d to_sun = normalize(Vector3d{edit.values[0], edit.values[1], edit.values[2]});
     if (sky) sky->to_sun = normalize(transform_vector(inverse(sky->light_to_world), to_sun));
@@ -127,7 +130,7 @@ void edit_light(Light& light, const SceneEdit& edit) {
     *sky = *edit.sky;
     sky->light_to_world = stands;
   } else {
-    refuse(edit.text, sky       ? "a sky has a scale, a sun, a turbidity, or another sky"
+    refuse(edit.text, sky       ? "a sky has a scale, a sun, a turbidity, a ground, or another sky"
                       : distant ? "a distant light has a scale and a sun"
                                 : "a light has a scale");
   }

@@ -16,7 +16,7 @@ namespace vitrail {
 // shines, else by kind and number (area-1):
 // - scale, at least 0: times its light;
 // - sun=x:y:z, towards the sun in the world, of a sky or a distant light;
-// - turbidity, 1 … 10, of a sky;
+// - turbidity, 1 … 10, and ground, the share that it reflects, of a sky;
 // - sky=WORDS, as of --sky (scene/daylight/given_sky.h) without up and north: another place, time or weather.
 // Of a material, by the name that the scene's file gives:
 // - color=r:g:b, linear sRGB in [0, 1]: its diffuse reflectance or base colour;

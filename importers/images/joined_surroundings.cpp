@@ -85,7 +85,7 @@ class Joiner {
 
   void add(const SkyLight& light) {
     const SkyModel model(light);
-    if (model.has_sky()) {
+    if (model.has_sky() || model.has_ground()) {
       radiances_.push_back(radiance_of(light));
       height_ = std::max(height_, sky_image_height);
     }

@@ -56,7 +56,7 @@ std::vector<LightModel> sky_as_image(const SkyLight& light, EnvironmentLight::Pr
                                      const std::filesystem::path& file) {
   const SkyModel model(light);
   std::vector<LightModel> parts;
-  if (model.has_sky()) {
+  if (model.has_sky() || model.has_ground()) {
     write_exr_image(file, sky_image(light, projection, sky_image_height));
     EnvironmentLight sky;
     sky.filename = file.string();

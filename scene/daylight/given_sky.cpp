@@ -69,9 +69,10 @@ int cie_type(const std::string& word) {
   return static_cast<int>(type);
 }
 
-// What is told of a sky that is not the model's clear one.
+// What is told of a sky that is not the model's clear one, and what of the ground.
 struct Given {
   std::optional<int> cie;
+  std::optional<double> albedo;
   bool is_of_weather = false, takes_file_lux = false;
   std::optional<WeatherLux> file_lux;
   std::optional<Measured> direct, diffuse;
@@ -81,11 +82,15 @@ void set(GivenSky& sky, Given& given, const std::string& key, const std::string&
   if (key == "turbidity")
     sky.light.turbidity = static_cast<float>(number(value, 1, 10));
   else if (key == "albedo")
-    sky.light.albedo = ConstantSpectrum{static_cast<float>(number(value, 0, 1))};
+    given.albedo = number(value, 0, 1);
+  else if (key == "ground")
+    sky.light.ground = static_cast<float>(number(value, 0, 1));
   else if (key == "sun")
     sky.light.sun_scale = static_cast<float>(number(value, 0, 1e6));
   else if (key == "sky")
     sky.light.sky_scale = static_cast<float>(number(value, 0, 1e6));
+  else if (key == "cct")
+    sky.light.color_temperature_k = static_cast<float>(number(value, 4000, 25000));
   else if (key == "cie")
     given.cie = cie_type(value);
   else if (key == "lux" && (value == "file" || value == "perez"))
@@ -96,8 +101,8 @@ void set(GivenSky& sky, Given& given, const std::string& key, const std::string&
     axis_of(value), (key == "up" ? sky.up : sky.north) = value;
   else
     throw UsageError(
-        fmt::format("--sky: there is no \"{}\"; there are turbidity, albedo, cie, diffuse, direct, "
-                    "lux=file, up, north, sun and sky",
+        fmt::format("--sky: there is no \"{}\"; there are turbidity, albedo, cct, cie, diffuse, direct, "
+                    "ground, lux=file, up, north, sun and sky",
                     key));
 }
 
@@ -172,7 +177,6 @@ GivenSky parse_sky(const std::string& words) {
   const std::vector<std::string> parts = parts_of(words);
   GivenSky sky;
   Given given;
-  sky.light.albedo = ConstantSpectrum{0.2f};
   std::size_t first_key = 1;
   if (names_weather(parts[0])) {
     set_by_weather(sky, given, parts[0]);
@@ -194,11 +198,17 @@ GivenSky parse_sky(const std::string& words) {
     if (!keys.insert(key).second) throw UsageError(fmt::format("--sky: {} is given twice", key));
     set(sky, given, key, at == std::string::npos ? parts[i] : parts[i].substr(at + 1));
   }
+  const double albedo =
+      given.albedo.value_or(keys.contains("ground") ? static_cast<double>(sky.light.ground) : 0.2);
+  sky.light.albedo = ConstantSpectrum{static_cast<float>(albedo)};
   if (given.takes_file_lux && !given.is_of_weather)
     throw UsageError("--sky: lux=file is of an hour of a weather file, such as paris.epw@06-21T12:00");
   if (given.takes_file_lux && !given.file_lux)
     throw Error("the file has no illuminances of this hour: leave out lux=file", {parts[0]});
-  if (const auto of = measured_sky(sky, given)) take(sky.light, *of);
+  if (const auto of = measured_sky(sky, given))
+    take(sky.light, *of);
+  else if (keys.contains("cct"))
+    throw UsageError("--sky: cct= is of a sky with cie= or diffuse=; the clear one has its model's colours");
   return sky;
 }
 

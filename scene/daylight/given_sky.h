@@ -11,12 +11,15 @@
 namespace vitrail {
 
 // "LATITUDE,LONGITUDE,TIME[,KEY=VALUE …]": degrees (north and east positive, or 33.9S and 70.7W) and a moment
-// (local_time). Keys are turbidity=3 (a bare number too), albedo=0.2 (of the ground), up and north. The last
-// two take an axis: +x, -y, z. sun=0 and sky=0 leave out the one or the other.
+// (local_time). Keys are turbidity=3 (a bare number too), ground, albedo, up and north. ground=0.2 is the
+// share that the ground reflects below the horizon; without it all is black there. albedo=0.2 is what the
+// clear sky's own brightness takes the ground for: without it that of `ground`, or 0.2. up and north take an
+// axis: +x, -y, z. sun=0 and sky=0 leave out the one or the other.
 //
 // cie=1 … 15 is a sky of the CIE; overcast (1), uniform (5), intermediate (7) and clear (12) are names of
 // some. diffuse=210W,direct=640W, or in lx, are irradiances or illuminances: of the sky on the ground, and of
-// the sun across its direction. Without cie the sky is Perez's for these two.
+// the sun across its direction. Without cie the sky is Perez's for these two. Both have the colour of D65, or
+// of the CIE's daylight of cct=4000 … 25000 K.
 //
 // "FILE@MM-DDTHH:MM[,KEY=VALUE …]" takes place, zone, direct and diffuse from an hour of a weather file (.epw
 // or .wea); the sun stands where it does in the middle of that hour. With lux=file the brightness is the

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/daylight/daylight_illuminant.h"
 #include "scene/daylight/photometry.h"
 #include "scene/daylight/sky_tables.h"
 #include "scene/geometry/pi.h"
@@ -81,13 +82,20 @@ SkyModel::SkyModel(const SkyLight& light)
   sun_scale_ = static_cast<double>(light.sun_scale) * half * half;  // 1 − cos x = 2 sin²(x/2)
 
   const std::optional<SkyDistribution>& given = *light.distribution;
-  given ? set_given(*given) : set_clear(light);
+  given ? set_given(*given, static_cast<double>(light.color_temperature_k)) : set_clear(light);
   if (has_sky()) make_curves();
   if (given && has_sky()) {  // what was relative till now
     const double lx = photometric(to_xyz(spectrum_of_bands(sky_irradiance())).y);
     for (double& radiance : radiance_) radiance *= lx > 0 ? sky_scale_ * given->diffuse_lx / lx : 0;
   }
   set_sun(light);
+  set_ground(static_cast<double>(light.ground));
+}
+
+SkyModel SkyModel::without_sun() const {
+  SkyModel sky = *this;
+  sky.sun_scale_ = 0;
+  return sky;
 }
 
 void SkyModel::set_clear(const SkyLight& light) {
@@ -120,10 +128,12 @@ void SkyModel::set_clear(const SkyLight& light) {
 }
 
 // The same equation without its glow and its horizon.
-void SkyModel::set_given(const SkyDistribution& sky) {
+void SkyModel::set_given(const SkyDistribution& sky, double color_temperature_k) {
   for (std::size_t b = 0; b < sky_bands; ++b) {
     bands_[b] = {{sky.a, sky.b, sky.base, sky.c, sky.d, sky.e, 0, 0, 0}, 0};
-    radiance_[b] = static_cast<double>(cie_d65()[static_cast<std::size_t>(band_nm(b) - lambda_min_nm)]);
+    radiance_[b] = color_temperature_k > 0
+                       ? cie_daylight(band_nm(b), color_temperature_k)
+                       : static_cast<double>(cie_d65()[static_cast<std::size_t>(band_nm(b) - lambda_min_nm)]);
   }
 }
 
@@ -154,6 +164,15 @@ void SkyModel::set_sun(const SkyLight& light) {
       full += static_cast<double>(sky_tables::limb[b][j]);
     uniform_sun_[b] = sun(centre, b) * mean / full;
   }
+}
+
+// A white sheet on the ground would have 1/π of its irradiance as radiance.
+void SkyModel::set_ground(double share) {
+  const Vector3d up{0, 0, 1};
+  has_ground_ = is_day_ && share > 0 && (has_sky() || has_sun());
+  if (!has_ground_) return;
+  const std::array<double, sky_bands> sun = sun_irradiance(up), sky = sky_irradiance(up);
+  for (std::size_t b = 0; b < sky_bands; ++b) ground_[b] = share / pi * (sun[b] + sky[b]);
 }
 
 // Equation 8 of 2012, with √cos θ as the authors' program has it. Given skies end at cos θ = 0.01, as
@@ -251,14 +270,20 @@ void add(std::array<double, sky_bands>& sum, const std::array<double, sky_bands>
 
 }  // namespace
 
+SampledSpectrum SkyModel::ground(const SampledWavelengths& wavelengths) const {
+  return sampled(wavelengths, [&](std::size_t b) { return ground_[b]; });
+}
+
 SampledSpectrum SkyModel::sky(Vector3d d, const SampledWavelengths& wavelengths) const {
-  if (!has_sky() || d.z < 0) return filled(0);
+  if (d.z < 0) return has_ground() ? ground(wavelengths) : filled(0);
+  if (!has_sky()) return filled(0);
   const BandValues values = relative_sky(d);
   return sampled(wavelengths, [&](std::size_t b) { return static_cast<double>(values[b]) * radiance_[b]; });
 }
 
 std::array<double, sky_bands> SkyModel::sky(Vector3d d) const {
-  if (!has_sky() || d.z < 0) return {};
+  if (d.z < 0) return ground_;
+  if (!has_sky()) return {};
   const BandValues values = relative_sky(d);
   return each_band([&](std::size_t b) { return static_cast<double>(values[b]) * radiance_[b]; });
 }
@@ -302,6 +327,8 @@ std::array<double, sky_bands> SkyModel::sun_irradiance(Vector3d normal) const {
 
 std::array<double, sky_bands> SkyModel::sky_irradiance(Vector3d normal) const {
   std::array<double, sky_bands> sum{};
+  // A plane has the part (1 − z)/2 of what it would have from all around.
+  if (has_ground()) add(sum, ground_, pi * (1 - normal.z) / 2);
   if (!has_sky()) return sum;
   constexpr int rows = 128, columns = 256;  // uniform in θ, where the model bends at the horizon
   const double step = pi / 2 / rows;

@@ -160,7 +160,7 @@ auto visit_fields(Is<SkyDistribution> auto& s, auto&& f) {
 }
 auto visit_fields(Is<SkyLight> auto& l, auto&& f) {
   return f(*l.light_to_world, l.to_sun, l.turbidity, *l.albedo, l.sky_scale, l.sun_scale, l.sun_diameter_deg,
-           l.limb_darkening, *l.distribution);
+           l.limb_darkening, *l.distribution, l.color_temperature_k, l.ground);
 }
 
 // A record whose fields are listed here.

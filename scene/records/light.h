@@ -116,7 +116,7 @@ struct EnvironmentLight {
 
 // Tells how bright a sky is in one direction beside another, by the angles θ from the zenith and γ from the
 // sun: (1 + a·e^(b/cos θ)) · (base + c·e^(d·γ) + e·cos²γ). In ISO 15469 base is 1 − c·e^(d·π/2), for Perez 1.
-// Its spectrum is D65.
+// Its spectrum is the CIE's daylight of the light's temperature.
 struct SkyDistribution {
   double a = 0, b = -1, base = 1, c = 0, d = -1, e = 0;
   double diffuse_lx = 0;  // on a horizontal plane, where the light's sky_scale is 1
@@ -124,7 +124,7 @@ struct SkyDistribution {
 };
 
 // The sky and the sun's disc, by the model of scene/daylight/sky_model.h. In the light's frame +z is
-// the zenith; nothing shines from below the horizon, or with the sun there.
+// the zenith. Nothing shines with the sun below the horizon; with it above, from below the ground alone.
 struct SkyLight {
   Boxed<Transform> light_to_world;
   Vector3d to_sun{0, 0, 1};                                   // unit, in the light's frame
@@ -134,6 +134,10 @@ struct SkyLight {
   float sun_diameter_deg = 0.5358f;                           // another one spreads the same irradiance
   bool limb_darkening = true;                                 // else the disc is uniform
   Boxed<std::optional<SkyDistribution>> distribution;  // of the sky, in place of a clear one's; the sun stays
+  float color_temperature_k = 0;                       // correlated, of a distribution's sky; 0: D65
+  // The share of the sun's and the sky's light on a horizontal plane that the ground reflects, the same at
+  // all wavelengths and to all sides. It is uniform, without shadows, and as far as the sky.
+  float ground = 0;
   bool operator==(const SkyLight&) const = default;
 };
 

@@ -101,6 +101,31 @@ TEST_F(ManifestFile, WhatPovRayHas) {
   EXPECT_THROW(written_and_read(m), Error);
 }
 
+TEST_F(ManifestFile, Skies) {
+  using required_feature::skies;
+  Manifest m = sample_manifest();
+  m.lights.push_back({SkyLight{}, {}});
+  EXPECT_EQ(features_of(m).required & skies, 0u);
+  SkyLight sky;
+  sky.ground = 0.25f;
+  m.lights.push_back({sky, {}});
+  EXPECT_EQ(features_of(m).required & skies, skies);
+  sky.limb_darkening = false;
+  *sky.distribution = SkyDistribution{.a = 4, .b = -0.7, .diffuse_lx = 1e4};
+  m.lights.push_back({sky, {}});
+  sky.ground = 0, sky.color_temperature_k = 5000;
+  m.lights.push_back({sky, {}});
+  EXPECT_EQ(written_and_read(m).lights, m.lights);
+  for (const float wrong : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN()}) {
+    sky.ground = wrong;
+    m.lights.back() = {sky, {}};
+    EXPECT_THROW(written_and_read(m), Error) << wrong;
+  }
+  sky.ground = 0, sky.color_temperature_k = 100;
+  m.lights.back() = {sky, {}};
+  EXPECT_THROW(written_and_read(m), Error);
+}
+
 TEST_F(ManifestFile, Formulas) {
   using Op = PatternStep::Op;
   Manifest m = sample_manifest();

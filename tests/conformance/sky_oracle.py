@@ -7,7 +7,7 @@
 Twelve moments, from clear to overcast, at the height where the sun stands for Vitrail: gendaylit is given that height, and then counts
 with the sun's distance of early January, as the moments have it. It brings its sky to the measured light by a sum over 145 directions,
 by which it is up to 4 % too dark where the sun's glow is narrow: "its own" is what a fine grid makes of it. The walls are compared
-after that. FOLDER holds Radiance's bin/ and lib/: that of PyPI's pyradiance where none is given. Without it the CIE's rows alone
+after that. The ground reflects 0.2 of both: its cd/m² are beside gendaymtx's, as gendaylit takes those of a CIE sky. FOLDER holds Radiance's bin/ and lib/: that of PyPI's pyradiance where none is given. Without it the CIE's rows alone
 are printed. Ends with 1 where a value is off by more than 1 %.
 """
 import argparse
@@ -18,13 +18,15 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 import numpy as np
 
 # Latitude, hour of local sun time about, direct and diffuse W/m².
-MOMENTS = [(-35, 12, 0, 150), (-35, 9, 30, 300), (-20, 15, 120, 330), (45, 12, 150, 110), (30, 10, 300, 200), (-50, 12, 450, 220),
+MOMENTS = [(-35, 12, 0, 150), (-35, 9, 30, 300), (-20, 15, 120, 330), (45, 12, 150, 100), (30, 10, 300, 200), (-50, 12, 450, 220),
            (20, 14, 600, 120), (-30, 11, 900, 90), (50, 11, 2, 18), (35, 9, 500, 60), (55, 10, 60, 40), (-10, 12, 1000, 60)]
 CIE = {1: (4, -.7, 0, -1, 0), 5: (0, -1, 0, -1, 0), 8: (0, -1, 10, -3, .45), 12: (-1, -.32, 10, -3, .45), 15: (-1, -.15, 24, -2.8, .15)}
+GROUND = .2
 WALLS = {"north": (0, 1, 0), "east": (1, 0, 0), "south": (0, -1, 0), "west": (-1, 0, 0)}
 
 
@@ -71,6 +73,17 @@ def gendaylit(folder, height, azimuth, direct, diffuse, diffuse_lx):
     return {name: lux(sky, sun, source[0] * disc if source else 0, normal) for name, normal in planes()}, own
 
 
+def gendaymtx_ground(folder, latitude, hour, direct, diffuse):
+    """Returns cd/m² of the ground."""
+    with tempfile.NamedTemporaryFile("w", suffix=".wea") as weather:
+        weather.write(f"place own\nlatitude {latitude}\nlongitude 0\ntime_zone 0\nsite_elevation 0\nweather_data_file_units 1\n"
+                      f"1 3 {hour} {direct} {diffuse}\n")
+        weather.flush()
+        text = subprocess.run([folder / "bin/gendaymtx", "-m", "1", "-g", *3 * [str(GROUND)], "-c", "1", "1", "1", "-O0", weather.name],
+                              capture_output=True, text=True, check=True, env=dict(os.environ, RAYPATH=str(folder / "lib"))).stdout
+    return 179 * float(text.split("\n\n")[1].split()[0])
+
+
 def planes():
     return [("horizontal", (0, 0, 1)), *WALLS.items()]
 
@@ -99,6 +112,9 @@ def main():
             of_sky = said["diffuse_horizontal"]["illuminance_lx"]
             expected, own = gendaylit(a.radiance, said["elevation_deg"], said["azimuth_deg"], direct, diffuse, of_sky)
             row("Perez", said, found, expected, f"  sky {of_sky:6.0f}, its own {own / of_sky - 1:+.2%}")
+            lit = ours(a.bin, f"{place},direct={direct}W,diffuse={diffuse}W,ground={GROUND}")[1]
+            row("ground", said, {"cd/m²": (lit["north"] - found["north"]) * 2 / math.pi},
+                {"cd/m²": gendaymtx_ground(a.radiance, latitude, hour, direct, diffuse)})
         for kind, k in CIE.items():
             said, found = ours(a.bin, f"{place},cie={kind},direct={100 * direct}lx,diffuse={100 * diffuse}lx")
             height, azimuth = math.radians(said["elevation_deg"]), math.radians(said["azimuth_deg"])

@@ -49,12 +49,13 @@ TEST(SceneEdits, ScaleLights) {
 }
 
 TEST(SceneEdits, TurnTheSun) {
-  const Manifest m = edited(lit(), {"sky.sun=3:0:4", "sun.sun=0:0:2", "sky.turbidity=10"});
+  const Manifest m = edited(lit(), {"sky.sun=3:0:4", "sun.sun=0:0:2", "sky.turbidity=10", "sky.ground=0.2"});
   const Vector3d& to_sun = light<SkyLight>(m, 1).to_sun;
   EXPECT_DOUBLE_EQ(to_sun.x, 0.6);
   EXPECT_DOUBLE_EQ(to_sun.z, 0.8);
   EXPECT_DOUBLE_EQ(light<DistantLight>(m, 2).direction.z, -1);
   EXPECT_EQ(light<SkyLight>(m, 1).turbidity, 10) << "the most that there is";
+  EXPECT_EQ(light<SkyLight>(m, 1).ground, 0.2f);
 }
 
 TEST(SceneEdits, AnotherSkyStandsWhereTheFirstStood) {
@@ -83,8 +84,9 @@ TEST(SceneEdits, OfTheSkyAreThoseOfTheOneThatThereIs) {
 }
 
 TEST(SceneEdits, RefuseWhatTheyCannotBe) {
-  for (const char* text : {"sky.turbidity=10.5", "sky.turbidity=x", "sky.turbidity=1:2", "lamp.scale=1e999",
-                           "lamp.scale=2x", "sky.sun=0:0:0", "sky.sky=48.85,2.35,2026-06-21T12:00+02:00,up=y",
+  for (const char* text : {"sky.ground=1.1", "sky.turbidity=10.5", "sky.turbidity=x", "sky.turbidity=1:2",
+                           "lamp.scale=1e999", "lamp.scale=2x", "sky.sun=0:0:0",
+                           "sky.sky=48.85,2.35,2026-06-21T12:00+02:00,up=y",
                            "sky.sky=48.85,2.35,2026-06-21T12:00+02:00,north=x", "sky=1"})
     EXPECT_THROW(parse_scene_edit(text), UsageError) << text;
   EXPECT_THROW(edited(lit(), {"lamp.turbidity=3"}), UsageError);

@@ -74,6 +74,21 @@ TEST(GivenSky, IsAsBrightAsItWasMeasured) {
   EXPECT_FALSE(parse_sky(place + "turbidity=4").light.distribution->has_value());
 }
 
+// One ground: what the clear sky takes for its albedo shines below the horizon, unless both are given.
+TEST(GivenSky, TheGroundIsTheAlbedoToo) {
+  const std::string place = "48.86,2.35,2026-06-21T12:00+02:00,";
+  const auto albedo = [](const GivenSky& sky) { return evaluate(*sky.light.albedo, 550); };
+  const GivenSky usual = parse_sky(place + "turbidity=3"), snow = parse_sky(place + "ground=0.7"),
+                 both = parse_sky(place + "albedo=0.1,ground=0.7");
+  EXPECT_EQ(usual.light.ground, 0);
+  EXPECT_NEAR(albedo(usual), 0.2, 1e-6);
+  EXPECT_EQ(snow.light.ground, 0.7f);
+  EXPECT_NEAR(albedo(snow), 0.7, 1e-6);
+  EXPECT_EQ(both.light.ground, 0.7f);
+  EXPECT_NEAR(albedo(both), 0.1, 1e-6);
+  EXPECT_EQ(parse_sky(place + "cie=1,cct=5000").light.color_temperature_k, 5000);
+}
+
 TEST(GivenSky, TakesAnHourOfAWeatherFile) {
   const test::TemporaryDirectory directory;
   std::ofstream(directory / "a.b.epw")
@@ -98,7 +113,8 @@ TEST(GivenSky, RefusesWhatItCannotMean) {
   const std::string place = "48.86,2.35,2026-03-20T12:00+01:00,";
   for (const char* words :
        {"cie=0", "cie=16", "cie=1.5", "cie=cloudy", "direct=640", "direct=640W", "diffuse=-1W",
-        "direct=640W,diffuse=100lx", "diffuse=nanW", "diffuse=1e9lx", "lux=file", "lux=1"})
+        "direct=640W,diffuse=100lx", "diffuse=nanW", "diffuse=1e9lx", "ground=1.1", "lux=file", "lux=1",
+        "cct=5000", "cie=1,cct=3999", "cie=1,cct=25001"})
     EXPECT_THROW(parse_sky(place + words), UsageError) << words;
 }
 

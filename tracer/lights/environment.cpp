@@ -190,16 +190,18 @@ double luminance_of_sky(const SkyModel& sky, Vector3d d) {
 
 }  // namespace
 
-Environment make_environment(const SkyLight& light) {
+Environment make_environment(const SkyLight& light, bool sun) {
   constexpr int width = 128, height = 128;  // rows of equal angle: the upper half is 64 of them
   Environment e;
   e.projection = latitude_longitude;
   e.frame = DirectionFrame(light.light_to_world);
-  e.sky = std::make_shared<const SkyModel>(light);
+  const SkyModel model(light);
+  e.sky = std::make_shared<const SkyModel>(sun ? model : model.without_sun());
+  const int rows = model.has_ground() ? height : height / 2;
   double sky_flux = 0;  // ∫ Y dω
   std::vector<double> density(static_cast<std::size_t>(width * height));
   const DirectionTable cells(latitude_longitude, width, height, [](int, int) { return 1.0; });
-  for (int y = 0; y < height / 2; ++y)
+  for (int y = 0; y < rows; ++y)
     for (int x = 0; x < width; ++x) {
       const Point2d at{(x + 0.5) / width, (y + 0.5) / height};
       const double value = luminance_of_sky(*e.sky, sphere_direction(latitude_longitude, at));
@@ -208,7 +210,7 @@ Environment make_environment(const SkyLight& light) {
     }
   const double floor = density_floor * sky_flux / (2 * pi);
   e.table = DirectionTable(latitude_longitude, width, height, [&](int x, int y) {
-    return y < height / 2 ? density[static_cast<std::size_t>(y * width + x)] + floor : 0.0;
+    return y < rows ? density[static_cast<std::size_t>(y * width + x)] + floor : 0.0;
   });
   const double sun_flux = luminance(spectrum_of_bands(e.sky->sun_irradiance(e.sky->to_sun())));
   e.sun_luminance = e.sky->has_sun() ? luminance(spectrum_of_bands(e.sky->sun(e.sky->to_sun()))) : 0;

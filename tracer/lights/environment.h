@@ -36,7 +36,8 @@ struct Environment {
 };
 
 Environment make_environment(const EnvironmentLight& light, std::shared_ptr<const LightImage> image);
-Environment make_environment(const SkyLight& light);
+// `sun`: whether the disc is seen; the ground has its light anyhow.
+Environment make_environment(const SkyLight& light, bool sun = true);
 
 struct EnvironmentValue {
   SampledSpectrum radiance;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions to environments and what is seen there, for any number of lanes. The sun's disc is seen lane by
-// lane.
+// Directions to environments and what is seen there, for any number of lanes. The sun's disc and the ground
+// are seen lane by lane.
 #pragma once
 
 #include "tracer/lights/direction_table_lanes.h"
@@ -140,6 +140,13 @@ VITRAIL_LANES Seen<D> value_towards(const Environment& e, Vector<D> direction, M
   }
   const SkyModel& sky = *e.sky;
   seen.radiance = sky_towards(sky, d, on, wavelengths);
+  const Mask<D> below = on & (d.z < 0);
+  if (sky.has_ground() && any(below))
+    for (int j = 0; j < width<D>; ++j) {
+      if (!is_set(below, j)) continue;
+      const SampledSpectrum radiance = sky.ground(wavelengths(j));
+      for (int i = 0; i < hero_count; ++i) set_lane(seen.radiance[i], j, radiance.v[i]);
+    }
   seen.pdf = (1.0 - e.sun_share) * seen.pdf;
   if (!(e.sun_share > 0) || !sky.has_sun()) return seen;
   const Mask<D> sun = on & (d.z >= 0) & (dot(d, fill<D>(sky.to_sun())) >= sky.sun_cosine());

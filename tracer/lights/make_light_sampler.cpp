@@ -86,9 +86,7 @@ struct Sorter {
            .irradiance = spectrum_of_bands(sun->sun_irradiance(sun->to_sun())),
            .sun = sun,
            .frame = frame});
-    SkyLight sky = l;
-    sky.sun_scale = 0;
-    add(make_environment(sky));
+    add(make_environment(l, false));
   }
 
  private:

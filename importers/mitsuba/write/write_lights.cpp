@@ -165,9 +165,10 @@ void write(Context& context, Element root, const EnvironmentLight& light) {
 }
 
 void write(Context& context, Element root, const SkyLight& light) {
-  if (*light.distribution) {
+  if (*light.distribution || light.ground > 0) {
     context.approximated(
-        "Mitsuba's sky is clear: this one is an image in linear sRGB, and its sun parallel light");
+        "Mitsuba's sky is clear and without a ground: this one is an image in linear sRGB, and its sun "
+        "parallel light");
     for (const LightModel& part :
          sky_as_image(light, EnvironmentLight::Projection::latitude_longitude, context.images.new_file()))
       std::visit([&](const auto& model) { write(context, root, model); }, part);

@@ -141,6 +141,31 @@ TEST(Sensors, SunAndSkyAreAsPrinted) {
   }
 }
 
+// A wall has of the ground the half of what that reflects to all sides: ρ E/2. With glass somewhere the sun
+// is a light of its own, and the ground keeps its light.
+TEST(Sensors, TheGroundLightsWalls) {
+  const Vector3d sun = tilted(40), away{-1, 0, 0}, up{0, 0, 1};
+  SkyLight sky;
+  sky.to_sun = sun;
+  const SkyModel black(sky);
+  sky.ground = 0.3f;
+  const auto lux = [](const auto& bands) { return photometric(luminance(spectrum_of_bands(bands))); };
+  const double reflected = 0.3 * (lux(black.sun_irradiance(up)) + lux(black.sky_irradiance(up)));
+  for (const bool glass : {false, true}) {
+    Scene scene = with_sensors({{{0, 0, 0}, away}, {{0, 0, 0}, {0, 0, -1}}});
+    if (glass)
+      add_shape(scene, add_quads(scene, box_faces({0, 0, -70}, {0.1f, 0.1f, -69.9f})),
+                Material{DielectricMaterial{}});
+    scene.lights.push_back({sky, {}});
+    const auto readings = measure(scene, 8192);
+    const double wall = lux(black.sky_irradiance(away)) + reflected / 2;
+    expect("wall", readings[0].illuminance_lx, wall);
+    EXPECT_NEAR(readings[0].illuminance_lx.mean / wall, 1, 0.01);
+    expect("ceiling", readings[1].illuminance_lx, reflected);
+    EXPECT_NEAR(readings[1].illuminance_lx.mean / reflected, 1, 0.01);
+  }
+}
+
 // ---- Daylight factors of a black room: the sky component of a window W wide and H high in a wall at the
 // distance D, whose lower corner is straight ahead of a sensor that faces up.
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "scene/daylight/photometry.h"
+#include "scene/geometry/pi.h"
 #include "scene/geometry/portable_math.h"
 
 namespace vitrail::sky_model_test {
@@ -126,6 +127,53 @@ TEST(SkyModel, NightAndBelowTheHorizonAreBlack) {
   EXPECT_EQ(night.sky({0, 0, 1})[3], 0);
   EXPECT_EQ(night.sun(light.to_sun)[3], 0);
   EXPECT_EQ(night.sky_irradiance()[3], 0);
+}
+
+// A wall has half of what the ground sends to all sides: ρ E/2, E the light of sun and sky on the ground.
+TEST(SkyModel, GroundSendsItsShareToWalls) {
+  SkyLight light;
+  light.to_sun = sun;
+  const auto lux = [](const auto& bands) { return photometric(luminance(spectrum_of_bands(bands))); };
+  constexpr Vector3d up{0, 0, 1}, down{0, 0, -1}, wall{0.6, -0.8, 0};
+  for (const bool given : {false, true}) {
+    if (given) *light.distribution = SkyDistribution{.a = 4, .b = -0.7, .base = 1, .diffuse_lx = 10000};
+    light.ground = 0;
+    const SkyModel black(light);
+    light.ground = 0.25f;
+    const SkyModel model(light);
+    const double on_the_ground = lux(black.sky_irradiance(up)) + lux(black.sun_irradiance(up));
+    EXPECT_NEAR(lux(model.ground()) * pi, 0.25 * on_the_ground, 1e-6 * on_the_ground);
+    EXPECT_EQ(model.sky({0.6, 0, -0.8}), model.ground());
+    EXPECT_EQ(model.sky_irradiance(up), black.sky_irradiance(up));
+    EXPECT_NEAR(lux(model.sky_irradiance(wall)), lux(black.sky_irradiance(wall)) + 0.25 * on_the_ground / 2,
+                1e-6 * on_the_ground);
+    EXPECT_NEAR(lux(model.sky_irradiance(down)), 0.25 * on_the_ground, 1e-6 * on_the_ground);
+    const SkyModel shaded = model.without_sun();
+    EXPECT_FALSE(shaded.has_sun());
+    EXPECT_EQ(shaded.ground(), model.ground());
+  }
+  light.sky_scale = 0;
+  const SkyModel alone(light);
+  EXPECT_NEAR(lux(alone.ground()) * pi / lux(alone.sun_irradiance(up)), 0.25, 1e-6);
+  light.to_sun = normalize(Vector3d{1, 0, -0.01});
+  EXPECT_FALSE(SkyModel(light).has_ground());
+}
+
+// D65 is the daylight of 6504 K; McCamy's temperature is within 2 K there, and within 1 % from 4000 K on.
+TEST(SkyModel, SkiesHaveTheDaylightOfATemperature) {
+  SkyLight light;
+  light.to_sun = sun;
+  *light.distribution = SkyDistribution{.diffuse_lx = 10000};
+  const SkyModel d65(light);
+  light.color_temperature_k = 6504;
+  for (std::size_t b = 0; b < sky_bands; ++b)
+    EXPECT_NEAR(SkyModel(light).sky({0, 0, 1})[b] / d65.sky({0, 0, 1})[b], 1, 1e-3) << b;
+  for (const float kelvin : {4000.0f, 5000.0f, 7500.0f, 12000.0f}) {
+    light.color_temperature_k = kelvin;
+    const TabulatedSpectrum sky = spectrum_of_bands(SkyModel(light).sky_irradiance());
+    EXPECT_NEAR(photometric(luminance(sky)), 10000, 1);
+    EXPECT_NEAR(correlated_color_temperature(to_xyz(sky)) / static_cast<double>(kelvin), 1, 0.02) << kelvin;
+  }
 }
 
 TEST(SkyModel, GroundAndHazeBrightenTheSky) {

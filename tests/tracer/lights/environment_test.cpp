@@ -191,6 +191,7 @@ TEST(Environment, EveryDirectionHasADensity) {
 TEST(Environment, ShowsASkyAsItsModelHasItToTheBit) {
   SkyLight light;
   light.to_sun = normalize(Vector3d{0.5, -0.3, 0.4});
+  light.ground = 0.3f;
   const Environment e = make_environment(light);
   const SkyModel sky(light);
   Random random(8);
@@ -203,7 +204,24 @@ TEST(Environment, ShowsASkyAsItsModelHasItToTheBit) {
     const SampledSpectrum found = seen(e, d, w), of_sky = sky.sky(d, w), of_sun = sky.sun(d, w);
     for (int k = 0; k < hero_count; ++k)
       ASSERT_EQ(found.v.data()[k], of_sky.v.data()[k] + of_sun.v.data()[k]) << i;
+    if (d.z < -0.1) ASSERT_GT(found.v.data()[0], 0) << i;
   }
+}
+
+// Where glass makes the sun a light of its own, what the ground has of it remains.
+TEST(Environment, HasTheGroundWithoutTheSun) {
+  SkyLight light;
+  light.to_sun = normalize(Vector3d{0.5, -0.3, 0.4});
+  light.ground = 0.3f;
+  light.sky_scale = 0;
+  const Environment with = make_environment(light), without = make_environment(light, false);
+  const SampledWavelengths w = sample_wavelengths(0.5f);
+  const Vector3d down{0, 0.6, -0.8};
+  EXPECT_GT(seen(without, down, w).v.data()[0], 0);
+  EXPECT_EQ(seen(without, down, w).v.data()[0], seen(with, down, w).v.data()[0]);
+  EXPECT_EQ(seen(without, light.to_sun, w).v.data()[0], 0);
+  EXPECT_GT(without.table.pdf(down), 0);
+  EXPECT_EQ(without.sun_share, 0);
 }
 
 TEST(Environment, AgreesWithMitsuba) {
