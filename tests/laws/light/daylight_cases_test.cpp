@@ -12,6 +12,7 @@
 
 #include "film/sensor_readings.h"
 #include "scene/daylight/photometry.h"
+#include "scene/daylight/sky_distribution.h"
 #include "scene/geometry/portable_math.h"
 #include "scene/models/sensor_file.h"
 #include "tests/support/render.h"
@@ -168,6 +169,111 @@ TEST(DaylightCases, RoofOpening) {
                                   side / 2 - s.position.y, top));
     expect_factors(fmt::format("5.9, {} × {}", side, side).c_str(), room_with_roof_light(side), on_the_floor,
                    expected, side > 2 ? 1024 : 8192);
+  }
+}
+
+// ---- The fifteen skies of the CIE: a, b, c, d, e of ISO 15469.
+
+constexpr double cie_shapes[15][5] = {
+    {4, -0.7, 0, -1, 0},        {4, -0.7, 2, -1.5, 0.15},  {1.1, -0.8, 0, -1, 0},
+    {1.1, -0.8, 2, -1.5, 0.15}, {0, -1, 0, -1, 0},         {0, -1, 2, -1.5, 0.15},
+    {0, -1, 5, -2.5, 0.3},      {0, -1, 10, -3, 0.45},     {-1, -0.55, 2, -1.5, 0.15},
+    {-1, -0.55, 5, -2.5, 0.3},  {-1, -0.55, 10, -3, 0.45}, {-1, -0.32, 10, -3, 0.45},
+    {-1, -0.32, 16, -3, 0.3},   {-1, -0.15, 16, -3, 0.3},  {-1, -0.15, 24, -2.8, 0.15}};
+// The sun is 30° high and a little aside of the window's normal.
+const SunPosition sun_of_skies{.elevation_deg = 30, .azimuth_deg = 20};
+
+// The standard's own formula, over what it gives to a plane that faces up.
+class CieSky {
+ public:
+  explicit CieSky(int type) : k_(cie_shapes[type - 1]) {
+    constexpr int rows = 400, columns = 400;
+    for (int i = 0; i < rows; ++i)
+      for (int j = 0; j < columns; ++j) {
+        const double z = (i + 0.5) / rows, across = std::sqrt(1 - z * z), phi = 2 * pi * (j + 0.5) / columns;
+        horizontal_ +=
+            relative({across * std::cos(phi), across * std::sin(phi), z}) * z * 2 * pi / (rows * columns);
+      }
+  }
+  // 1/sr
+  double operator()(Vector3d d) const { return d.z > 0 ? relative(d) / horizontal_ : 0; }
+
+ private:
+  double relative(Vector3d d) const {
+    const double cosine = std::clamp(dot(d, direction_of(sun_of_skies)), -1.0, 1.0), chi = std::acos(cosine);
+    return (1 + k_[0] * std::exp(k_[1] / d.z)) *
+           (1 + k_[2] * (std::exp(k_[3] * chi) - std::exp(k_[3] * pi / 2)) + k_[4] * cosine * cosine);
+  }
+  const double* k_;
+  double horizontal_ = 0;
+};
+
+// Without its sun; a ground that reflects `ground` of it.
+void under_cie_sky(Scene& scene, int type, float ground) {
+  SkyLight light;
+  light.to_sun = direction_of(sun_of_skies);
+  light.sun_scale = 0, light.ground = ground;
+  *light.distribution = cie_sky(type, sun_of_skies, {}).distribution;
+  (*light.distribution)->diffuse_lx = photometric(pi);
+  scene.lights = {{light, {}}};
+}
+
+// ∫ L cos cos/r² dA over a rectangle of a plane with this normal, by its middle points.
+double sky_through(const CieSky& sky, const Sensor& s, const std::function<Point3d(double, double)>& at,
+                   Vector3d normal, double u0, double u1, double v0, double v1) {
+  constexpr int n = 200;
+  double sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Vector3d way = at(u0 + (u1 - u0) * (i + 0.5) / n, v0 + (v1 - v0) * (j + 0.5) / n) - s.position;
+      const double r = length(way);
+      const Vector3d d = way * (1 / r);
+      sum += sky(d) * std::max(0.0, dot(d, s.normal)) * std::abs(dot(d, normal)) / (r * r);
+    }
+  return sum * (u1 - u0) * (v1 - v0) / (n * n);
+}
+
+// 5.9 under the CIE's general skies.
+TEST(DaylightCases, RoofOpeningUnderTheSkiesOfTheCie) {
+  const std::vector<Sensor> sensors{on_the_floor[0], on_the_floor[3]};
+  for (int type = 1; type <= 15; ++type) {
+    Scene scene = room_with_roof_light(2);
+    under_cie_sky(scene, type, 0);
+    const CieSky sky(type);
+    std::vector<double> expected;
+    for (const Sensor& s : sensors)
+      expected.push_back(sky_through(
+          sky, s,
+          [](double u, double v) {
+            return Point3d{u, v, top};
+          },
+          {0, 0, 1}, -1, 1, -1, 1));
+    expect_factors(fmt::format("5.9, type {}", type).c_str(), scene, sensors, expected, 4096, 2e-3);
+  }
+}
+
+// 5.11 under them, before a ground that reflects 0.3: a point of the floor, one of the back wall, and one of
+// the ceiling, which sees the ground alone.
+TEST(DaylightCases, FacadeOpeningUnderTheSkiesOfTheCie) {
+  constexpr double ground = 0.3, height = 1.5;
+  const std::vector<Sensor> sensors{
+      on_the_floor[1], {{0, -half + 0.01, height}, {0, 1, 0}}, {{0, 0, top - 0.01}, {0, 0, -1}}};
+  for (int type = 1; type <= 15; ++type) {
+    Scene scene = room_with_window();
+    under_cie_sky(scene, type, static_cast<float>(ground));
+    const CieSky sky(type);
+    std::vector<double> expected;
+    for (const Sensor& s : sensors)
+      expected.push_back(sky_through(
+          sky, s,
+          [](double u, double v) {
+            return Point3d{u, half, v};
+          },
+          {0, 1, 0}, -jamb, jamb, sill, head));
+    const double depth = 2 * half - 0.01, below = top - 0.01;
+    expected[1] += ground * parallel(-jamb, jamb, sill - height, 0, depth);
+    expected[2] += ground * perpendicular(-jamb, jamb, below - head, below - sill, half);
+    expect_factors(fmt::format("5.11, type {}", type).c_str(), scene, sensors, expected, 4096, 2e-3);
   }
 }
 
