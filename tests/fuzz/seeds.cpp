@@ -274,10 +274,33 @@ void add_tables(Seeds& seeds) {
                               "/><entry wavelength='500' " + attributes + "/></spectrum>");
   for (const std::string& text : {igsdb_text, optics_text, table_text, index_text, idf_text, epjson_text})
     seeds.add("glazing", text);
+  for (const char* foreign :
+       {"IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 2 0.2 0.2 0\n1 1 100\n0 45 90\n0\n1000 707 0\n",
+        "own\n1\n1\n1\n0\n3\n45\nreport\nlamp\n", "LOCATION,Own,-,-,own,0,48.86,2.35,1.0,40\n",
+        "<?xml "
+        "version=\"1.0\"?>\n<WindowElement><WindowElementType>System</WindowElementType></WindowElement>",
+        "void glass pane\n0\n0\n3 .9 .9 .9\n"})
+    seeds.add("glazing", foreign);
   seeds.add("glazing",
             R"({"name": "unit", "layers": [{"pane": "glazing.json", "flipped": true,
  "heat": {"thickness_mm": 6, "emissivity_back": 0.04}}, {"gap_mm": 12.7, "gas": {"argon": 0.9, "air": 0.1}},
  {"stack": [{"index": 1.46, "thickness_nm": 90}, {"index": 1.5, "thickness_mm": 4}]}]})");
+}
+
+// Hours of EPW, and of WEA behind a `w`.
+void add_weather(Seeds& seeds) {
+  const std::string head =
+      "LOCATION,Own,-,-,own,0,48.86,2.35,1.0,40\nDESIGN CONDITIONS,0\n"
+      "DATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31\n";
+  const std::string after = ",0,2,5,5,20,77777,9,999999999,10,0.1,0,88,0.2,0,0\n";
+  const std::string before = ",60,?,10,5,70,101325,0,0,300,";
+  seeds.add("weather", head + "2001,6,21,12" + before + "0,600,300,90000,60000,33000,9999" + after +
+                           "2001,6,21,13" + before + "0,9999,210,999999,999999,999999,9999" + after +
+                           "2001,6,21,14" + before + "0,10,210,999999,999999,999999,9999" + after);
+  seeds.add("weather", head + "2001,6,21,13" + before + "0,0,20,999900,999900,999900,9999" + after);
+  seeds.add("weather",
+            "wplace own\nlatitude -33.9\nlongitude -18.4\ntime_zone -30\nsite_elevation 40.0\n"
+            "weather_data_file_units 1\n6 21 11.500 600 300\n6 21 12.500 0 210\n6 21 13.500 9999 0\n");
 }
 
 // Behind the number of the format (fuzz_image.cpp).
@@ -307,6 +330,7 @@ int main(int argc, char** argv) {
   vitrail::test::add_gltf(seeds);
   vitrail::test::add_povray(seeds);
   vitrail::test::add_tables(seeds);
+  vitrail::test::add_weather(seeds);
   vitrail::test::add_images(seeds);
   vitrail::test::add_bundle_seeds(
       [&](const char* format, const std::string& bytes) { seeds.add(format, bytes); });
