@@ -147,10 +147,10 @@ TEST(Sensors, TheGroundLightsWalls) {
   const Vector3d sun = tilted(40), away{-1, 0, 0}, up{0, 0, 1};
   SkyLight sky;
   sky.to_sun = sun;
-  const SkyModel black(sky);
+  const SkyModel unlit(sky);
   sky.ground = 0.3f;
   const auto lux = [](const auto& bands) { return photometric(luminance(spectrum_of_bands(bands))); };
-  const double reflected = 0.3 * (lux(black.sun_irradiance(up)) + lux(black.sky_irradiance(up)));
+  const double reflected = 0.3 * (lux(unlit.sun_irradiance(up)) + lux(unlit.sky_irradiance(up)));
   for (const bool glass : {false, true}) {
     Scene scene = with_sensors({{{0, 0, 0}, away}, {{0, 0, 0}, {0, 0, -1}}});
     if (glass)
@@ -158,7 +158,7 @@ TEST(Sensors, TheGroundLightsWalls) {
                 Material{DielectricMaterial{}});
     scene.lights.push_back({sky, {}});
     const auto readings = measure(scene, 8192);
-    const double wall = lux(black.sky_irradiance(away)) + reflected / 2;
+    const double wall = lux(unlit.sky_irradiance(away)) + reflected / 2;
     expect("wall", readings[0].illuminance_lx, wall);
     EXPECT_NEAR(readings[0].illuminance_lx.mean / wall, 1, 0.01);
     expect("ceiling", readings[1].illuminance_lx, reflected);
