@@ -84,10 +84,10 @@ TEST(SceneEdits, OfTheSkyAreThoseOfTheOneThatThereIs) {
 }
 
 TEST(SceneEdits, RefuseWhatTheyCannotBe) {
-  for (const char* text : {"sky.ground=1.1", "sky.turbidity=10.5", "sky.turbidity=x", "sky.turbidity=1:2",
-                           "lamp.scale=1e999", "lamp.scale=2x", "sky.sun=0:0:0",
-                           "sky.sky=48.85,2.35,2026-06-21T12:00+02:00,up=y",
-                           "sky.sky=48.85,2.35,2026-06-21T12:00+02:00,north=x", "sky=1"})
+  for (const char* text :
+       {"sky.ground=1.1", "sky.turbidity=10.5", "sky.turbidity=x", "sky.turbidity=1:2", "lamp.scale=1e999",
+        "lamp.scale=2x", "sky.sun=0:0:0", "sky.sky=48.85,2.35,2026-06-21T12:00+02:00,up=y",
+        "sky.sky=48.85,2.35,2026-06-21T12:00+02:00,north=x", "sky=1"})
     EXPECT_THROW(parse_scene_edit(text), UsageError) << text;
   EXPECT_THROW(edited(lit(), {"lamp.turbidity=3"}), UsageError);
   EXPECT_THROW(edited(lit(), {"lamp.sun=0:0:1"}), UsageError);
