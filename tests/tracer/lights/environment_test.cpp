@@ -204,7 +204,9 @@ TEST(Environment, ShowsASkyAsItsModelHasItToTheBit) {
     const SampledSpectrum found = seen(e, d, w), of_sky = sky.sky(d, w), of_sun = sky.sun(d, w);
     for (int k = 0; k < hero_count; ++k)
       ASSERT_EQ(found.v.data()[k], of_sky.v.data()[k] + of_sun.v.data()[k]) << i;
-    if (d.z < -0.1) ASSERT_GT(found.v.data()[0], 0) << i;
+    if (d.z < -0.1) {
+      ASSERT_GT(found.v.data()[0], 0) << i;
+    }
   }
 }
 
