@@ -493,8 +493,8 @@ std::string message_with(const std::filesystem::path& bundle, const char* before
 }
 
 TEST_F(ManifestFile, AnotherVersionIsNamed) {
-  const std::string message = message_with(directory.path(), "\"version\": 7", "\"version\": 8");
-  EXPECT_NE(message.find("version 8"), std::string::npos) << message;
+  const std::string message = message_with(directory.path(), "\"version\": 8", "\"version\": 9");
+  EXPECT_NE(message.find("version 9"), std::string::npos) << message;
 }
 
 TEST_F(ManifestFile, UnknownFeaturesAreNamedOrIgnored) {
