@@ -31,7 +31,7 @@ void expect_near(RGB a, RGB b, double tolerance) {
 }
 
 // ((n − 1)² + κ²)/((n + 1)² + κ²)
-TEST(ExportColors, OfMetalsAreFresnels) {
+TEST(ColorsForExport, OfMetalsAreFresnels) {
   const ComplexIndex metal{Spectrum{ConstantSpectrum{0.25f}}, Spectrum{ConstantSpectrum{3}}};
   const double r = (0.75 * 0.75 + 9) / (1.25 * 1.25 + 9);
   expect_near(normal_reflectance_rgb(metal), {r, r, r}, 1e-4);
@@ -39,14 +39,14 @@ TEST(ExportColors, OfMetalsAreFresnels) {
 }
 
 // Held beyond the wavelengths that were measured; of the cosines the last is that of normal incidence.
-TEST(ExportColors, OfSheetsAreThoseOfTheirNormal) {
+TEST(ColorsForExport, OfSheetsAreThoseOfTheirNormal) {
   const SheetColors colors =
       colors_at_normal({{500, 600}, {0.5f, 1}, {0.9f, 0.25f, 0.9f, 0.25f}, {0, 0.5f, 0, 0.5f}});
   expect_near(colors.reflected, {0.25, 0.25, 0.25}, 1e-4);
   expect_near(colors.transmitted, {0.5, 0.5, 0.5}, 1e-4);
 }
 
-TEST(ExportColors, OfPatternsAreTheirMeans) {
+TEST(ColorsForExport, OfPatternsAreTheirMeans) {
   PatternTexture bricks;
   bricks.kind = PatternTexture::Kind::brick;
   bricks.brick.size = {2, 2, 2};
