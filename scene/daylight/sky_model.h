@@ -35,12 +35,12 @@ class SkyModel {
   double sun_cosine() const { return sun_cosine_; }  // of the disc's angular radius
   bool meets_sun(Vector3d d) const { return has_sun() && d.z >= 0 && dot(d, to_sun_) >= sun_cosine_; }
 
-  // Of the sky or the ground, and of the sun alone where the direction meets it.
+  // Returns the radiance of the sky or the ground, and of the sun alone where the direction meets it.
   SampledSpectrum sky(Vector3d d, const SampledWavelengths& wavelengths) const;
   SampledSpectrum sun(Vector3d d, const SampledWavelengths& wavelengths) const;
   std::array<double, sky_bands> sky(Vector3d d) const;
   std::array<double, sky_bands> sun(Vector3d d) const;
-  // Of all that is below the horizon.
+  // Returns the radiance of all that is below the horizon.
   SampledSpectrum ground(const SampledWavelengths& wavelengths) const;
   std::array<double, sky_bands> ground() const { return ground_; }
   // The paper's formula, that the sky's curves are made from. sky() is off by no more than 5·10⁻⁶ of this and

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What POV-Ray's patterns have at a point. The same bits on every machine. Those without noise are POV-Ray's
-// own to the last digit of its pictures, the others have its means and deviations.
+// What POV-Ray's patterns have at a point, to the last digit of its pictures. They have the same bits on
+// every machine.
 #pragma once
 
 #include <cstddef>

@@ -2,8 +2,8 @@
 // POV-Ray's noises, with the bumps where POV-Ray has them. Each is the sum of value noise and gradient noise
 // on the lattice of integers (Perlin, "An Image Synthesizer", 1985): a corner has four of 267 numbers, and a
 // hash of 4096 entries says which. It repeats after 4096 units. Formulas and numbers are those that povray
-// 3.7 shows by f_noise_generator(), vturbulence() and its patterns, to 10⁻¹⁴
-// (scripts/generate_povray_noise.py).
+// 3.7 shows by f_noise_generator(), vturbulence() and its patterns (scripts/generate_povray_noise.py;
+// PovrayNoise in the tests holds them).
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,15 @@
 
 namespace vitrail {
 
-// Of `bozo`: 0 … 1. All noises are 0 where p is not finite, or beyond 2⁵².
+// Returns the noise of `bozo`, 0 … 1. All noises are 0 where p is not finite, or beyond 2⁵².
 double pattern_noise(Point3d p, NoiseGenerator generator = NoiseGenerator::corrected);
-// Of twice the deviation, what leaves 0 … 1 cut off; by the original generator the noise itself.
+// Returns a noise of twice the deviation, cut off at 0 and 1; the original generator gives the noise itself.
 double wide_noise(Point3d p, NoiseGenerator generator);
-// Three independent ones of mean 0, whichever the generator.
+// Returns three independent noises of mean 0. They are the same by both generators.
 Vector3d vector_noise(Point3d p);
 
-// Σ omegaⁱ·noise(lambdaⁱ·p), i < count: of wide noise, of which only the first is cut off; of vectors.
+// Turbulence is Σ omegaⁱ·noise(lambdaⁱ·p), i < count. The scalar one sums wide noise, of which only the first
+// is cut off.
 struct Octaves {
   int count = 6;
   double lambda = 2, omega = 0.5;
@@ -29,7 +30,7 @@ struct Octaves {
 double scalar_turbulence(Point3d p, const Octaves& octaves, NoiseGenerator generator);
 Vector3d vector_turbulence(Point3d p, const Octaves& octaves);
 
-// By the number that formulas have for it: 2 and above is the corrected one.
+// Returns the generator by the number that formulas have for it: 2 and above is the corrected one.
 inline NoiseGenerator noise_generator(double number) {
   return number >= 2 ? NoiseGenerator::corrected : NoiseGenerator::original;
 }
@@ -38,10 +39,11 @@ inline NoiseGenerator noise_generator(double number) {
 double ridged_multifractal(const double* numbers);
 double hetero_multifractal(const double* numbers);
 
-// Three random numbers in [0, 1) of a unit cell.
+// Returns three random numbers in [0, 1) that belong to a unit cell.
 std::span<const double, 3> numbers_of_cell(std::int64_t i, std::int64_t j, std::int64_t k);
 
-// Where `ripples` and `waves` come from: points 1 away from the origin, and the waves that each has a unit.
+// `ripples` and `waves` come from such points, 1 away from the origin. `frequency` counts the waves of one in
+// a unit of length.
 struct WaveSource {
   Vector3d place;
   double frequency = 1;

@@ -7,7 +7,7 @@
 // gradient counts, that along n too. `gradient x, 1` of POV-Ray is a height of 2/15 at 1.
 //
 // Five kinds have a vector of their own in its place, times 15/2 of the number at 1 (the last of the map):
-//   bumps     N(p), three noises of deviation 0.26
+//   bumps     N(p), three noises (pattern_noise.h)
 //   dents     N(p)·noise(p)³
 //   wrinkles  Σ |N(2ⁱp)|/2ⁱ, i < 10: all of it is pushed to one side
 //   ripples   the mean of d·sin 2π(f·r + phase) over ten points; r, d: the distance and direction from it

@@ -112,7 +112,7 @@ constexpr InternalFormula cylinder(int number, F) {
 
 // ---- Noise
 
-// By the scene's generator, which is the second unless an old version or the scene says otherwise.
+// By the second generator, whichever the scene's patterns have.
 double noise_of(const double* a) { return pattern_noise({a[0], a[1], a[2]}); }
 double noise_by_generator(const double* a) {
   return pattern_noise({a[0], a[1], a[2]}, noise_generator(a[3]));

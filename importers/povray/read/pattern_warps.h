@@ -12,7 +12,7 @@ namespace vitrail::pov {
 Warp read_warp(Reader& reader);
 
 Point3d warped(const Warp& warp, Point3d p);
-// By `turbulence` outside of a warp. Its noise is ours.
+// By `turbulence` outside of a warp.
 Point3d turbulent(const Pattern& pattern, Point3d p);
 
 }  // namespace vitrail::pov

@@ -135,8 +135,8 @@ class Reader {
   // 0: the file does not say. POV-Ray then computes as before 3.7, but the word `version` gives 3.7: what an
   // include saves by it and restores at its end counts as said.
   double version = 0;
-  // Of patterns that have none of their own: what global_settings say, else by the version at the scene's
-  // end.
+  // The generator of patterns that have none of their own: global_settings say it, else the version where the
+  // scene ends.
   std::shared_ptr<NoiseGenerator> noise = std::make_shared<NoiseGenerator>(NoiseGenerator::corrected);
   bool has_noise = false;               // global_settings say
   std::optional<double> assumed_gamma;  // srgb_gamma: sRGB's curve
