@@ -110,6 +110,17 @@ class FrameRun {
 // A work file lies beside a picture (RenderArguments::name_outputs).
 fs::path work_of(const fs::path& picture) { return fs::path(picture) += ".work"; }
 
+// A job that was killed between its picture and its end leaves its work file and its lock.
+void remove_leftovers(const fs::path& work) {
+  if (!fs::exists(work) && !fs::exists(lock_path(work))) return;
+  try {
+    const OutputLock lock(work);
+    fs::remove(work);
+  } catch (const BeingWritten&) {
+    // Its job is about to end.
+  }
+}
+
 // Whole pictures stay. Films tell by themselves what they are of.
 void FrameRun::survey(std::size_t i, const WorkWords& asked) {
   const fs::path& picture = list_.outputs[i];
@@ -123,6 +134,7 @@ void FrameRun::survey(std::size_t i, const WorkWords& asked) {
   if (there.found != Found::whole) return;
   states_[i] = State::done;
   was_there_[i] = true;
+  remove_leftovers(work_of(picture));
   if (!record_->mark(picture) && keeps_record()) record_->put(picture, asked, mark_of(picture));
 }
 

@@ -79,8 +79,6 @@ bool holder_may_live(const std::string& who) {
   return found && (!found->is_here || (found->process != ::getpid() && lives(found->process)));
 }
 
-std::filesystem::path lock_of(std::filesystem::path output) { return output += ".lock"; }
-
 enum class Taken { by_us, by_another, not_known };
 
 Taken try_to_lock(int descriptor) {
@@ -90,7 +88,9 @@ Taken try_to_lock(int descriptor) {
 
 }  // namespace
 
-OutputLock::OutputLock(const std::filesystem::path& output) : file_(lock_of(output)) {
+std::filesystem::path lock_path(std::filesystem::path output) { return output += ".lock"; }
+
+OutputLock::OutputLock(const std::filesystem::path& output) : file_(lock_path(output)) {
   const Underway underway("locking", file_);
   while (descriptor_ < 0) {
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
@@ -146,7 +146,7 @@ namespace {
 
 // What the lock's file says; "" where there is none.
 std::string written_holder(const std::filesystem::path& output) {
-  const int descriptor = ::open(lock_of(output).c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(lock_path(output).c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return {};
   std::string who = holder(descriptor);
   ::close(descriptor);

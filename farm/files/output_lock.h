@@ -21,6 +21,9 @@ struct BeingWritten : MachineError {
   bool is_only_named;  // the file system has no locks, and the process may have been killed
 };
 
+// Returns OUTPUT.lock, the file of its lock.
+std::filesystem::path lock_path(std::filesystem::path output);
+
 // Held by the one job that may write a film: OUTPUT.lock beside it, which the system frees when the process
 // ends, however it ends. Throws BeingWritten where another job has it, and says which. Where the file system
 // has no locks, the process and host in that file are believed. Throws MachineError where there is no such

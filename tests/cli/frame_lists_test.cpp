@@ -169,6 +169,18 @@ TEST_F(FrameLists, AreRenderedAgainWhereAPictureIsDamaged) {
   }
 }
 
+// A job may be killed after its picture is named and before it has tidied up.
+TEST_F(FrameLists, RemoveWhatAKilledJobLeftBesideAWholePicture) {
+  write_seeds(2);
+  ASSERT_EQ(render_frames().status, 0);
+  write("f001.png.work", "a film"), write("f001.png.work.lock", "process 1 on another-host");
+  write("f002.png.work.lock", "process 1 on another-host");
+  const CommandResult again = render_frames();
+  EXPECT_THAT(again.output, AllOf(HasSubstr("f001.png is there and stays"), HasSubstr("f002.png is there")));
+  for (const char* left : {"f001.png.work", "f001.png.work.lock", "f002.png.work.lock"})
+    EXPECT_FALSE(exists(left)) << left;
+}
+
 TEST_F(FrameLists, AreRefusedWhereAPictureIsAnother) {
   write_seeds(2);
   ASSERT_EQ(render_frames().status, 0);
