@@ -320,9 +320,11 @@ bool is_product(std::size_t product, std::initializer_list<int> factors) {
 }
 
 void check_media(const Checker& c, const Manifest& m) {
-  // Numbers, or spectra of four: x of the sigmoid at three wavelengths, and a scale.
+  // Numbers, or spectra: of four, x of the sigmoid at three wavelengths and a scale; of three, the values in
+  // bands.
   const auto check_grid = [&](const Grid& g, bool may_be_spectra = false) {
-    c.require(g.nx > 0 && g.ny > 0 && g.nz > 0 && (g.channels == 1 || (may_be_spectra && g.channels == 4)),
+    c.require(g.nx > 0 && g.ny > 0 && g.nz > 0 &&
+                  (g.channels == 1 || (may_be_spectra && (g.channels == 4 || g.channels == 3))),
               "a grid has no cells");
     c.require(is_product(g.values.size(), {g.nx, g.ny, g.nz, g.channels}),
               "a grid does not have one value a cell");

@@ -334,7 +334,8 @@ Json manifest_to_json(const Manifest& m) {
                    {"max_depth", m.settings.max_depth},
                    {"direct_only", m.settings.direct_only},
                    {"straight_counts", m.settings.straight_counts}};
-  if (m.settings.rgb == RgbMethod::matrix_r) j["settings"]["rgb"] = "matrix-r";
+  if (m.settings.rgb != RgbMethod::jakob_hanika)
+    j["settings"]["rgb"] = rgb_method_names[static_cast<std::size_t>(m.settings.rgb)];
   if (m.settings.hides_emitters) j["settings"]["hides_emitters"] = true;
   if (m.settings.photons) j["settings"]["photons"] = photons_to_json(*m.settings.photons);
   return j;
@@ -365,7 +366,8 @@ Manifest manifest_from_json(const Json& j) {
                 s.at("direct_only").get<bool>(),
                 s.at("straight_counts").get<bool>(),
                 s.value("hides_emitters", false),
-                s.value("rgb", "jakob-hanika") == "matrix-r" ? RgbMethod::matrix_r : RgbMethod::jakob_hanika};
+                s.contains("rgb") ? static_cast<RgbMethod>(kind_index(s, rgb_method_names, "rgb"))
+                                  : RgbMethod::jakob_hanika};
   if (s.contains("photons")) m.settings.photons = photons_from_json(s["photons"]);
   return m;
 }

@@ -34,17 +34,21 @@ enum class TexelFormat : std::uint32_t {
   number_code,    // one of 8 bits; read as number
   light_code,     // three of 8 bits, of linear sRGB; read as illuminant
   light_code_16,  // three of 16 bits (`value_of_code`), of linear sRGB; read as illuminant
+  bands,          // three floats, of linear sRGB: the values in the bands of scene/spectra/rgb_bands.h
+  band_code,      // three of 8 bits, of linear sRGB; read as bands
 };
-inline constexpr std::uint32_t texel_format_count = 14;
+inline constexpr std::uint32_t texel_format_count = 16;
 inline constexpr std::size_t code_count = 256;
 
 // Returns whether the texels are codes of 8 bits.
 constexpr bool is_coded(TexelFormat format) {
-  return format >= TexelFormat::color_code && format <= TexelFormat::light_code;
+  return (format >= TexelFormat::color_code && format <= TexelFormat::light_code) ||
+         format == TexelFormat::band_code;
 }
 // Returns whether the spectra of the texels are found when they are looked up.
 constexpr bool finds_spectra(TexelFormat format) {
-  return format >= TexelFormat::color_code && format != TexelFormat::number_code;
+  return format >= TexelFormat::color_code && format <= TexelFormat::light_code_16 &&
+         format != TexelFormat::number_code;
 }
 constexpr TexelFormat read_format(TexelFormat format) {
   switch (format) {
@@ -55,6 +59,8 @@ constexpr TexelFormat read_format(TexelFormat format) {
     case TexelFormat::light_code:
     case TexelFormat::light_code_16:
       return TexelFormat::illuminant;
+    case TexelFormat::band_code:
+      return TexelFormat::bands;
     default:
       return format;
   }
@@ -90,6 +96,7 @@ constexpr std::uint32_t bytes_per_texel(TexelFormat format) {
       return 1;
     case TexelFormat::color_code:
     case TexelFormat::light_code:
+    case TexelFormat::band_code:
       return 3;
     case TexelFormat::light_code_16:
       return 6;

@@ -196,7 +196,7 @@ TextureFile::Tile TextureFile::read_tile(std::uint32_t level, std::uint32_t tile
 // From the first on: a texel is written where none is left to read, or itself.
 void TextureFile::expand(std::span<const std::byte> codes, std::span<std::uint32_t> words) const {
   const auto* const c = reinterpret_cast<const unsigned char*>(codes.data());
-  if (info_.format == TexelFormat::number_code)
+  if (info_.format == TexelFormat::number_code || info_.format == TexelFormat::band_code)
     for (std::size_t i = 0; i < words.size(); ++i) words[i] = std::bit_cast<std::uint32_t>(values_[c[i]]);
   if (info_.format == TexelFormat::color_code)
     for (std::size_t i = 0; i < words.size() / 2; ++i) {

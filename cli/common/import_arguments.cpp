@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "cli/common/sizes.h"
@@ -91,13 +92,14 @@ void declare_lamps_option(CLI::App& app, ImportArguments& a) {
 void declare_rgb_option(CLI::App& app, std::string& method) {
   app.add_option(
          "--rgb", method,
-         "how RGB colours become spectra: smooth (Jakob and Hanika) or by Matrix-R (Cohen and Kappauf)")
-      ->check(CLI::IsMember({usual_rgb, "matrix-r"}))
-      ->capture_default_str();
+         "how RGB colours become spectra: smooth (Jakob and Hanika), by Matrix-R (Cohen and Kappauf), or "
+         "constant in three bands, so that colours multiply as in programs without spectra; by default bands "
+         "for POV-Ray's scenes and smooth for all others")
+      ->check(CLI::IsMember(std::vector<std::string>(rgb_method_names.begin(), rgb_method_names.end())));
 }
 
 RgbMethod rgb_method(const std::string& method) {
-  return method == usual_rgb ? RgbMethod::jakob_hanika : RgbMethod::matrix_r;
+  return static_cast<RgbMethod>(std::ranges::find(rgb_method_names, method) - rgb_method_names.begin());
 }
 
 ImportOptions import_options(const ImportArguments& a) {

@@ -24,8 +24,8 @@ struct ImportArguments {
   bool lamps_are_off() const { return lamps == "off"; }
 };
 
-// --rgb jakob-hanika|matrix-r: how a scene's colours become spectra as it is partitioned.
-inline constexpr const char* usual_rgb = "jakob-hanika";
+// --rgb jakob-hanika|matrix-r|bands: how a scene's colours become spectra as it is partitioned. "": as its
+// file means them.
 void declare_rgb_option(CLI::App& app, std::string& method);
 RgbMethod rgb_method(const std::string& method);
 

@@ -104,7 +104,9 @@ Report inspect_texture(const std::filesystem::path& file) {
                              "reflectance by codes of 8 bits",
                              "number by codes of 8 bits",
                              "illuminant by codes of 8 bits",
-                             "illuminant by codes of 16 bits"};
+                             "illuminant by codes of 16 bits",
+                             "bands",
+                             "bands by codes of 8 bits"};
   static_assert(names.size() == texel_format_count);
   const TextureFile texture(file);
   texture.check_tiles();

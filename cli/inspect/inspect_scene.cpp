@@ -186,7 +186,7 @@ Report describe_view(const Manifest& m) {
           {"photon_radius", or_null(photons.first_radius)},
           {"photon_alpha", or_null(photons.alpha)},
           {"hide_emitters", m.settings.hides_emitters},
-          {"rgb", m.settings.rgb == RgbMethod::matrix_r ? "matrix-r" : "jakob-hanika"}};
+          {"rgb", rgb_method_names[static_cast<std::size_t>(m.settings.rgb)]}};
 }
 
 Report describe_diagnostics(const Diagnostics& diagnostics) {

@@ -230,12 +230,22 @@ void report(const PartitionArguments& a, ImportedScene& imported) {
   if (a.strict) require_exact(diagnostics);
 }
 
+// A sky has more than three numbers: where the scene's file asks for them it does without.
+void settle_rgb(const PartitionArguments& a, Scene& scene) {
+  if (!a.rgb.empty()) scene.settings.rgb = rgb_method(a.rgb);
+  const auto is_sky = [](const Light& l) { return std::holds_alternative<SkyLight>(l.model); };
+  if (scene.settings.rgb != RgbMethod::bands || std::ranges::none_of(scene.lights, is_sky)) return;
+  if (!a.rgb.empty())
+    throw UsageError("--rgb bands: a sky's light has more than three numbers; give --rgb jakob-hanika");
+  scene.settings.rgb = RgbMethod::jakob_hanika;
+}
+
 int write_bundle(PartitionArguments& a, std::uint64_t kept_bytes, ImportedScene& imported, Stage& stage) {
   stage = {.what = "preparing the scene", .held = to_string(ledger_of(imported.scene))};
   if (a.imports.lamps_are_off()) turn_off_lamps(imported);
   complete_scene(imported, import_options(a.imports));
   join_faces_back_to_back(imported);
-  imported.scene.settings.rgb = rgb_method(a.rgb);
+  settle_rgb(a, imported.scene);
   report(a, imported);
   require_sense(a, imported.scene);
   if (a.layers) imported.scene.film.layers.bits = a.layers->bits;

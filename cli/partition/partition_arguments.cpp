@@ -68,7 +68,7 @@ BundleOrigin origin_of(const PartitionArguments& a) {
   if (!a.aov.empty()) words.push_back("--aov " + a.aov);
   if (!a.profile.empty()) words.push_back("--profile " + a.profile.string());
   std::ranges::copy(arguments_of(a.imports), std::back_inserter(words));
-  if (a.rgb != usual_rgb) words.push_back("--rgb=" + a.rgb);
+  if (!a.rgb.empty()) words.push_back("--rgb=" + a.rgb);
   return {std::filesystem::absolute(a.input).string(), "", fmt::format("{}", fmt::join(words, " "))};
 }
 

@@ -17,7 +17,7 @@ struct PartitionArguments {
   bool force = false, strict = false, quiet = false, summary = true, cached = true, keeps_domains = false;
   bool view_only = false;
   ImportArguments imports;
-  std::string rgb = usual_rgb;
+  std::string rgb;
   MeshOptions meshes;
   std::optional<FilmLayers> layers;  // none: the scene's
   PartitionOptions options{.durable = true};

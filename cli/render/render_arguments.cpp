@@ -55,7 +55,7 @@ void require_renderable(const RenderArguments& a) {
   if (const auto words = arguments_of(imports); !words.empty() && a.is_bundle())
     throw UsageError("a bundle is made already, and its scene is not read again: give " + words[0] +
                      " to partition");
-  if (a.rgb != usual_rgb && a.is_bundle())
+  if (!a.rgb.empty() && a.is_bundle())
     throw UsageError("a bundle is made already, and its scene is not read again: give --rgb to partition");
   if (a.strict && a.is_bundle())
     throw UsageError("a bundle is made already, and its scene is not read again: give --strict to partition");
@@ -192,7 +192,7 @@ std::vector<std::string> partition_arguments(const RenderArguments& a) {
   ImportArguments imports = a.imports;
   imports.all_media |= !a.integrator.empty() && a.integrator != "photon";
   std::ranges::copy(arguments_of(imports), std::back_inserter(arguments));
-  if (a.rgb != usual_rgb) arguments.push_back("--rgb=" + a.rgb);
+  if (!a.rgb.empty()) arguments.push_back("--rgb=" + a.rgb);
   arguments.push_back(a.cached ? "--keep-domains" : "--no-cache");
   if (a.quiet) arguments.push_back("--quiet");
   if (a.strict) arguments.push_back("--strict");

@@ -25,7 +25,7 @@ struct RenderArguments {
   std::vector<std::string> light_groups;  // of --light-group
   bool alpha = false, quiet = false, strict = false, denoised = false, cached = true;
   ImportArguments imports;
-  std::string rgb = usual_rgb;
+  std::string rgb;
   MeshOptions meshes;
   SampleArguments samples;
   RenderOptions options;

@@ -82,6 +82,10 @@ TabulatedSpectrum one_lux_of_d65() {
 void put_daylight(Manifest& m, const DaylightRows& rows) {
   if (!std::holds_alternative<SensorCamera>(m.camera) || rows.count() > max_film_extent)
     throw UsageError("daylight coefficients are of sensors, and of as many suns as a film may have rows");
+  if (m.settings.rgb == RgbMethod::bands)
+    throw UsageError(
+        "this bundle's colours are three numbers, and daylight is a spectrum: partition the scene again with "
+        "--rgb jakob-hanika");
   std::erase_if(m.lights, [](const Light& light) { return traits_of(light.model).is_far(); });
   if (rows.patches)
     m.lights.push_back({InfiniteLight{one_lux_of_d65()}, {}});
@@ -164,6 +168,10 @@ void override_film(Manifest& m, const PictureSettings& picture, const std::files
   resize_film(m, picture);
   if (picture.crop) m.film.crop = *picture.crop;
   if (picture.bins) m.film.spectrum = *picture.bins;
+  if (m.film.spectrum.count > 0 && m.settings.rgb == RgbMethod::bands)
+    throw UsageError(
+        "--spectral: this bundle's colours are three numbers: partition the scene again with --rgb "
+        "jakob-hanika");
   override_layers(m, picture, bundle);
   apply(picture.samples, m);
   check_splat(m, picture);

@@ -125,6 +125,8 @@ std::optional<CodedImage> coded_image(const ImageTexture& texture, const ByteRow
     const auto channel = channel_of(texture.number, rows.channels);
     if (!channel) return {};
     coded.format = TexelFormat::number_code, coded.first_channel = *channel;
+  } else if (method == RgbMethod::bands) {
+    coded.format = has_only_greys(rows) ? TexelFormat::number_code : TexelFormat::band_code;
   } else if (use == TextureUse::illuminant) {
     if (method == RgbMethod::matrix_r) return {};
     coded.format = TexelFormat::light_code;

@@ -73,6 +73,7 @@ TexelFormat format_for(const Survey& all, TextureUse use, RgbMethod method) {
     return all.of_255     ? TexelFormat::vector_8
            : all.of_65535 ? TexelFormat::vector_16
                           : TexelFormat::vector_float;
+  if (method == RgbMethod::bands) return all.grey ? TexelFormat::number : TexelFormat::bands;
   const bool matrix_r = method == RgbMethod::matrix_r && !all.grey;
   if (use == TextureUse::illuminant)
     return matrix_r ? TexelFormat::matrix_r_illuminant : TexelFormat::illuminant;
@@ -142,7 +143,7 @@ class TexelMaker {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, words.size(), 1 << 14), [&](const auto& range) {
       std::vector<Known>& known = known_.local();
       known.resize(most_known_);
-      if (format_ <= TexelFormat::vector_float || by_matrix_r(format_))
+      if (format_ <= TexelFormat::vector_float || format_ >= TexelFormat::matrix_r_reflectance)
         for (std::size_t p = range.begin(); p != range.end(); ++p) words[p] = word(color_at(image, p), known);
       else
         for (std::size_t p = range.begin(); p < range.end(); p += reflectance_batch)
@@ -160,6 +161,7 @@ class TexelMaker {
   TexelWords word(const Color& c, std::vector<Known>& known) const {
     if (format_ == TexelFormat::number) return {std::bit_cast<std::uint32_t>(c[0])};
     if (format_ <= TexelFormat::vector_float) return vector_words(c, format_);
+    if (format_ == TexelFormat::bands) return vector_words(c, TexelFormat::vector_float);
     std::uint32_t hash = 0;
     for (const float v : c) hash = (hash ^ std::bit_cast<std::uint32_t>(v)) * 0x9e3779b1u;
     Known& k = known[hash >> 16 & (most_known_ - 1)];
@@ -267,7 +269,7 @@ Survey survey_of(const ImageRows& rows, TextureUse use) {
 
 WrittenTextureFile write_baked_image(const std::filesystem::path& file, const ImageRows& rows, TextureUse use,
                                      bool all_levels, const ReflectanceFitter& fitter, RgbMethod method) {
-  if (use == TextureUse::illuminant && method != RgbMethod::matrix_r)
+  if (use == TextureUse::illuminant && method == RgbMethod::jakob_hanika)
     if (const auto written = write_light_codes(file, rows, all_levels)) return *written;
   const Survey survey = use == TextureUse::number ? Survey{} : survey_of(rows, use);
   const auto width = static_cast<std::uint32_t>(rows.width), height = static_cast<std::uint32_t>(rows.height);

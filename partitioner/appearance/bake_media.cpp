@@ -109,6 +109,7 @@ void make_spectra(Grid& grid) {
 
 bool bake_colors(Grid& grid, RgbMethod method, std::vector<std::string>& notes) {
   if (!bake_grid(grid, notes)) return false;
+  if (grid.channels == 3 && method == RgbMethod::bands) return true;
   if (grid.channels == 3) {
     if (method == RgbMethod::matrix_r)
       notes.emplace_back("the colours of its grids become spectra by Jakob and Hanika's method");

@@ -32,6 +32,8 @@ const std::array<float, 3>* rgb_of(const Spectrum& spectrum) {
 // are what they are.
 Spectrum as_used(const Spectrum& spectrum, TextureUse use, RgbMethod method) {
   const std::array<float, 3>* const rgb = rgb_of(spectrum);
+  const bool is_color = use != TextureUse::number && use != TextureUse::vector;
+  if (method == RgbMethod::bands && is_color) return resolved(spectrum, method);
   switch (use) {
     case TextureUse::number:
     case TextureUse::vector: {
@@ -171,7 +173,8 @@ struct TextureBaker::Clone {
   SpectrumParameter operator()(const MeshAttributeTexture& t) const { return attribute_of(t, no_tint); }
   SpectrumParameter attribute_of(MeshAttributeTexture t, const Tint& tint) const {
     const bool plain = use == TextureUse::number || use == TextureUse::vector;
-    t.name = baker.slot_of({t.name, plain ? use : TextureUse::reflectance, nullptr, tint});
+    const TextureUse color = baker.in_bands() ? TextureUse::vector : TextureUse::reflectance;
+    t.name = baker.slot_of({t.name, plain ? use : color, nullptr, tint});
     if (use != TextureUse::illuminant) return baker.add(t, use);
     return lit(t);
   }
@@ -194,6 +197,7 @@ struct TextureBaker::Clone {
   }
   // What shines is a reflectance under D65.
   SpectrumParameter lit(const TextureModel& shape) const {
+    if (baker.in_bands()) return baker.add(shape, use);
     const Id<Texture> unlit = baker.add(shape, TextureUse::reflectance);
     return baker.add(ProductTexture{unlit, Spectrum{emission_from_rgb({1, 1, 1})}}, use);
   }

@@ -50,6 +50,8 @@ class TextureBaker {
   // MachineError.
   SpectrumParameter bake(const SpectrumParameter& parameter, TextureUse use);
   FloatParameter bake(const FloatParameter& parameter);
+  // Returns whether the scene's colours are bands (scene/spectra/rgb_bands.h).
+  bool in_bands() const { return scene_.settings.rgb == RgbMethod::bands; }
   // `resolved`, colours by the scene's method.
   Spectrum as_rendered(const Spectrum& spectrum) const;
   Id<Texture> bake_vector(Id<Texture> texture);

@@ -35,7 +35,8 @@ std::uint64_t most_pixels(const std::string& file) {
   return unknown ? 0 : a_byte * bytes;
 }
 
-// Of normals, and of what shines where spectra are by Matrix-R: their values are kept, not their codes.
+// Of normals, and of what shines where spectra are not by Jakob and Hanika: their values are kept, not their
+// codes.
 std::vector<bool> textures_of_values(const Scene& scene) {
   std::vector<bool> of_values(scene.textures.size());
   for (const Material& material : scene.materials)
@@ -45,7 +46,7 @@ std::vector<bool> textures_of_values(const Scene& scene) {
   const bool any_shines = std::ranges::any_of(scene.area_lights, [](const AreaLight& light) {
     return std::holds_alternative<Id<Texture>>(light.radiance);
   });
-  if (any_shines && scene.settings.rgb == RgbMethod::matrix_r) of_values.assign(of_values.size(), true);
+  if (any_shines && scene.settings.rgb != RgbMethod::jakob_hanika) of_values.assign(of_values.size(), true);
   return of_values;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/spectra/rgb_bands.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -210,6 +211,7 @@ Spectrum colored(const std::array<float, 3>& rgb, double scale) {
 }  // namespace
 
 Spectrum resolved(const Spectrum& spectrum, RgbMethod method) {
+  if (method == RgbMethod::bands) return in_bands(spectrum);
   if (method == RgbMethod::matrix_r) {
     if (const auto* s = std::get_if<SigmoidSpectrum>(&spectrum); s && !is_grey(s->rgb))
       return colored(s->rgb, 1);

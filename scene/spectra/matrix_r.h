@@ -48,7 +48,7 @@ RGB reflected_rgb(const Spectrum& reflectance);
 TabulatedSpectrum tabulated(const BandReflectance& reflectance);
 
 // `resolved`, with what was given as RGB by the method: scale · S, and D65 where it shines. Greys stay as
-// they are, constants.
+// they are, constants. By bands it is `in_bands` (scene/spectra/rgb_bands.h).
 Spectrum resolved(const Spectrum& spectrum, RgbMethod method);
 
 }  // namespace vitrail

@@ -157,6 +157,42 @@ TEST(BakeTextures, ColorsByMatrixR) {
   }
 }
 
+// In bands a pixel has its own three numbers, whether they are kept as floats or as codes; beside it the
+// mean.
+TEST(BakeTextures, ColorsByBands) {
+  const auto expect_bands = [](const SampledSpectrum& value, RGB c) {
+    const std::array wanted{c.b, c.g, c.r, c.r};  // at `some_wavelengths`
+    for (std::size_t i = 0; i < hero_count; ++i)
+      EXPECT_NEAR(static_cast<double>(value.v[i]), wanted[i], 1e-6 * std::max(1.0, wanted[i]));
+  };
+  test::BakedScene s;
+  s.scene.settings.rgb = RgbMethod::bands;
+  const Image image = colors(9, 5, 20);
+  write_exr_image(s.directory / "a.exr", image);
+  test::write_png(s.directory / "b.png", 2, 1, 3, {255, 0, 51, 0, 255, 51});
+  ImageTexture codes = s.image("b.png");
+  codes.encoding = Encoding::linear, codes.filter = TextureFilter::bilinear, codes.wrap = Wrap::clamp;
+  const Id<Texture> floats = s.add(s.image("a.exr")), bytes = s.add(codes);
+  TextureBaker& baker = s.bake();
+  std::vector<SpectrumParameter> baked;
+  for (const TextureUse use : {TextureUse::unbounded, TextureUse::illuminant})
+    baked.push_back(baker.bake(floats, use));
+  for (const TextureUse use : {TextureUse::reflectance, TextureUse::illuminant})
+    baked.push_back(baker.bake(bytes, use));
+  const Textures textures = s.look_up();
+  EXPECT_EQ(textures.image(std::get<Id<Texture>>(baked[2])).file().info().format, TexelFormat::band_code);
+  for (std::size_t i = 0; i < 2; ++i)
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        expect_bands(textures.spectrum(baked[i], at_uv((x + 0.5) / image.width, 1 - (y + 0.5) / image.height),
+                                       some_wavelengths),
+                     color_of(image, x, y));
+  for (std::size_t i = 2; i < 4; ++i) {
+    expect_bands(textures.spectrum(baked[i], at_uv(0.25, 0.5), some_wavelengths), {1, 0, 0.2});
+    expect_bands(textures.spectrum(baked[i], at_uv(0.5, 0.5), some_wavelengths), {0.5, 0.5, 0.2});
+  }
+}
+
 TEST(BakeTextures, DecodesScalesAndInverts) {
   test::BakedScene s;
   test::write_png(s.directory / "a.png", 2, 2, 3, {0, 51, 255, 10, 20, 30, 90, 90, 90, 200, 100, 0});

@@ -36,7 +36,7 @@ struct BakedScene {
   Textures look_up(std::uint64_t budget = 1 << 20) {
     baker->files();
     baked = baker->take_textures();
-    return Textures(baked, directory / "b.vit", budget);
+    return Textures(baked, directory / "b.vit", budget, scene.settings.rgb);
   }
 };
 

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "scene/spectra/rgb_bands.h"
 #include "scene/system/diagnostics.h"
 #include "tests/images/ptex_bytes.h"
 #include "tests/partitioner/baked_scene.h"
@@ -322,6 +323,28 @@ TEST(TextureGraph, AttributesOfMeshes) {
   EXPECT_NEAR(textures.number(number, at), 0.5 / 3, 1e-7);
   at.attributes = {};
   EXPECT_EQ(textures.number(wear, at), 0);
+}
+
+// In bands a vertex has its three numbers, and what shines has no D65.
+TEST(TextureGraph, AttributesOfBandsAreNumbers) {
+  test::BakedScene s;
+  s.scene.settings.rgb = RgbMethod::bands;
+  const auto a = s.add(MeshAttributeTexture{"color"});
+  TextureBaker& baker = s.bake();
+  const SpectrumParameter reflectance = baker.bake(a, TextureUse::reflectance),
+                          emission = baker.bake(a, TextureUse::illuminant);
+  ASSERT_EQ(baker.attributes(), (std::vector{TextureBaker::Attribute{"color", TextureUse::vector}}));
+  const ReflectanceFitter fitter;
+  const RGB corners[]{{0.1, 0.7, 0.2}, {0.5, 0.1, 0}, {0.3, 0.3, 0.8}};
+  AttributeValue value{{}, {0.25f, 0.25f, 0.5f}};
+  for (std::size_t i = 0; i < 3; ++i)
+    value.corners[i] = attribute_value(corners[i], TextureUse::vector, fitter);
+  const Textures textures = s.look_up();
+  TexturePoint at;
+  at.attributes = {&value, 1};
+  for (const SpectrumParameter& parameter : {reflectance, emission})
+    test::expect_near(textures.spectrum(parameter, at, some_wavelengths), band_spectrum({0.3, 0.35, 0.45}),
+                      1e-6);
 }
 
 // Their spectra would multiply to another colour: teal times yellow has a quarter more red.

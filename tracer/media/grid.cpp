@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "scene/spectra/rgb_bands.h"
 #include "tracer/simd/lanes.h"
 
 namespace vitrail {
@@ -127,6 +128,14 @@ struct NumberRange {
   ValueRange values() const { return {low, high}; }
 };
 
+// The same of cells of bands.
+struct BandRange : NumberRange {
+  using NumberRange::add;
+  void add(const float* cell) {
+    for (int k = 0; k < band_channels; ++k) NumberRange::add(cell + k);
+  }
+};
+
 // The same of cells of colours: x(t) and the scale.
 struct ColorRange {
   float x_low = std::numeric_limits<float>::infinity(), x_high = -std::numeric_limits<float>::infinity();
@@ -200,6 +209,14 @@ std::vector<ValueRange> value_ranges(const Grid& grid, const std::array<CellRang
 void look_up_colors(const Grid& grid, Point3d p, std::span<const double> lambda_nm,
                     std::span<double> values) {
   const std::array<Corner, 8> around = corners(grid, p);
+  if (grid.channels == band_channels) {
+    std::array<double, band_channels> sums{};
+    for (const Corner& c : around)
+      for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += c.weight * static_cast<double>(c.values[k]);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = sums[band_of(static_cast<float>(lambda_nm[i]))];
+    return;
+  }
   // pbrt's edges: Σ wᵢ·scaleᵢ·Sᵢ; Mitsuba's: Σ wᵢ·scaleᵢ times Σ wᵢ·Sᵢ.
   const bool scaled = grid.edge == GridEdge::zero;
   const CornerSpectra spectra(around, scaled);
@@ -233,7 +250,7 @@ double look_up(const Grid& grid, Point3d p, int channel) {
 
 double greatest_value(const Grid& grid) {
   if (grid.values.empty()) return 0;
-  if (!has_colors(grid))
+  if (grid.channels != color_channels)
     return static_cast<double>(*std::max_element(grid.values.begin(), grid.values.end()));
   float greatest = 0;  // of the scales: no sigmoid is above 1
   for (std::size_t i = 3; i < grid.values.size(); i += color_channels)
@@ -253,6 +270,7 @@ std::vector<ValueRange> value_ranges(const Grid& grid, const Planes& planes) {
     for (std::size_t i = 0; i + 1 < planes[a].size(); ++i)
       boxes[a].push_back(cells_between(place(planes[a][i]), place(planes[a][i + 1]), counts[a], grid.edge));
   }
+  if (grid.channels == band_channels) return value_ranges<BandRange>(grid, boxes);
   return has_colors(grid) ? value_ranges<ColorRange>(grid, boxes) : value_ranges<NumberRange>(grid, boxes);
 }
 

@@ -16,8 +16,9 @@ double look_up(const Grid& grid, Point3d p, int channel);
 // A baked grid of colours (partitioner/appearance/bake_media.h) at wavelengths: Σ wᵢ·Sᵢ(λ) times Σ wᵢ·scaleᵢ,
 // over the eight cells around p, as Mitsuba 3.9 has it (measured); Σ wᵢ·scaleᵢ·Sᵢ(λ), as pbrt-v4, of one that
 // is 0 outside.
-inline constexpr int color_channels = 4;
-inline bool has_colors(const Grid& grid) { return grid.channels == color_channels; }
+// A grid of three channels is of bands (scene/spectra/rgb_bands.h): Σ wᵢ times that of the wavelength.
+inline constexpr int color_channels = 4, band_channels = 3;
+inline bool has_colors(const Grid& grid) { return grid.channels >= band_channels; }
 void look_up_colors(const Grid& grid, Point3d p, std::span<const double> lambda_nm, std::span<double> values);
 
 // No value of the grid is greater, at any wavelength.

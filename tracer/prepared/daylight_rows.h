@@ -32,11 +32,12 @@ struct DaylightRows {
   }
 };
 
-// Returns what films have as X, Y and Z: x̄ and ȳ of the CIE, and in the place of z̄ the melanopic action
-// spectrum (scene/daylight/photometry.h). Without such rows it is the observer of the CIE.
-const std::array<std::array<float, 3>, table_size>& observer_of(const DaylightRows& rows);
-
 struct RenderScene;
+// Returns what films have as X, Y and Z: the observer of the CIE; of a scene whose colours are bands the one
+// that sees those (`band_observer`). With such rows it is x̄ and ȳ of the CIE, and in the place of z̄ the
+// melanopic action spectrum (scene/daylight/photometry.h).
+const std::array<std::array<float, 3>, table_size>& observer_of(const RenderScene& scene);
+
 // Gives them to a scene whose lights are one that is infinite, for patches, or one that is distant.
 void set_daylight(RenderScene& scene, DaylightRows rows);
 

@@ -62,7 +62,7 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
       interiors(manifest),
       camera(manifest.camera, manifest.camera_motion, manifest.film),
       filter(manifest.film.filter, the_sampling.splat),
-      textures(manifest.textures, bundle, texture_bytes),
+      textures(manifest.textures, bundle, texture_bytes, manifest.settings.rgb),
       materials(manifest, textures),
       media(prepare(manifest.media)),
       lights(make_light_sampler(light_scene(manifest, textures), bundle, the_sampling.lights)),

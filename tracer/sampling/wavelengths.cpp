@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/spectra/rgb_bands.h"
 #include "tracer/sampling/guide_table.h"
 
 namespace vitrail {
@@ -86,6 +87,35 @@ const std::array<SampledWavelengths, 4>& luminance_wavelengths() {
 WavelengthTables wavelength_tables() {
   const Density& d = density();
   return {d.pdf.data(), d.cumulative.data(), d.first.data(), static_cast<double>(d.first.size())};
+}
+
+const Observer& band_observer() {
+  static const Observer observer = [] {
+    const auto& pdf = density().pdf;
+    const auto is_edge = [](int nm) {
+      return nm == blue_ends_nm || nm == green_begins_nm || nm == green_ends_nm || nm == red_begins_nm;
+    };
+    std::array<double, table_size> share{};  // of a nanometre's middle values, linear in between
+    std::array<double, 3> sums{};
+    for (std::size_t i = 0; i < table_size; ++i) {
+      const int nm = static_cast<int>(lambda_min_nm) + static_cast<int>(i);
+      if (is_edge(nm)) continue;
+      const bool is_end = i == 0 || i == bins;
+      share[i] = (pdf[i == 0 ? 0 : i - 1] + pdf[std::min(i, bins - 1)]) / 2;
+      sums[band_of(static_cast<float>(nm))] += share[i] * (is_end ? 0.5 : 1);
+    }
+    constexpr std::array<RGB, 3> primaries{RGB{1, 0, 0}, RGB{0, 1, 0}, RGB{0, 0, 1}};
+    Observer table{};
+    for (std::size_t i = 0; i < table_size; ++i) {
+      const std::size_t band = band_of(static_cast<float>(lambda_min_nm) + static_cast<float>(i));
+      const double part = share[i] * cie_y_integral_nm / sums[band];
+      const XYZ seen = srgb_to_xyz(primaries[band]);
+      table[i] = {static_cast<float>(part * seen.x), static_cast<float>(part * seen.y),
+                  static_cast<float>(part * seen.z)};
+    }
+    return table;
+  }();
+  return observer;
 }
 
 SampledWavelengths sample_wavelengths(float u) {

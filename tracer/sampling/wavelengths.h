@@ -44,6 +44,10 @@ struct SensorWeights {
 };
 // Three functions of the wavelength, as x̄, ȳ and z̄ are: at 360, 361 … 830 nm.
 using Observer = std::array<std::array<float, 3>, table_size>;
+// Sees spectra that are constant in the bands of scene/spectra/rgb_bands.h as the linear sRGB colours of
+// their numbers: within a band it follows the density of `sample_wavelengths`, so that each of a band's
+// wavelengths counts as much as any other; between bands it is 0.
+const Observer& band_observer();
 // `scale` multiplies them.
 SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale = 1,
                              const SpectralBins& bins = {}, const Observer& observer = cie_1931());

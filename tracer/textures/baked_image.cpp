@@ -279,6 +279,10 @@ double BakedImage::luminance(int x, int y, int level) const {
                         static_cast<double>((*color)[2])})
         .y;
   const TexelWords words = implementation_->one(x, y, level);
+  if (format() == TexelFormat::bands) {
+    const std::array<double, 3> c = vector_of(TexelFormat::vector_float, words);
+    return srgb_to_xyz({c[0], c[1], c[2]}).y;
+  }
   return by_matrix_r(format()) ? matrix_r(format(), words) : sigmoids(format(), words);
 }
 

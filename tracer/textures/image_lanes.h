@@ -25,6 +25,7 @@ template <class F, int N, class WavelengthsOf>
 VITRAIL_LANES Four<F> value_of_texels(TexelFormat format, const TexelsOfLanes<N, width<F>>& texels,
                                       const F (&factors)[N], const WavelengthsOf& wavelengths) {
   const Spectra<F> lambda_nm = gather_wavelengths<F>(wavelengths);
+  if (format == TexelFormat::bands) return parted(sum_of_bands(texels, factors, lambda_nm));
   Spectra<F> sum = sum_of(format, texels, factors, NodeWeights<F>(lambda_nm));
   if (format == TexelFormat::illuminant) sum = lit(sum, cie_d65().data(), lambda_nm);
   return parted(sum);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "bundle/texel.h"
+#include "scene/spectra/rgb_bands.h"
 #include "tracer/simd/several.h"
 #include "tracer/simd/spectral_tables.h"
 
@@ -64,7 +65,23 @@ VITRAIL_LANES Spectra<F> sigmoid_of_nodes(const F (&x)[3], const NodeWeights<F>&
   return s;
 }
 
-// Σ factor · texel of an image of spectra or numbers, not by Matrix-R; D65 is left to the caller.
+// Σ factor · texel of an image by bands.
+template <class F, int N>
+VITRAIL_LANES Spectra<F> sum_of_bands(const TexelsOfLanes<N, width<F>>& texels, const F (&factors)[N],
+                                      const Spectra<F>& lambda_nm) {
+  using S = Several<F>;
+  F c[3] = {fill<F>(0), fill<F>(0), fill<F>(0)};
+  for (int i = 0; i < N; ++i)
+    for (int k = 0; k < 3; ++k) c[k] = c[k] + cast_bits<float>(texels.words(i, k)) * factors[i];
+  const S red = repeated(c[0]), green = repeated(c[1]), blue = repeated(c[2]);
+  Spectra<F> sum{};
+  for (int g = 0; g < Spectra<F>::count; ++g)
+    sum.v[g] = select(lambda_nm.v[g] < static_cast<float>(green_begins_nm), blue,
+                      select(lambda_nm.v[g] < static_cast<float>(red_begins_nm), green, red));
+  return sum;
+}
+
+// Σ factor · texel of an image of spectra or numbers, not by Matrix-R or bands; D65 is left to the caller.
 template <class F, int N>
 VITRAIL_LANES Spectra<F> sum_of(TexelFormat format, const TexelsOfLanes<N, width<F>>& texels,
                                 const F (&factors)[N], const NodeWeights<F>& weights) {

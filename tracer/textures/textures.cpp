@@ -12,6 +12,7 @@
 #include "scene/models/texture_mapping.h"
 #include "scene/records/nesting_limits.h"
 #include "scene/records/texture_inputs.h"
+#include "scene/spectra/rgb_bands.h"
 #include "scene/system/diagnostics.h"
 #include "tracer/sampling/wavelengths.h"
 #include "tracer/textures/image_lanes.h"
@@ -85,7 +86,13 @@ struct SpectrumLookup {
   using Value = SampledSpectrum;
   const TexturePoint& at;
   const SampledWavelengths& wavelengths;
+  bool in_bands;
 
+  Value by_band(const std::array<float, 3>& rgb) const {
+    Value value;
+    for (std::size_t i = 0; i < hero_count; ++i) value.v[i] = rgb[band_of(wavelengths.lambda_nm[i])];
+    return value;
+  }
   Value constant(const Spectrum& spectrum) const { return evaluate(spectrum, wavelengths); }
   Value constant(float number) const { return filled(number); }
   Value nearest(const BakedImage& image, MappedPoint p, Wrap wrap) const {
@@ -102,6 +109,7 @@ struct SpectrumLookup {
       const float corner[3] = {value.corners[k][0], value.corners[k][1], value.corners[k][2]};
       const SampledSpectrum of_corner =
           texture.is_float ? filled(corner[0])
+          : in_bands       ? by_band(value.corners[k])
                            : lanes::lane(lanes::parted(lanes::sigmoid_of_nodes(corner, nodes)), 0);
       sum = sum + of_corner * value.weights[k];
     }
@@ -111,7 +119,9 @@ struct SpectrumLookup {
     SampledSpectrum sum;
     for (std::size_t k = 0; k < weights.size(); ++k)
       if (weights[k] != 0)
-        sum = sum + evaluate(Spectrum{marble_colors[k]}, wavelengths) * static_cast<float>(weights[k]);
+        sum = sum +
+              (in_bands ? by_band(marble_colors[k].rgb) : evaluate(Spectrum{marble_colors[k]}, wavelengths)) *
+                  static_cast<float>(weights[k]);
     return sum;
   }
   static Value scaled(const Value& v, double factor) { return v * static_cast<float>(factor); }
@@ -275,6 +285,7 @@ struct Textures::Implementation {
   std::vector<Node> nodes;
   std::map<std::string, BakedImage> images;
   std::shared_ptr<TileCache> cache;
+  bool in_bands = false;  // colours of vertices and of marble
 
   Implementation(const std::vector<Texture>& textures, const std::filesystem::path& bundle,
                  std::uint64_t budget_bytes) {
@@ -339,8 +350,10 @@ struct Textures::Implementation {
 };
 
 Textures::Textures(const std::vector<Texture>& textures, const std::filesystem::path& bundle,
-                   std::uint64_t budget_bytes)
-    : implementation_(std::make_unique<Implementation>(textures, bundle, budget_bytes)) {}
+                   std::uint64_t budget_bytes, RgbMethod rgb)
+    : implementation_(std::make_unique<Implementation>(textures, bundle, budget_bytes)) {
+  implementation_->in_bands = rgb == RgbMethod::bands;
+}
 Textures::~Textures() = default;
 Textures::Textures(Textures&&) noexcept = default;
 
@@ -349,7 +362,7 @@ SampledSpectrum Textures::spectrum(const SpectrumParameter& parameter, const Tex
   if (const auto* constant = std::get_if<Spectrum>(&parameter)) return evaluate(*constant, wavelengths);
   const std::vector<Node>& nodes = implementation_->nodes;
   const Node& node = nodes[std::get<Id<Texture>>(parameter).value];
-  const SpectrumLookup lookup{at, wavelengths};
+  const SpectrumLookup lookup{at, wavelengths, implementation_->in_bands};
   SampledSpectrum value = std::visit(Evaluation<SpectrumLookup>{nodes, lookup, node}, node.texture->model);
   for (float& v : value.v) v = std::max(v, 0.0f);
   return value;

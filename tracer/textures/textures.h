@@ -12,6 +12,7 @@
 
 #include "scene/records/texture.h"
 #include "scene/spectra/color.h"
+#include "scene/spectra/rgb_method.h"
 #include "scene/spectra/sampled_spectrum.h"
 
 namespace vitrail {
@@ -41,10 +42,10 @@ struct TexturePoint {
 class Textures {
  public:
   // `textures` are the bundle's (partitioner/appearance/bake_textures.h) and outlive it. `budget_bytes` for
-  // tiles and the tables that find them. Throws Error for files that are damaged and textures that make no
-  // sense.
+  // tiles and the tables that find them. `rgb`: how the bundle's colours are spectra. Throws Error for files
+  // that are damaged and textures that make no sense.
   Textures(const std::vector<Texture>& textures, const std::filesystem::path& bundle,
-           std::uint64_t budget_bytes);
+           std::uint64_t budget_bytes, RgbMethod rgb = RgbMethod::jakob_hanika);
   ~Textures();
   Textures(Textures&&) noexcept;
 

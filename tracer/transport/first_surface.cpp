@@ -14,9 +14,10 @@ namespace {
 constexpr std::uint64_t albedo_stream = 0x9e3779b97f4a7c15u;
 
 // The light that surfaces are seen by in an albedo: white in the colours of a picture.
-const Spectrum& white_light() {
-  static const Spectrum d65 = TabulatedSpectrum{{cie_d65().begin(), cie_d65().end()}};
-  return d65;
+const Spectrum& white_light(const RenderSettings& settings) {
+  static const Spectrum d65 = TabulatedSpectrum{{cie_d65().begin(), cie_d65().end()}},
+                        ones = ConstantSpectrum{1};
+  return settings.rgb == RgbMethod::bands ? ones : d65;
 }
 
 std::array<double, 3> values_of(Vector3d v) { return {v.x, v.y, v.z}; }
@@ -74,7 +75,7 @@ XYZ albedo_at(const Tracing& tracing, const CameraPath& path, const Interaction&
       material, at, path.wavelengths, filled(1), stream_of(path, RayRandom::layers));
   const SampledSpectrum share =
       albedo(scattering.bsdf, scattering.frame.to_local(at.out), path.random + albedo_stream);
-  return sense(path.film.sensor, share * evaluate(white_light(), path.wavelengths));
+  return sense(path.film.sensor, share * evaluate(white_light(tracing.settings()), path.wavelengths));
 }
 
 // Something covers so much of the sample's part of the pixel, of whatever kind.

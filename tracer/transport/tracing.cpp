@@ -68,7 +68,7 @@ double time_at(const Tracing& tracing, float number) {
 SensorWeights sensor_of(const Tracing& tracing, const std::array<float, 4>& camera,
                         const SampledWavelengths& wavelengths) {
   return sensor_weights(wavelengths, tracing.scene.filter.weight(camera[0], camera[1]), tracing.film.bins(),
-                        observer_of(tracing.scene.daylight));
+                        observer_of(tracing.scene));
 }
 
 const Footprint* footprint_of(Tracing& tracing, std::uint32_t pixel, std::uint32_t sample) {

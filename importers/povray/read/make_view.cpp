@@ -85,6 +85,7 @@ WideCamera wide_camera(const CameraView& v) {
 void SceneMaker::set_view() {
   scene_.settings.direct_only = !world_.radiosity;
   scene_.settings.max_depth = world_.max_trace_level;
+  scene_.settings.rgb = RgbMethod::bands;  // its colours are three numbers, and so are their products
   // What goes straight on stays on its level, as povray's pictures of clear planes show.
   scene_.settings.straight_counts = reader_.for_export;
   const CameraView view = world_.camera ? *world_.camera : CameraView{};

@@ -32,8 +32,8 @@ Symbol* Reader::raw_name(const char* what) {
   expanding_ = expanding;
   if (token.kind != TokenKind::word)
     fail(fmt::format("{} is expected, not {}", what, describe(token)), token.place);
-  // sgn is a function here, and scenes and math.inc declare their own.
-  if (token.symbol->word > Word::none && token.symbol->word != Word::sgn_ && token.symbol->name.size() > 1)
+  const bool is_reserved = token.symbol->word > Word::none && token.symbol->free_word == Word::none;
+  if (is_reserved && token.symbol->name.size() > 1)
     fail(fmt::format("{} is a reserved word, and cannot be {}", describe(token), what), token.place);
   return token.symbol;
 }
@@ -122,7 +122,7 @@ double Reader::defined_value() {
   if (token.kind != TokenKind::word) fail("the name of an identifier is expected", token.place);
   const Value* value = token.symbol->value();
   bool is_defined =
-      token.symbol->word != Word::none || (value && !std::holds_alternative<std::monostate>(*value));
+      is_variable(token.symbol->word) || (value && !std::holds_alternative<std::monostate>(*value));
   Value held = value ? *value : Value{};
   while (accept('[')) {
     const int index = integer("an index");
@@ -248,7 +248,7 @@ void Reader::define(const std::string& name, const std::string& value) {
   const bool is_name = !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) == 0 &&
                        std::ranges::all_of(name, fits);
   Symbol* const symbol = symbols_.find(name);
-  if (!is_name || symbol->word != Word::none)
+  if (!is_name || (symbol->word != Word::none && symbol->free_word == Word::none))
     throw UsageError("-D: a POV-Ray scene cannot declare '" + name + "'");
   *symbols_.variable(symbol, 0) = is_number ? Value{Numbers(number)} : Value{value};
 }

@@ -25,6 +25,9 @@ enum class Word : std::uint16_t {
 // As scenes write it.
 const char* name_of(Word word);
 
+// Returns whether POV-Ray has the word for a variable of its own, which a scene may declare anew.
+bool is_variable(Word word);
+
 // Identifiers are looked up in the innermost scope that has them.
 struct Symbol {
   struct Binding {
@@ -33,6 +36,7 @@ struct Symbol {
   };
   std::string name;
   Word word = Word::none;
+  Word free_word = Word::none;    // what it is again once the scene's own binding is gone
   std::vector<Binding> bindings;  // the innermost last
 
   Value* value() const { return bindings.empty() ? nullptr : bindings.back().value.get(); }
@@ -48,7 +52,7 @@ class Symbols {
   void close_scope();
   std::size_t depth() const { return scopes_.size(); }
 
-  // The variable of that scope, which is made where there is none.
+  // The variable of that scope, which is made where there is none. The name is no word from then on.
   std::shared_ptr<Value> variable(Symbol* symbol, std::size_t scope);
   // The variable that the name stands for; a global one is made where there is none.
   std::shared_ptr<Value> visible(Symbol* symbol);
@@ -61,6 +65,8 @@ class Symbols {
   std::vector<std::string> defined() const;
 
  private:
+  static void unbind(Symbol& symbol);
+
   std::deque<Symbol> symbols_;
   std::unordered_map<std::string_view, Symbol*> by_name_;
   std::vector<std::vector<Symbol*>> scopes_;  // what each has bound; without the global one

@@ -50,6 +50,31 @@ TEST_F(PovrayPublicScenes, SpotlightsThatAreBrightAtTheirRim) {
                  0.03);
 }
 
+// POV-Ray multiplies three numbers: of a green lamp a red plane shows nothing. Behind a coloured pane, in a
+// coloured mirror, of an image and of a pattern, too.
+TEST_F(PovrayPublicScenes, ColouredLampsOnColouredThings) {
+  folder_.write("map.ppm", "P6\n2 1\n255\n\310\024\074\036\334\132");
+  const auto lit = [](const std::string& lamp) {
+    return "light_source { <1000, 0, -1000> rgb " + lamp + " }\n";
+  };
+  const std::string plane = "plane { z, 0 pigment { rgb 1 } finish { ambient 0 diffuse 1 } }\n";
+  const auto of = [&](const std::string& pigment) {
+    return "plane { z, 0 pigment { " + pigment + " } finish { ambient 0 diffuse 1 } }\n";
+  };
+  const std::string
+      images = of("image_map { ppm \"map.ppm\" interpolate 2 } scale 2"),
+      patterns = of("gradient x color_map { [0 rgb <1, .1, 0>] [1 rgb <0, .3, .9>] }"),
+      pane = "plane { z, -1 pigment { rgbf <.2, .9, .4, 1> } finish { ambient 0 diffuse 0 } }\n" + plane,
+      mirror =
+          "plane { z, 1 pigment { rgb 0 } finish { ambient 0 diffuse 0 reflection <.9, .3, .1> } }\n"
+          "plane { z, -20 pigment { rgb <.5, .8, .3> } finish { ambient 1 diffuse 0 } }\n";
+  for (const std::string& scene :
+       {lit("<1, .5, .2>") + of("rgb <.8, .4, .2>"), lit("<0, 1, 0>") + of("rgb <1, .02, 0>"),
+        lit("<1, .3, .1>") + images, lit("<.2, 1, .4>") + patterns, lit("<1, .4, .1>") + pane,
+        lit("<1, .4, .1>") + mirror})
+    expect_alike("#version 3.7; global_settings { assumed_gamma 1 }\n" + flat_camera + scene, 0.01);
+}
+
 // Clear planes that bend nothing are no levels of max_trace_level.
 TEST_F(PovrayPublicScenes, ClearPlanesAreNoLevels) {
   std::string planes;

@@ -124,6 +124,30 @@ TEST_F(ReadPovray, MacrosChangeWhatTheyAreGiven) {
   EXPECT_DOUBLE_EQ(number("A", before + "#macro L() #local A = 9; #end L()"), 3);
 }
 
+// POV-Ray's own variables, and words that its version 3.7 does not have, as povray takes them.
+TEST_F(ReadPovray, NamesThatAreFree) {
+  for (const std::string name : {"clock_delta", "final_clock", "final_frame", "frame_number", "image_width",
+                                 "image_height", "initial_clock", "initial_frame", "normalize",
+                                 "number_of_sources", "potential", "pragma", "sgn", "tau", "trunc"}) {
+    EXPECT_DOUBLE_EQ(number(name + " + 1", "#declare " + name + " = 8;"), 9) << name;
+    EXPECT_DOUBLE_EQ(number("A", "#macro M(" + name + ") #declare A = " + name + "; #end M(5)"), 5) << name;
+  }
+  EXPECT_DOUBLE_EQ(number("image_width", "#declare image_width = image_width / image_width + 1;"), 2);
+  EXPECT_DOUBLE_EQ(
+      number(
+          "image_width / W",
+          "#declare W = image_width; #macro M() #local image_width = 3; #declare N = image_width; #end M()"),
+      1);
+  const auto is_defined = [&](const std::string& name, const std::string& before = "") {
+    return number("N", before + "#declare N = 0; #ifdef (" + name + ") #declare N = 1; #end");
+  };
+  EXPECT_EQ(is_defined("image_width"), 1);
+  for (const char* name : {"tau", "pi", "clock"}) EXPECT_EQ(is_defined(name), 0) << name;
+  EXPECT_EQ(is_defined("tau", "#declare tau = 1;"), 1);
+  EXPECT_EQ(is_defined("tau", "#declare tau = 1; #undef tau "), 0);
+  error("#declare pi = 3;");
+}
+
 // povray takes them without commas between, or with one behind the last; no more than one.
 TEST_F(ReadPovray, CommasOfMacros) {
   const std::string before = "#macro D(A, B) (A - B) #end #macro None() 4 #end ";

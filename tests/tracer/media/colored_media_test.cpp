@@ -47,6 +47,22 @@ TEST(ColoredMedia, AreWhatMitsubaEvaluates) {
   expect_at(medium, 0.75, {1.89966, 0.739597, 0.32366, 0.143982});
 }
 
+// In bands a cell keeps its three numbers: 450 nm is blue, 500 and 550 nm are green, 620 nm is red.
+TEST(ColoredMedia, OfBandsAreBlendedNumbers) {
+  Medium medium;
+  medium.coefficients = ExtinctionAlbedo{two_cells({1, 0.2f, 0.1f}, {0.1f, 0.3f, 2}), ConstantSpectrum{0}};
+  std::vector<std::string> notes;
+  const Medium result = bake_medium(medium, RgbMethod::bands, notes).value();
+  EXPECT_TRUE(notes.empty());
+  expect_at(result, 0.25, {0.1, 0.2, 0.2, 1});
+  expect_at(result, 0.5, {1.05, 0.25, 0.25, 0.55});
+  const Grid& grid = std::get<Grid>(std::get<ExtinctionAlbedo>(result.coefficients).sigma_t);
+  EXPECT_EQ(greatest_value(grid), 2);
+  const std::vector<ValueRange> ranges = value_ranges(grid, Planes{{{0, 0.25, 1}, {0, 1}, {0, 1}}});
+  EXPECT_EQ(ranges[0].low, 0.1f);
+  EXPECT_EQ(ranges[1].high, 2.0f);
+}
+
 // A density has one number a cell.
 TEST(ColoredMedia, DensitiesOfColorsAreTheirMeans) {
   Medium medium;

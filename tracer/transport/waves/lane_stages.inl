@@ -221,7 +221,7 @@ VITRAIL_LANES void start_rays(const NewPaths& work, CameraPath* const (&path)[W]
 
 void begin(const NewPaths& work) {
   const WavelengthTables tables = wavelength_tables();
-  const float* const observer = observer_of(work.tracing.scene.daylight)[0].data();
+  const float* const observer = observer_of(work.tracing.scene)[0].data();
   for (std::size_t first = 0; first < work.count; first += W) {
     CameraPath* path[W];
     for (std::size_t j = 0; j < W; ++j)
