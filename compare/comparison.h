@@ -39,6 +39,7 @@ struct Comparison {
   bool passed = true;
   bool judged() const { return threshold.has_value() || mean_within.has_value(); }
   std::size_t nonfinite_image = 0, nonfinite_reference = 0;  // pixels
+  std::uint64_t other_alphas = 0;  // pixels; of metrics but bitwise that is said, and counts for nothing
   MeanRatios ratios;
   double luminance_ratio_error =
       0;  // standard error of ratios.luminance, from the scatter of the pixels, and what they share

@@ -51,6 +51,9 @@ std::string to_text(const Comparison& c) {
   if (c.nonfinite_image + c.nonfinite_reference > 0)
     text += fmt::format("pixels that are not finite: {} of the image, {} of the reference\n",
                         c.nonfinite_image, c.nonfinite_reference);
+  if (c.other_alphas > 0)
+    text += fmt::format("alpha differs in {} pixel{}{}\n", c.other_alphas, c.other_alphas == 1 ? "" : "s",
+                        c.metric == Metric::bitwise ? "" : ", which this metric does not look at");
   for (const WorstPixel& w : c.worst)
     text +=
         fmt::format("pixel {},{}: {:.4g} {:.4g} {:.4g}, in the reference {:.4g} {:.4g} {:.4g}\n", w.x, w.y,
@@ -68,6 +71,7 @@ std::string to_json(const Comparison& c) {
             {"pixels", c.error_map.size()},
             {"nonfinite_image", c.nonfinite_image},
             {"nonfinite_reference", c.nonfinite_reference},
+            {"alpha_differs", c.other_alphas},
             {"mean_ratio_x", c.ratios.x},
             {"mean_ratio_y", c.ratios.luminance},
             {"mean_ratio_z", c.ratios.z},

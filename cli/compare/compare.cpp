@@ -2,6 +2,7 @@
 // vitrail compare: how far an image is from a reference, and whether that is too far.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -112,6 +113,8 @@ int run(const CompareArguments& options) {
       compare(test, *metric, options.fail_above, options.mean_within,
               without(given_map(options, image, reference), mask),
               metric == Metric::welch ? std::optional(welch_test_of(image, reference)) : std::nullopt);
+  const std::vector<double> alphas = without(alpha_differences(image, reference), mask);
+  comparison.other_alphas = static_cast<std::uint64_t>(std::ranges::count(alphas, 1.0));
   const std::size_t compared = comparison.error_map.size();
   const std::vector<double> map = spread(comparison.error_map, mask);
   comparison.worst =

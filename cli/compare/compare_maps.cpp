@@ -30,6 +30,8 @@ const std::vector<float>* alpha_of(const Picture& picture) {
   return found == picture.layers.end() ? nullptr : &found->values;
 }
 
+}  // namespace
+
 std::vector<double> alpha_differences(const Picture& image, const Picture& reference) {
   const auto *a = alpha_of(image), *b = alpha_of(reference);
   if (!a || !b || a->size() != b->size()) return {};
@@ -38,8 +40,6 @@ std::vector<double> alpha_differences(const Picture& image, const Picture& refer
     differs[p] = std::bit_cast<std::uint32_t>((*a)[p]) != std::bit_cast<std::uint32_t>((*b)[p]) ? 1 : 0;
   return differs;
 }
-
-}  // namespace
 
 std::vector<double> given_map(const CompareArguments& options, const Picture& image,
                               const Picture& reference) {

@@ -7,6 +7,9 @@
 
 namespace vitrail {
 
+// 1 for each pixel whose alpha differs, if both pictures have it; else empty.
+std::vector<double> alpha_differences(const Picture& image, const Picture& reference);
+
 // This is what `compare` takes beside the colours of each pixel: FLIP where that is the metric; for bitwise,
 // 1 where alpha differs, if both pictures have it. Else it is empty.
 std::vector<double> given_map(const CompareArguments& arguments, const Picture& image,

@@ -60,8 +60,7 @@ void TextCursor::skip_blanks() {
     if (blank()) {
       ++at_;
     } else if (continuation()) {
-      ++at_;
-      break_line();
+      join_lines();
     } else {
       return;
     }

@@ -61,6 +61,10 @@ class TextCursor {
     at_ = stop;
     return true;
   }
+  // Skips the end of a line, if a backslash stands before it and comes next.
+  void join_lines() {
+    while (at_ != end_ && continuation()) ++at_, break_line();
+  }
   // Consumes `c` if it comes next.
   bool accept(char c);
   // A decimal integer, which must fit; nothing is required to follow it.

@@ -165,21 +165,18 @@ class Evaluation {
   }
 
   // One after the other. What is left of a body may intersect itself by a rounding, where the next cannot be
-  // cut out: then all that is cut out is made one first.
+  // cut out: then all are cut out exactly.
   Bodies without(const Bodies& left, const Bodies& cut) {
     const Bodies together = grouped(cut);
     Bodies made;
     for (const Solid& body : left) {
       const std::vector<std::string> before = result_.refused;
       Solid rest = cut_out(body, together);
-      if (result_.refused.size() > before.size() && together.size() > 1) {
-        std::vector<std::string> first = std::exchange(result_.refused, before);
-        Solid again = cut_out(body, grouped(merged(together)));
-        if (result_.refused.size() == before.size())
-          rest = std::move(again);
-        else
-          result_.refused = std::move(first);
-      }
+      if (result_.refused.size() > before.size() && together.size() > 1)
+        if (BooleanResult exact = subtract_exactly(body, together); exact.solid) {
+          rest = std::move(*exact.solid);
+          result_.refused = before;
+        }
       if (!rest.empty()) made.push_back(std::move(rest));
     }
     return made;

@@ -122,6 +122,24 @@ bool boxes_meet(const Bounds3d& a, const Bounds3d& b) {
   return !a.empty() && !b.empty();
 }
 
+// Barycentric on the greatest projection.
+Normal3f normal_at(const Solid& solid, std::size_t triangle, Point3d p) {
+  const auto& corners = solid.triangles[triangle];
+  const auto& [na, nb, nc] = solid.normals[triangle];
+  for (std::size_t i = 0; i < 3; ++i)
+    if (solid.positions[corners[i]] == p) return solid.normals[triangle][i];
+  const Point3d origin = solid.positions[corners[0]];
+  const Vector3d e1 = solid.positions[corners[1]] - origin, e2 = solid.positions[corners[2]] - origin,
+                 d = p - origin, n = cross(e1, e2);
+  const double area = dot(n, n);
+  double v = area > 0 ? dot(cross(d, e2), n) / area : 0, w = area > 0 ? dot(cross(e1, d), n) / area : 0;
+  v = std::clamp(v, 0.0, 1.0);
+  w = std::clamp(w, 0.0, 1.0 - v);
+  if (v == 0 && w == 0) return na;
+  const auto vector = [](const Normal3f& of) { return to_vector(cast<double>(of)); };
+  return cast<float>(to_normal(normalize(vector(na) * (1 - v - w) + vector(nb) * v + vector(nc) * w)));
+}
+
 double volume(const Solid& solid) {
   const Point3d origin = solid.positions.empty() ? Point3d{} : solid.positions.front();
   double sum = 0;

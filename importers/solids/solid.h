@@ -60,6 +60,10 @@ Bounds3d bounds_of(const Solid& solid);
 // Neither is empty, and they have a point in common.
 bool boxes_meet(const Bounds3d& a, const Bounds3d& b);
 
+// The normal at a point in a triangle: that of a corner, bit for bit, where the point is one, so that
+// neighbours go on sharing it.
+Normal3f normal_at(const Solid& solid, std::size_t triangle, Point3d p);
+
 // Positive where fronts are outside; the sum of its bodies.
 double volume(const Solid& solid);
 

@@ -68,8 +68,11 @@ TEST_F(ImagePrograms, BitwiseLooksAtAlpha) {
     EXPECT_EQ(compare(a + ' ' + a + " --metric bitwise").status, 0);
     const CommandResult differs = compare(a + ' ' + b + " --metric bitwise");
     EXPECT_EQ(differs.status, 1) << kind;
-    EXPECT_THAT(differs.output, HasSubstr("0.5")) << "one of two pixels";
-    EXPECT_EQ(compare(a + ' ' + b + " --metric mse --fail-above 0").status, 0) << "colours alone";
+    EXPECT_THAT(differs.output, AllOf(HasSubstr("0.5"), HasSubstr("alpha differs in 1 pixel\n")));
+    const CommandResult colors = compare(a + ' ' + b + " --metric mse --fail-above 0");
+    EXPECT_EQ(colors.status, 0) << "colours alone";
+    EXPECT_THAT(colors.output, HasSubstr("alpha differs in 1 pixel, which this metric does not look at\n"));
+    EXPECT_THAT(compare(a + ' ' + a + " --json").output, HasSubstr("\"alpha_differs\":0"));
   }
 }
 

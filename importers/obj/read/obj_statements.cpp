@@ -262,6 +262,7 @@ Corner StatementReader::read_corner(const Counts& before, bool& forward) {
 // An index of which nothing is there, 0 among them, is as good as none: the geometry is whole without it.
 std::uint32_t StatementReader::read_attribute(std::size_t before, std::size_t count, bool& forward,
                                               const char* what) {
+  cursor_.join_lines();  // a corner may go on behind its slash
   if (cursor_.at_separator() || cursor_.sees('/')) return none;
   const std::int64_t raw = cursor_.integer("an index");
   const std::uint32_t index = resolve(raw, before, count);

@@ -32,7 +32,9 @@ TEST_F(Obj, AllFormsOfFaces) {
       {"f 1/1/ 2/2/ 3/1/ 4/1/", {true, false}},
       {"f\t+1  2 3   4 \t# a comment", {false, false}},
       {"f 1 2 \\\n 3\\\n4", {false, false}},
-      {"f 1 2 \\\r\n 3 4\r", {false, false}}};
+      {"f 1 2 \\\r\n 3 4\r", {false, false}},
+      {"f 1/1/1 2/2/\\\n1 3/\\\r\n1/1 4/1/1", {true, true}},
+      {"f 1/1 2/2 3/1 4/\\\n1", {true, false}}};
   for (const auto& [face, has] : forms) {
     const ImportedScene imported = read(square + attributes + face);
     ASSERT_THAT(imported.scene.meshes, SizeIs(1)) << face;

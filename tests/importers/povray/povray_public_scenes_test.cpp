@@ -75,6 +75,42 @@ TEST_F(PovrayPublicScenes, ColouredLampsOnColouredThings) {
     expect_alike("#version 3.7; global_settings { assumed_gamma 1 }\n" + flat_camera + scene, 0.01);
 }
 
+// Letters of rods and balls, cut out of a block with rounded edges: what is left of it after a few cuts
+// intersects itself where it is rounded, and the next cut could not be made.
+TEST_F(PovrayPublicScenes, LettersThatAreCutOut) {
+  const auto rods = [](const std::vector<Point3d>& corners,
+                       const std::vector<std::array<std::size_t, 2>>& pairs) {
+    std::string text = "merge {\n";
+    for (const auto& [a, b] : pairs)
+      text += fmt::format("cylinder {{ <{}, {}, 0>, <{}, {}, 0>, .25 }}\n", corners[a].x, corners[a].y,
+                          corners[b].x, corners[b].y);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      if (corners[i].z == 0)
+        text += fmt::format("sphere {{ <{}, {}, 0>, .25 }}\n", corners[i].x, corners[i].y);
+    return text + "}";
+  };
+  const std::string
+      h = rods({{.25, .25, 0}, {.25, 3.75, 0}, {2.75, .25, 0}, {2.75, 3.75, 0}, {.25, 2, 1}, {2.75, 2, 1}},
+               {{0, 1}, {2, 3}, {4, 5}}),
+      w = rods({{.25, 3.75, 0}, {.75, .25, 0}, {1.5, 1.75, 0}, {2.25, .25, 0}, {2.75, 3.75, 0}},
+               {{0, 1}, {1, 2}, {2, 3}, {3, 4}});
+  expect_alike(
+      "#version 3.7; global_settings { assumed_gamma 1 }\n"
+      "camera { orthographic location <-2.5, 2.5, -8> look_at <-2.5, 2.5, 0> right 8*x up 6*y }\n"
+      "light_source { <1000, 1000, -1000> rgb .8 shadowless } light_source { <-1000, 100, -1000> rgb .2 "
+      "shadowless }\n"
+      "difference { union { box { <-5, 0, -.5>, <0, 5, .5> } cylinder { <-5, 0, 0>, <-5, 5, 0>, .5 }\n"
+      "sphere { <-5, 5, 0>, .5 } cylinder { <-5, 5, 0>, <0, 5, 0>, .5 } pigment { rgb <.5, .6, .7> } }\n"
+      "union { object { " +
+          h +
+          " translate <-4, .5, -.5> }\n"
+          "object { " +
+          w +
+          " translate -1.5*x rotate 180*y translate <-2.5, .5, .5> }\n"
+          "pigment { rgb <.8, .6, .1> } } }\n",
+      0.02);
+}
+
 // Clear planes that bend nothing are no levels of max_trace_level.
 TEST_F(PovrayPublicScenes, ClearPlanesAreNoLevels) {
   std::string planes;
