@@ -287,19 +287,21 @@ void fields(auto& io, Unknown auto&) {
   throw std::logic_error("a bundle does not take this medium");
 }
 // A byte says whether there is an emission_scale; its next bits only media of the features `veils` and
-// `temperatures` have.
+// `temperatures` have, and those that fade.
 void fields(auto& io, Is<Medium> auto& m) {
   fields(io, m.coefficients), io(m.scale), fields(io, m.density), fields(io, m.emission);
-  auto byte =
-      static_cast<std::uint8_t>(m.emission_scale.has_value() | m.veils << 1 | m.temperature.has_value() << 2);
+  auto byte = static_cast<std::uint8_t>(m.emission_scale.has_value() | m.veils << 1 |
+                                        m.temperature.has_value() << 2 | m.fade.has_value() << 3);
   io(byte);
   if constexpr (reads<decltype(io)>) {
     m.veils = byte & 2;
     if (byte & 1) m.emission_scale.emplace();
     if (byte & 4) m.temperature.emplace();
+    if (byte & 8) m.fade.emplace();
   }
   if (m.emission_scale) fields(io, *m.emission_scale);
   if (m.temperature) fields(io, *m.temperature), io(m.temperature_scale), io(m.temperature_offset);
+  if (m.fade) io(m.fade->distance), io(m.fade->power), fields(io, m.fade->color);
   io(m.g), fields(io, m.medium_to_world);
 }
 

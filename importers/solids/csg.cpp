@@ -107,8 +107,13 @@ class Evaluation {
     if (std::ranges::find(result_.refused, said) == result_.refused.end()) result_.refused.push_back(said);
   }
 
+  // Where surfaces coincide the later one is seen, as in POV-Ray.
   Value intersected(const std::vector<Literal>& literals) {
-    std::vector<Bodies> positives;
+    struct Positive {
+      Bodies bodies;
+      std::size_t place;  // among the literals
+    };
+    std::vector<Positive> positives;
     Bodies negatives;
     std::vector<Literal> unbounded;
     for (const Literal& literal : literals) {
@@ -118,22 +123,24 @@ class Evaluation {
       }
       Value value = value_of(*literal.csg);
       if (value.complement == literal.negated) {
-        positives.push_back(std::move(value.bodies));
+        positives.push_back({std::move(value.bodies), positives.size()});
       } else {
         std::ranges::move(value.bodies, std::back_inserter(negatives));
       }
     }
     if (positives.empty() && unbounded.empty()) return {std::move(negatives), true};
     Bodies left;
+    std::size_t latest = 0;  // of those that `left` is of
     const bool from_infinity = positives.empty();
     if (from_infinity) {
       left.push_back(box(reach_.lower, reach_.upper));
       std::ranges::fill(left.front().surfaces, unseen);
     } else {
       const auto smallest = std::ranges::min_element(
-          positives, {}, [](const Bodies& bodies) { return length(extent(bounds_of(bodies))); });
+          positives, {}, [](const Positive& p) { return length(extent(bounds_of(p.bodies))); });
       std::iter_swap(positives.begin(), smallest);
-      left = std::move(positives.front());
+      left = std::move(positives.front().bodies);
+      latest = positives.front().place;
       positives.erase(positives.begin());
     }
     for (const Literal& literal : unbounded) {
@@ -141,7 +148,10 @@ class Evaluation {
       const Solid part = literal.csg->within(bounds_of(left));
       left = literal.negated ? without(left, {part}) : common(left, {part});
     }
-    for (const Bodies& other : positives) left = common(left, other);
+    for (const Positive& other : positives) {
+      left = other.place > latest ? common(other.bodies, left) : common(left, other.bodies);
+      latest = std::max(latest, other.place);
+    }
     left = without(left, negatives);
     if (from_infinity) note_infinity(left);
     return {std::move(left)};
@@ -154,9 +164,10 @@ class Evaluation {
         result_.reaches_infinity = true;
   }
 
-  Bodies common(const Bodies& left, const Bodies& other) {
+  // Of surfaces that coincide, those of `seen` are kept.
+  Bodies common(const Bodies& seen, const Bodies& other) {
     Bodies made;
-    for (const Solid& a : left)
+    for (const Solid& a : seen)
       for (const Solid& b : other) {
         Solid both = carried_out(Operation::intersect, a, b, a);
         if (!both.empty()) made.push_back(std::move(both));

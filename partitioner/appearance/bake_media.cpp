@@ -152,6 +152,7 @@ std::optional<Medium> bake_medium(const Medium& medium, RgbMethod method, std::v
   else if (std::holds_alternative<CloudDensity>(baked.density))
     whole = false, notes.push_back("a procedural cloud cannot be shown");
   if (!whole) return std::nullopt;
+  if (baked.fade) baked.fade->color = resolved(baked.fade->color, method);
   if (baked.temperature) {  // as pbrt's film shows what no light normalises
     baked.emission = ConstantSpectrum{static_cast<float>(cie_y_integral_nm)};
     if (!bake_number(*baked.temperature, notes)) baked.emission.reset();

@@ -57,6 +57,15 @@ struct CloudDensity {
   bool operator==(const CloudDensity&) const = default;
 };
 
+// POV-Ray's fade_distance, fade_power and fade_color: of light over a distance d that ends where the medium
+// does it leaves color + (1 − color)/(1 + (d/distance)^power), and from a power of 1000 on
+// e^(−(1 − color)·d/distance). Where something within is met first, nothing is lost.
+struct InteriorFade {
+  float distance = 1, power = 2;
+  Spectrum color = ConstantSpectrum{0};
+  bool operator==(const InteriorFade&) const = default;
+};
+
 // What fills a space: it absorbs, scatters and shines.
 struct Medium {
   std::string name;
@@ -71,6 +80,8 @@ struct Medium {
   float g = 0;  // Henyey and Greenstein; 0 is isotropic
   // POV-Ray's atmosphere: it weakens what is seen, and not what lamps with a Fading send straight to a point.
   bool veils = false;
+  std::optional<InteriorFade>
+      fade;  // in place of all above; the coefficients are its nearest, for other formats
   Transform medium_to_world;
   Origin origin;
   bool operator==(const Medium&) const = default;

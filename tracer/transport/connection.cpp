@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tracer/bsdf/local.h"
+#include "tracer/media/fade.h"
 #include "tracer/transport/find_hit.h"
 
 namespace vitrail {
@@ -99,8 +100,12 @@ bool connect_onwards(Tracing& tracing, Connection& c) {
   find_wavelengths(tracing, c, c.film);
   const PreparedMedium* const medium = medium_of(tracing, c);
   if (medium && !(c.passes_veils && medium->medium->veils)) {
+    const Flight flight = flight_of(tracing, c, true);
     RandomStream random(stream_of(c, RayRandom::flight));
-    fade(c, transmittance(*medium, flight_of(tracing, c, true), c.wavelengths, random));
+    if (!medium->medium->fade)
+      fade(c, transmittance(*medium, flight, c.wavelengths, random));
+    else if (ends_medium(tracing, c))
+      fade(c, left_by(*medium->medium->fade, flight.t_max, c.wavelengths));
     if (is_black(c.throughput)) return false;
   }
   if (c.meets_surface()) return connect_at_surface(tracing, c);

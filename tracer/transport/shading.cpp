@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/shading.h"
 
+#include "tracer/media/fade.h"
 #include "tracer/media/phase.h"
 #include "tracer/sampling/power_heuristic.h"
 #include "tracer/surfaces/scattered_direction.h"
@@ -211,6 +212,11 @@ std::optional<Arrived> fly(Tracing& tracing, CameraPath& path) {
   if (is_too_dark(tracing, path)) return std::nullopt;
   if (!path.meets_surface()) path.hit.t = Hit{}.t;  // a medium goes on behind the camera's far plane
   const Flight flight = flight_of(tracing, path, tracing.scene.lights.has_background());
+  if (const auto& fade = medium->medium->fade) {
+    if (ends_medium(tracing, path))
+      path.throughput = path.throughput * left_by(*fade, flight.t_max, path.wavelengths);
+    return is_black(path.throughput) ? std::nullopt : std::optional(Arrived{.has_flown = true});
+  }
   RandomStream random(stream_of(path, RayRandom::flight));
   const FlightSample flown =
       sample_flight(*medium, flight, path.wavelengths, path.active_wavelengths(), path.throughput, random);

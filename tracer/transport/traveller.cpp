@@ -117,6 +117,10 @@ const PreparedMedium* medium_of(const Tracing& tracing, const Traveller& t) {
   return medium < 0 ? nullptr : &tracing.scene.media[static_cast<std::size_t>(medium)];
 }
 
+bool ends_medium(const Tracing& tracing, const Traveller& t) {
+  return t.meets_surface() && surface_at(tracing, t).interior == tracing.scene.interiors.medium(t.inside);
+}
+
 Flight flight_of(const Tracing& tracing, const Traveller& t, bool to_far_light) {
   const Vector3d d = cast<double>(t.ray.direction);
   const double scale = length(d);

@@ -105,6 +105,8 @@ double face_doubt(const Tracing& tracing, const Traveller& t, const Interaction&
 
 // Null: in vacuum.
 const PreparedMedium* medium_of(const Tracing& tracing, const Traveller& t);
+// Returns whether what it has met bounds the medium that it is in.
+bool ends_medium(const Tracing& tracing, const Traveller& t);
 // To what it has met. A medium without end would let nothing through of the light from infinitely far: where
 // that is looked for, it comes through as much of it as the scene is wide, or as a sphere around its centre
 // on which the point lies (Mitsuba, where it chooses such a light).

@@ -254,22 +254,26 @@ std::optional<Id<Medium>> SceneMaker::fade_of(const Object& object, const Interi
   if (!has_medium(interior)) return std::nullopt;
   constexpr double exponential = 1000;  // that power, and those above
   double way = interior.fade_distance;
+  // Other formats have absorption alone.
   if (const Vector3d size = extent(extents_of(object)); interior.fade_power < exponential) {
     const double a = length(transform_vector(to_world, {size.x, 0, 0})),
                  b = length(transform_vector(to_world, {0, size.y, 0})),
                  c = length(transform_vector(to_world, {0, 0, size.z}));
     if (a + b + c < boundless) way = std::max(2 * a * b * c / (a * b + b * c + c * a), nothing * way);
-    reader_.notes.approximated(
-        "fade_power below 1000: absorption, as strong over the mean way through the object",
-        reader_.location(interior.place));
+    if (reader_.for_export)
+      reader_.notes.approximated(
+          "fade_power below 1000: absorption, as strong over the mean way through the object",
+          reader_.location(interior.place));
   }
   const double ratio = way / interior.fade_distance;
   const double left = 1 / (1 + std::pow(ratio, std::min(interior.fade_power, exponential)));
+  const auto color = [&](std::size_t i) {
+    return std::clamp(reader_.linear(interior.fade_color.v[i]), 0.0, 1.0);
+  };
   Three absorption{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const double color = std::clamp(reader_.linear(interior.fade_color.v[i]), 0.0, 1.0);
-    absorption[i] = interior.fade_power >= exponential ? (1 - color) / interior.fade_distance
-                                                       : -std::log(color + (1 - color) * left) / way;
+    absorption[i] = interior.fade_power >= exponential ? (1 - color(i)) / interior.fade_distance
+                                                       : -std::log(color(i) + (1 - color(i)) * left) / way;
   }
   if (!(greatest(absorption) > 0)) return std::nullopt;
   Medium medium;
@@ -278,6 +282,9 @@ std::optional<Id<Medium>> SceneMaker::fade_of(const Object& object, const Interi
   medium.coefficients =
       AbsorptionScattering{Spectrum{unbounded_from_rgb({absorption[0], absorption[1], absorption[2]})},
                            Spectrum{ConstantSpectrum{0}}};
+  if (!reader_.for_export)
+    medium.fade = {static_cast<float>(interior.fade_distance), static_cast<float>(interior.fade_power),
+                   reflectance_from_rgb({color(0), color(1), color(2)})};
   scene_.media.push_back(std::move(medium));
   const Id<Medium> id{static_cast<std::uint32_t>(scene_.media.size() - 1)};
   if (is_inside(object, transform_point(inverse(to_world), eye()))) eye_medium_ = id;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "importers/povray/read/extents.h"
+#include "importers/povray/read/loose_faces.h"
 #include "importers/povray/read/reader.h"
 #include "importers/povray/read/scene_maker.h"
 #include "importers/shapes/quadrics.h"
@@ -112,6 +113,8 @@ Scene SceneMaker::make() {
   add_lamps();
   add_surroundings();
   set_eye_medium();
+  turn_glass_out(scene_, scene_.shapes);
+  for (const Prototype& prototype : scene_.prototypes) turn_glass_out(scene_, prototype.shapes);
   return std::move(scene_);
 }
 

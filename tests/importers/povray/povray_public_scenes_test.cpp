@@ -111,6 +111,53 @@ TEST_F(PovrayPublicScenes, LettersThatAreCutOut) {
       0.02);
 }
 
+// POV-Ray does not ask how the faces of glass are wound: here every second one looks inward.
+TEST_F(PovrayPublicScenes, GlassOfLooseFaces) {
+  const std::vector<std::array<int, 3>> corners{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                                {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  const std::vector<std::array<std::size_t, 4>> sides{{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                                      {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  std::string faces;
+  for (const auto& side : sides) {
+    const auto corner = [&](std::size_t i) {
+      const auto& [x, y, z] = corners[side[i]];
+      return fmt::format("<{}, {}, {}>", x, y, z);
+    };
+    faces += "triangle { " + corner(0) + ", " + corner(1) + ", " + corner(2) + " }\n" + "triangle { " +
+             corner(0) + ", " + corner(2) + ", " + corner(3) + " }\n";
+  }
+  for (const char* of : {"union", "mesh"})
+    expect_alike("#version 3.7; global_settings { assumed_gamma 1 max_trace_level 12 }\n" + raised_camera +
+                     "background { rgb <.4, .6, .9> } plane { y, -1 pigment { checker rgb .9 rgb .1 } "
+                     "finish { ambient 1 diffuse 0 } }\n" +
+                     of + std::string(" {\n") + faces +
+                     "pigment { rgbf 1 } finish { ambient 0 diffuse 0 } interior { ior 1.4 } "
+                     "scale .9 rotate <20, 30, 0> translate y * .8 }\n",
+                 0.04);
+}
+
+// A fade counts where light leaves the object: what is within is seen as without it, and lit less.
+TEST_F(PovrayPublicScenes, InteriorsFadeWhereLightLeaves) {
+  const std::string clear =
+      " pigment { rgbf 1 } finish { ambient 0 diffuse 0 } interior { ior 1 fade_distance .4 ";
+  const auto floor = [](double z, const char* finish) {
+    return fmt::format("plane {{ z, {} pigment {{ rgb <.9, .7, .5> }} finish {{ {} }} }}\n", z, finish);
+  };
+  const std::string lit = "ambient 0 diffuse 1", glows = "ambient 1 diffuse 0",
+                    above = "light_source { <0, 0, -1000> rgb 1 }\n";
+  for (const char* fade : {"fade_power 2 } }\n", "fade_power 1 fade_color <.8, .3, .1> } }\n",
+                           "fade_power 1001 fade_color <.8, .3, .1> } }\n"}) {
+    const std::string pond = "plane { z, 0" + clear + fade,
+                      box = "box { <-1, -1, 0>, <1, 1, .5>" + clear + fade;
+    for (const std::string& scene :
+         {pond + floor(.3, lit.c_str()), pond + floor(.3, glows.c_str()), box + floor(.7, glows.c_str()),
+          box + "box { <-.5, -.5, .1>, <.5, .5, .3> pigment { rgb .8 } finish { " + lit + " } }\n"})
+      expect_alike("#version 3.7; global_settings { assumed_gamma 1 max_trace_level 10 }\n" + flat_camera +
+                       above + scene,
+                   0.01);
+  }
+}
+
 // Clear planes that bend nothing are no levels of max_trace_level.
 TEST_F(PovrayPublicScenes, ClearPlanesAreNoLevels) {
   std::string planes;
