@@ -56,8 +56,8 @@ std::uint64_t developing_bytes(const std::filesystem::path& picture, const Pixel
 }
 
 // Of rank 0 while it makes the picture, for which it reads the film again, an .exr, a PNG or a JPEG row by
-// row. The latter two it makes itself: the colours as numbers, and as bytes. For others and for what is
-// denoised it runs vitrail-develop.
+// row. The latter two it makes itself: the colours as numbers, and as bytes. For others and for what
+// is denoised it runs vitrail-develop.
 std::uint64_t picture_bytes(const Manifest& m, const RenderOptions& options, const JobPlan& plan) {
   const std::filesystem::path& picture = options.outputs.picture;
   if (picture.empty() || options.outputs.dry_run) return 0;
@@ -87,9 +87,23 @@ std::uint64_t showing_bytes(const Manifest& m, const RenderOptions& options, con
   return bytes;
 }
 
-// What `--memory` sets aside at least for the photons that land on a rank: three of each that flies.
+// What `--memory` sets aside at least for the photons that land on a rank: others wait on the disk.
 std::size_t least_room(const PhotonKey& key, std::uint64_t memory_bytes) {
-  return memory_bytes == 0 ? 0 : static_cast<std::size_t>(3 * key.photons);
+  constexpr std::uint64_t least_bytes = 2 << 20, landings_of_each = 3;
+  if (memory_bytes == 0 || key.photons == 0) return 0;
+  return static_cast<std::size_t>(
+      std::min(landings_of_each * key.photons, least_bytes / PhotonMap::photon_bytes));
+}
+
+// Gives photons what no domain needs, or half of what the largest leaves, as much as they need.
+void widen_room(JobPlan& plan, std::uint64_t largest_domain) {
+  if (plan.most_photons == 0) return;
+  const std::uint64_t have = plan.memory.domains_bytes;
+  const std::uint64_t unused = have > plan.all_domains ? have - plan.all_domains : 0;
+  const std::uint64_t wanted = 3 * plan.key.photons.photons * PhotonMap::photon_bytes;
+  const std::uint64_t more = std::max(unused, std::min(wanted, (have - std::min(have, largest_domain)) / 2));
+  plan.most_photons += more / PhotonMap::photon_bytes;
+  plan.memory.domains_bytes -= more;
 }
 
 // Memory for domains, rays, and photons that land. On rank 0 a picture is made in the end.
@@ -115,11 +129,7 @@ void share_out(JobPlan& plan, const Manifest& m, const RenderOptions& options, i
     plan.memory = {
         std::max(largest.bytes, std::min(plan.memory.domains_bytes, options.resources.domain_memory_bytes)),
         few_rays_bytes};
-  // What no domain needs is room for more landings.
-  if (plan.most_photons > 0 && plan.memory.domains_bytes > plan.all_domains) {
-    plan.most_photons += (plan.memory.domains_bytes - plan.all_domains) / PhotonMap::photon_bytes;
-    plan.memory.domains_bytes = plan.all_domains;
-  }
+  widen_room(plan, largest.bytes);
 }
 
 Homes homes_of(const Manifest& manifest, const RenderOptions& options, int ranks) {

@@ -32,7 +32,7 @@ struct JobPlan {
   FilmMemory film;
   MemoryPlan memory;
   std::uint64_t all_domains = 0;  // bytes
-  std::size_t most_photons = 0;   // that land here in an iteration; 0: no limit
+  std::size_t most_photons = 0;   // in memory, of those that land here; 0: no limit
   Homes homes{{}, 1};
   QueueBounds queues;
   Scheduler::Job scheduler;

@@ -60,10 +60,10 @@ std::uint64_t PhotonWork::photons_in(std::uint64_t chunk) const {
 }
 
 void PhotonWork::begin_flying(std::uint32_t iteration) {
-  map_.clear();
   pass_.flying = true;
   pass_.iteration = iteration;
   pass_.radius = radius_of(key_, iteration);
+  map_.begin(pass_.radius, scene_.manifest.bounds);
   for (std::uint32_t part = 0; part < pass_.parts.size(); ++part) {
     const float number = wavelength_number(scene_.seed, iteration, part);
     pass_.parts[part] = {number, time_number(scene_.seed, iteration, part), sample_wavelengths(number)};
@@ -73,8 +73,8 @@ void PhotonWork::begin_flying(std::uint32_t iteration) {
 }
 
 void PhotonWork::begin_gathering() {
-  most_kept = std::max(most_kept, map_.size());
-  map_.build(pass_.radius, scene_.manifest.bounds);
+  map_.build();
+  most_kept = std::max(most_kept, map_.in_memory());
   pass_.flying = false;
 }
 

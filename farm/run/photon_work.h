@@ -21,7 +21,8 @@ namespace vitrail {
 
 class PhotonWork {
  public:
-  // Each domain's first home answers for it. `scene` outlives it. `most_question_bytes`: in memory.
+  // Each domain's first home answers for it. `scene` outlives it. `most_landed` (0: no limit) and
+  // `most_question_bytes`: in memory, the others are on the disk.
   PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size_t most_landed,
              std::uint64_t most_question_bytes, Homes homes, int rank, int ranks);
   PhotonWork(const PhotonWork&) = delete;  // its parts refer to each other
@@ -44,7 +45,9 @@ class PhotonWork {
 
   WaitingBatches questions;   // of other ranks
   std::uint64_t landed = 0;   // of all iterations, here
-  std::size_t most_kept = 0;  // of any
+  std::size_t most_kept = 0;  // of any, in memory
+  // Of photons and questions, to the disk, in all.
+  std::uint64_t written_bytes() const { return map_.written_bytes() + questions.written_bytes(); }
 
  private:
   const RenderScene& scene_;

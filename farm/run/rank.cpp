@@ -222,7 +222,7 @@ void Rank::add_to(RenderStats& stats) const {
   checkpointing_.add_to(stats);
   stats.tiles_read = state_.scene.textures.tile_loads();
   if (state_.photons) {
-    stats.spilled_bytes += state_.photons->questions.written_bytes();
+    stats.spilled_bytes += state_.photons->written_bytes();
     stats.photons_landed = state_.photons->landed;
     stats.photons_kept = state_.photons->most_kept;
   }

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/photons/photon_map.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "scene/geometry/portable_math.h"
-#include "scene/system/diagnostics.h"
 #include "tracer/bsdf/diffuse.h"
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/local.h"
@@ -30,16 +26,40 @@ PhotonMap::PhotonMap(std::size_t most) : most_(most) {
   if (most > 0) photons_.reserve(most);  // takes no memory before it is used
 }
 
-void PhotonMap::add(const Photon& photon) {
-  if (most_ > 0 && photons_.size() == most_)
-    throw MachineError(fmt::format(
-        "more than {} photons landed in one iteration, which the {:.0f}M set aside for them do not "
-        "hold: give fewer --photons, or more --memory",
-        most_, static_cast<double>(most_ * photon_bytes) / (1 << 20)));
-  photons_.push_back({0, photon});
+void PhotonMap::begin(double radius, const Bounds3f& bounds) {
+  photons_.clear();
+  file_.clear();
+  radius_ = radius;
+  edge_ = 2 * radius;
+  if (bounds.empty()) return;
+  origin_ = cast<double>(bounds.lower);
+  for (int axis = 0; axis < 3; ++axis)
+    edge_ =
+        std::max(edge_, (static_cast<double>(bounds.upper[axis]) - static_cast<double>(bounds.lower[axis])) /
+                            most_cells);
 }
 
-void PhotonMap::clear() { photons_.clear(); }
+void PhotonMap::add(const Photon& photon) {
+  if (most_ > 0 && photons_.size() == most_) write_run();
+  photons_.push_back({cell_of(photon.p), photon});
+}
+
+void PhotonMap::write_run() {
+  std::ranges::sort(photons_, comes_before);
+  file_.add_run(photons_);
+  photons_.clear();
+}
+
+void PhotonMap::build() {
+  if (file_.empty()) {
+    std::ranges::sort(photons_, comes_before);
+    return;
+  }
+  write_run();
+  photons_.resize(most_);
+  constexpr std::size_t photons_an_entry = sizeof(std::uint64_t) / (photon_bytes - sizeof(PlacedPhoton));
+  file_.merge(photons_, most_ / photons_an_entry);
+}
 
 std::uint64_t PhotonMap::row(int axis, double coordinate) const {
   const double cell = std::floor((coordinate - origin_[axis]) / edge_) + 1;
@@ -49,25 +69,6 @@ std::uint64_t PhotonMap::row(int axis, double coordinate) const {
 std::uint64_t PhotonMap::cell_of(const float (&p)[3]) const {
   const auto at = [&](int axis) { return row(axis, static_cast<double>(p[axis])); };
   return (at(2) << cell_bits | at(1)) << cell_bits | at(0);
-}
-
-void PhotonMap::build(double radius, const Bounds3f& bounds) {
-  radius_ = radius;
-  edge_ = 2 * radius;
-  if (!bounds.empty()) {
-    origin_ = cast<double>(bounds.lower);
-    for (int axis = 0; axis < 3; ++axis)
-      edge_ = std::max(
-          edge_,
-          (static_cast<double>(bounds.upper[axis]) - static_cast<double>(bounds.lower[axis])) / most_cells);
-  }
-  for (Placed& p : photons_) p.cell = cell_of(p.photon.p);
-  std::ranges::sort(photons_, [](const Placed& a, const Placed& b) {
-    if (a.cell != b.cell) return a.cell < b.cell;
-    if (a.photon.number != b.photon.number) return a.photon.number < b.photon.number;
-    if (a.photon.depth != b.photon.depth) return a.photon.depth < b.photon.depth;
-    return std::memcmp(&a.photon, &b.photon, sizeof a.photon) < 0;  // through what it passes straight
-  });
 }
 
 SampledSpectrum PhotonMap::gather(const Gather& at, std::uint32_t max_depth, std::uint64_t& found) const {
@@ -84,7 +85,7 @@ SampledSpectrum PhotonMap::gather(const Gather& at, std::uint32_t max_depth, std
   const bool path_dispersed = (at.depth & Photon::dispersed) != 0;
   const std::uint32_t path_depth = at.depth & Photon::most_depth;
   std::array<double, hero_count> sum{};
-  const auto add = [&](const Photon& photon) {
+  const auto add_up = [&](const Photon& photon) {
     const Vector3d way = Point3d{static_cast<double>(photon.p[0]), static_cast<double>(photon.p[1]),
                                  static_cast<double>(photon.p[2])} -
                          p;
@@ -108,8 +109,7 @@ SampledSpectrum PhotonMap::gather(const Gather& at, std::uint32_t max_depth, std
   for (std::uint64_t z = low(2); z <= z1; ++z)
     for (std::uint64_t y = low(1); y <= y1; ++y) {
       const std::uint64_t row_of_cells = (z << cell_bits | y) << cell_bits;
-      auto photon = std::ranges::lower_bound(photons_, row_of_cells | x0, {}, &Placed::cell);
-      for (; photon != photons_.end() && photon->cell <= (row_of_cells | x1); ++photon) add(photon->photon);
+      visit(row_of_cells | x0, row_of_cells | x1, add_up);
     }
   SampledSpectrum result;
   const double density = 1 / (pi * radius_ * radius_);

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The photons of one iteration that landed where a rank answers for them. What is gathered is a function of
 // the photons within the radius alone, to the bit: they are added up in an order of their own (cell, number,
-// depth), whatever else the map holds and in whatever order they came.
+// depth), whatever else the map holds and in whatever order they came. Those that memory has no room for are
+// in files.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "scene/geometry/bounds.h"
-#include "tracer/photons/photon_records.h"
+#include "tracer/photons/photon_file.h"
 
 namespace vitrail {
 
@@ -19,11 +21,12 @@ class PhotonMap {
   // `most`: photons that there is memory for, 0: no limit.
   explicit PhotonMap(std::size_t most = 0);
 
-  // Throws MachineError beyond the limit.
+  // Begins an iteration, without photons. `bounds` of the scene: the cells' origin.
+  void begin(double radius, const Bounds3f& bounds);
+  // Throws MachineError where the disk cannot take those beyond the limit; so do `build` and what gathers.
   void add(const Photon& photon);
-  // Puts them in order for `gather`. `bounds` of the scene: the cells' origin.
-  void build(double radius, const Bounds3f& bounds);
-  void clear();
+  // Puts them in order for `gather`.
+  void build();
 
   // Σ f·Φ·|cos θ_s|/|cos θ_g| / (πr²) over the photons in the disc around the point that were scattered less
   // than `max_depth` times together with its path, θ_s and θ_g from the shading and the surface's normal:
@@ -36,37 +39,44 @@ class PhotonMap {
   SampledSpectrum at_sensor(const Gather& at, std::uint32_t max_depth, std::uint64_t& found,
                             const IsOf& is_of) const;
 
-  std::size_t size() const { return photons_.size(); }
-  static constexpr std::size_t photon_bytes = sizeof(std::uint64_t) + sizeof(Photon);
+  std::size_t in_memory() const { return photons_.size(); }
+  std::uint64_t written_bytes() const { return file_.written_bytes(); }  // to the disk, in all
+  // Of one in memory, and of its part of what finds those in files.
+  static constexpr std::size_t photon_bytes = sizeof(PlacedPhoton) + 2;
 
  private:
-  struct Placed {
-    std::uint64_t cell = 0;
-    Photon photon;
-  };
   std::uint64_t row(int axis, double coordinate) const;
   std::uint64_t cell_of(const float (&p)[3]) const;
+  void write_run();
+  template <class Visit>
+  void visit(std::uint64_t first_cell, std::uint64_t last_cell, const Visit& visit) const;
 
-  std::vector<Placed> photons_;
+  std::vector<PlacedPhoton> photons_;  // all of them, or what the file has not yet
+  PhotonFile file_;
   std::size_t most_;
   double radius_ = 0, edge_ = 1;
   Point3d origin_;
 };
+
+template <class Visit>
+void PhotonMap::visit(std::uint64_t first_cell, std::uint64_t last_cell, const Visit& visit) const {
+  if (!file_.empty()) return file_.visit(first_cell, last_cell, visit);
+  for (auto placed = std::ranges::lower_bound(photons_, first_cell, {}, &PlacedPhoton::cell);
+       placed != photons_.end() && placed->cell <= last_cell; ++placed)
+    visit(placed->photon);
+}
 
 template <class IsOf>
 SampledSpectrum PhotonMap::at_sensor(const Gather& at, std::uint32_t max_depth, std::uint64_t& found,
                                      const IsOf& is_of) const {
   std::array<double, hero_count> sum{};
   const std::uint64_t cell = cell_of(at.p);
-  for (auto placed = std::ranges::lower_bound(photons_, cell, {}, &Placed::cell);
-       placed != photons_.end() && placed->cell == cell; ++placed) {
-    const Photon& photon = placed->photon;
-    if (!std::ranges::equal(photon.p, at.p) || !(photon.direction == at.out) || !is_of(photon.number))
-      continue;
-    if (std::uint32_t{photon.depth} % Photon::dispersed + 1 > max_depth) continue;
+  visit(cell, cell, [&](const Photon& photon) {
+    if (!std::ranges::equal(photon.p, at.p) || !(photon.direction == at.out) || !is_of(photon.number)) return;
+    if (std::uint32_t{photon.depth} % Photon::dispersed + 1 > max_depth) return;
     for (std::size_t i = 0; i < hero_count; ++i) sum[i] += static_cast<double>(photon.power[i]);
     ++found;
-  }
+  });
   SampledSpectrum result;
   for (std::size_t i = 0; i < hero_count; ++i)
     result.v[i] = static_cast<float>(static_cast<double>(at.weight[i]) * sum[i]);

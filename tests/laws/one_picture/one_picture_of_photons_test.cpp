@@ -186,6 +186,34 @@ TEST_F(OnePictureOfPhotons, OfSensors) {
   EXPECT_EQ(stats("killed.film")["film_hash"], stats("whole.film")["film_hash"]);
 }
 
+// Many photons ask for no more memory than few: those that it has no room for wait on the disk.
+TEST_F(OnePictureOfPhotons, MorePhotonsThanMemoryHasRoomFor) {
+  const auto least = [&](int photons) {
+    const CommandResult refused =
+        run(command("no.film", 8, 1, fmt::format("--spp 1 --threads 1 --photons {} --memory 8M", photons)));
+    const std::size_t at = refused.output.find("Give at least ");
+    EXPECT_NE(at, std::string::npos) << refused.output;
+    return at == std::string::npos ? 0 : std::stoi(refused.output.substr(at + 14));
+  };
+  EXPECT_LE(least(100000000), least(20000) + 2);
+  const std::string photons = "--spp 2 --threads 1 --photons 50000";
+  const int memory = least(50000);
+  ASSERT_EQ(run(command("all.film", 8, 1, photons)).status, 0);
+  EXPECT_EQ(stats("all.film")["spilled_bytes"], 0);
+  for (const int ranks : {1, 2}) {
+    const int more = ranks > 1 ? 12 : 0;
+    const CommandResult done =
+        run(command("little.film", 8, ranks, fmt::format("{} --force --memory {}M", photons, memory + more)));
+    ASSERT_EQ(done.status, 0) << done.output;
+    const nlohmann::json little = stats("little.film");
+    EXPECT_EQ(little["film_hash"], stats("all.film")["film_hash"]) << ranks << " ranks";
+    EXPECT_LE(little["peak_rss_bytes"], (memory + more) << 20);
+    if (ranks == 1) {
+      EXPECT_GT(little["spilled_bytes"], 0);
+    }
+  }
+}
+
 TEST_F(OnePictureOfPhotons, RefusesWhatItCannotDo) {
   const auto refused = [&](const std::string& options, int status, const char* words) {
     const CommandResult r = run(command("no.film", 1, 1, options));
@@ -194,7 +222,7 @@ TEST_F(OnePictureOfPhotons, RefusesWhatItCannotDo) {
   };
   refused("--spp 2 --adaptive", 2, "no --adaptive");
   refused("--target-error 0.1", 2, "no --target-error");
-  refused("--spp 2 --photons 2000000 --memory 64M", 4, "Give at least");
+  refused("--spp 2 --photons 2000000 --memory 8M", 4, "Give at least");
 }
 
 }  // namespace
