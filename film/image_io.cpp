@@ -19,6 +19,7 @@
 #include "film/png_file.h"
 #include "film/radiance_file.h"
 #include "film/srgb_integers.h"
+#include "film/tiff_file.h"
 #include "images/image_codec.h"
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
@@ -124,16 +125,14 @@ void put_numbers(PictureFile& file, const Picture& picture) {
   put(of_variances_name, picture.neighbours.of_variances);
 }
 
-template <class Integer>
-void write_integers(const std::filesystem::path& path, const Picture& picture) {
-  std::vector<Integer> pixels(picture.rgb.values.size());
-  to_srgb_integers<Integer>(picture.rgb.values, pixels.data());
+void write_webp(const std::filesystem::path& path, const Picture& picture) {
+  std::vector<std::uint8_t> pixels(picture.rgb.values.size());
+  to_srgb_integers<std::uint8_t>(picture.rgb.values, pixels.data());
   PictureFile file = file_of(picture);
   file.are_integers = true;
-  file.bits = static_cast<int>(8 * sizeof(Integer));
+  file.bits = 8;
   file.channels = {{"R"}, {"G"}, {"B"}};
-  // OpenImageIO 2.4 would say it in a second directory, and in memory that one becomes the file's only one.
-  if (picture_format(path) != PictureFormat::tiff) file.attributes.emplace_back("oiio:ColorSpace", "sRGB");
+  file.attributes.emplace_back("oiio:ColorSpace", "sRGB");
   file.attributes.emplace_back("CompressionQuality", 95);
   if (const std::string comment = comment_on(picture.origin); !comment.empty())
     file.attributes.emplace_back("ImageDescription", comment);
@@ -206,8 +205,8 @@ void write_picture(const std::filesystem::path& file, const Picture& picture, in
   if (format == PictureFormat::hdr) return write_radiance(file, picture);
   if (format == PictureFormat::png) return write_png(file, picture, chosen);
   if (format == PictureFormat::jpeg) return write_jpeg(file, picture);
-  if (chosen == 16) return write_integers<std::uint16_t>(file, picture);
-  write_integers<std::uint8_t>(file, picture);
+  if (format == PictureFormat::tiff) return write_tiff(file, picture, chosen);
+  write_webp(file, picture);
 }
 
 }  // namespace vitrail

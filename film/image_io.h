@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures as files. Reading all but .exr, and writing .tif and .webp, loads OpenImageIO
-// (images/image_codec.h), which takes 0.3 s and 130 MB; unusual .exr loads it, too (plain_exr.h).
+// Pictures as files. Reading all but .exr, and writing .webp, loads OpenImageIO (images/image_codec.h), which
+// takes 0.3 s and 130 MB; unusual .exr loads it, too (plain_exr.h).
 #pragma once
 
 #include <filesystem>

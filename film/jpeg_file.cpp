@@ -17,6 +17,7 @@
 #include "film/fixed_date.h"
 #include "film/png_file.h"
 #include "film/srgb_integers.h"
+#include "film/tiff_directory.h"
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
 
@@ -24,74 +25,22 @@ namespace vitrail {
 
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
-void put(Bytes& bytes, std::uint32_t value, int count) {
-  for (int i = 0; i < count; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> 8 * i));
-}
-
-// A directory of TIFF's tags, as EXIF has them (CIPA DC-008): little-endian, texts behind the entries.
-class Directory {
- public:
-  void text(std::uint16_t tag, const std::string& value) {
-    if (!value.empty()) entries_.push_back({tag, 2, value + '\0'});
-  }
-  void number(std::uint16_t tag, std::uint16_t type, std::uint32_t value) {
-    entries_.push_back({tag, type, {}, value});
-  }
-  std::size_t size() const {
-    std::size_t bytes = 2 + 12 * entries_.size() + 4;
-    for (const Entry& e : entries_) bytes += is_apart(e) ? e.text.size() : 0;
-    return bytes;
-  }
-  // `at`: where it begins, from the beginning of the TIFF header.
-  void append_to(Bytes& bytes, std::size_t at) const {
-    std::size_t behind = at + 2 + 12 * entries_.size() + 4;
-    put(bytes, static_cast<std::uint32_t>(entries_.size()), 2);
-    for (const Entry& e : entries_) {
-      put(bytes, e.tag, 2), put(bytes, e.type, 2);
-      put(bytes, e.text.empty() ? 1 : static_cast<std::uint32_t>(e.text.size()), 4);
-      if (is_apart(e)) {
-        put(bytes, static_cast<std::uint32_t>(behind), 4);
-        behind += e.text.size();
-      } else {
-        std::uint32_t value = e.number;
-        for (std::size_t i = 0; i < e.text.size(); ++i)
-          value |= static_cast<std::uint32_t>(static_cast<std::uint8_t>(e.text[i])) << 8 * i;
-        put(bytes, value, 4);
-      }
-    }
-    put(bytes, 0, 4);  // no next directory
-    for (const Entry& e : entries_)
-      if (is_apart(e)) bytes.insert(bytes.end(), e.text.begin(), e.text.end());
-  }
-
- private:
-  struct Entry {
-    std::uint16_t tag, type;
-    std::string text;
-    std::uint32_t number = 0;
-  };
-  static bool is_apart(const Entry& e) { return e.text.size() > 4; }
-  std::vector<Entry> entries_;  // by rising tags
-};
-
-Bytes exif_of(const PictureOrigin& origin) {
+TiffBytes exif_of(const PictureOrigin& origin) {
   constexpr std::uint16_t description = 0x010e, software = 0x0131, date_time = 0x0132, more = 0x8769,
-                          color_space = 0xa001, is_short = 3, is_long = 4;
+                          color_space = 0xa001;
   constexpr std::size_t header = 8;
-  Directory first, second;
+  TiffDirectory first, second;
   const auto fill = [&](std::size_t at_second) {
-    first = {};
+    first = TiffDirectory();
     first.text(description, comment_on(origin));
     first.text(software, origin.software);
     first.text(date_time, fixed_date_text());
-    first.number(more, is_long, static_cast<std::uint32_t>(at_second));
+    first.number(more, TiffDirectory::Type::of_32_bits, at_second);
   };
   fill(0);
   fill(header + first.size());
-  second.number(color_space, is_short, 1);  // sRGB
-  Bytes bytes{'E', 'x', 'i', 'f', 0, 0, 'I', 'I', 42, 0, header, 0, 0, 0};
+  second.number(color_space, TiffDirectory::Type::of_16_bits, 1);  // sRGB
+  TiffBytes bytes{'E', 'x', 'i', 'f', 0, 0, 'I', 'I', 42, 0, header, 0, 0, 0};
   first.append_to(bytes, header);
   second.append_to(bytes, header + first.size());
   return bytes;
@@ -196,7 +145,7 @@ void write_jpeg(const std::filesystem::path& file, const Picture& picture) {
     encoder.bytes().clear();
   };
   require(encoder.begin(picture.rgb.width, picture.rgb.height, exif_of(picture.origin)));
-  Bytes row(3 * static_cast<std::size_t>(picture.rgb.width));
+  std::vector<std::uint8_t> row(3 * static_cast<std::size_t>(picture.rgb.width));
   for (std::size_t at = 0; at < picture.rgb.values.size(); at += row.size()) {
     to_srgb_integers<std::uint8_t>(std::span(picture.rgb.values).subspan(at, row.size()), row.data());
     require(encoder.row(row.data()));

@@ -17,12 +17,10 @@ constexpr bool holds_light(PictureFormat f) { return f == PictureFormat::exr || 
 
 // `render` writes these itself. For the others, and to denoise, it starts `vitrail-develop`.
 constexpr bool written_by_render(PictureFormat f) {
-  return f == PictureFormat::png || f == PictureFormat::jpeg;
+  return f == PictureFormat::png || f == PictureFormat::jpeg || f == PictureFormat::tiff;
 }
 
 // Writing these loads OpenImageIO.
-constexpr bool needs_image_library(PictureFormat f) {
-  return f == PictureFormat::tiff || f == PictureFormat::webp;
-}
+constexpr bool needs_image_library(PictureFormat f) { return f == PictureFormat::webp; }
 
 }  // namespace vitrail

@@ -10,6 +10,7 @@
 #include "film/own_picture.h"
 #include "film/picture_format.h"
 #include "film/png_file.h"
+#include "film/tiff_file.h"
 #include "film/tone_curves.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
@@ -40,6 +41,7 @@ void develop_film(const RenderArguments& a, const fs::path& file, const fs::path
     }
     make_straight(developed);
     if (picture_format(picture) == PictureFormat::jpeg) return write_jpeg(picture, developed);
+    if (picture_format(picture) == PictureFormat::tiff) return write_tiff(picture, developed);
     return write_png(picture, developed);
   }
   std::vector<std::string> arguments{file.string(), "-o", picture.string(), "--quiet"};

@@ -55,8 +55,8 @@ std::uint64_t developing_bytes(const std::filesystem::path& picture, const Pixel
          (denoises ? denoiser + denoising_a_pixel * pixels_of(crop) : film_bytes / 8 * 5);
 }
 
-// Of rank 0 while it makes the picture, for which it reads the film again, an .exr, a PNG or a JPEG row by
-// row. The latter two it makes itself: the colours as numbers, and as bytes. For others and for what
+// Of rank 0 while it makes the picture, for which it reads the film again, an .exr, a PNG, a JPEG or a TIFF
+// row by row. The latter three it makes itself: the colours as numbers, and as bytes. For others and for what
 // is denoised it runs vitrail-develop.
 std::uint64_t picture_bytes(const Manifest& m, const RenderOptions& options, const JobPlan& plan) {
   const std::filesystem::path& picture = options.outputs.picture;

@@ -128,7 +128,7 @@ TEST_F(Pictures, AreWrittenInOtherFormats) {
 }
 
 // The usual picture starts no second program and no library of images.
-TEST_F(Pictures, ARenderWritesPngAndJpegItself) {
+TEST_F(Pictures, ARenderWritesPngJpegAndTiffItself) {
   ASSERT_EQ(run(vitrail("partition") + " " + path("in.pbrt") + " -o " + path("in.vit") + " --quiet").status,
             0);
   std::filesystem::create_directory(directory_ / "alone");
@@ -144,6 +144,10 @@ TEST_F(Pictures, ARenderWritesPngAndJpegItself) {
   const CommandResult jpeg = alone(path("b.jpg"));
   EXPECT_EQ(jpeg.status, 0) << jpeg.output;
   EXPECT_EQ(spec("b.jpg").width, 25);
+  const CommandResult tiff = alone(path("b.tif") + " --memory 40M");
+  EXPECT_EQ(tiff.status, 0) << tiff.output;
+  EXPECT_EQ(spec("b.tif").width, 25);
+  EXPECT_EQ(spec("b.tif").y, 2);
   const CommandResult exr = alone(path("b.exr"));
   EXPECT_EQ(exr.status, 4) << exr.output;
   EXPECT_THAT(exr.output, HasSubstr("vitrail-develop is missing"));
@@ -154,6 +158,8 @@ TEST_F(Pictures, ARenderWritesPngAndJpegItself) {
   EXPECT_EQ(loaded.status, 0);
   EXPECT_THAT(loaded.output, AllOf(HasSubstr("libpng"), ::testing::Not(HasSubstr("OpenImageIO"))));
   EXPECT_EQ(run(fmt::format("cmp {} {}", path("a.png"), path("c.png"))).status, 0);
+  EXPECT_EQ(run(vitrail("develop") + " " + path("a.film") + " --exposure fit -o " + path("c.tif")).status, 0);
+  EXPECT_EQ(run(fmt::format("cmp {} {}", path("b.tif"), path("c.tif"))).status, 0);
 }
 
 TEST_F(Pictures, APngThatCannotBeWrittenIsAnError) {

@@ -13,6 +13,8 @@
 #include <random>
 
 #include "film/picture_attributes.h"
+#include "film/srgb_integers.h"
+#include "film/tiff_file.h"
 #include "images/image_files.h"
 #include "scene/spectra/color.h"
 #include "scene/system/diagnostics.h"
@@ -131,14 +133,14 @@ TEST(ImageIo, ExrHasLayersAsChannels) {
 
 TEST(ImageIo, EqualPicturesGiveEqualFilesAndNothingElse) {
   const test::TemporaryDirectory directory;
-  for (const char* extension : {".exr", ".png", ".jpg", ".hdr"}) {
+  for (const char* extension : {".exr", ".png", ".jpg", ".hdr", ".tif"}) {
     write_picture(directory / (std::string("a") + extension), picture());
     write_picture(directory / (std::string("b") + extension), picture());
     EXPECT_EQ(bytes(directory / (std::string("a") + extension)),
               bytes(directory / (std::string("b") + extension)));
   }
   const auto files = std::filesystem::directory_iterator(directory.path());
-  EXPECT_EQ(std::distance(begin(files), end(files)), 8);
+  EXPECT_EQ(std::distance(begin(files), end(files)), 10);
 }
 
 TEST(ImageIo, TheDateIsFixed) {
@@ -250,6 +252,42 @@ TEST(ImageIo, JpegIsReadByOpenImageIo) {
   EXPECT_EQ(spec.get_string_attribute("jpeg:subsampling"), "4:4:4");
 }
 
+// Of one strip and of several, of which the last is shorter; places of 32 bits and of 64.
+TEST(ImageIo, TiffIsReadByOpenImageIo) {
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a.tif";
+  for (const int height : {1, 32, 70})
+    for (const int bits : {8, 16})
+      for (const std::uint64_t most_bytes : {std::uint64_t{1} << 40, std::uint64_t{100}}) {
+        Picture p = wide_picture(131, height);
+        p.window = {7, 138, 5, 5 + height};
+        p.full_width = 300, p.full_height = 200;
+        write_tiff(file, p, bits, most_bytes);
+        EXPECT_EQ(bytes(file)[2], most_bytes == 100 ? 43 : 42);
+        const auto in = OIIO::ImageInput::open(file.string());
+        ASSERT_TRUE(in) << OIIO::geterror();
+        const OIIO::ImageSpec& spec = in->spec();
+        EXPECT_EQ(spec.format, OIIO::TypeDesc(bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16));
+        EXPECT_EQ((std::array{spec.width, spec.height, spec.x, spec.y, spec.full_width, spec.full_height}),
+                  (std::array{131, height, 7, 5, 300, 200}));
+        EXPECT_EQ(spec.get_string_attribute("Software"), p.origin.software);
+        EXPECT_EQ(spec.get_string_attribute("ImageDescription"), "denoised by nobody");
+        EXPECT_EQ(spec.get_string_attribute("DateTime"), "1970:01:01 00:00:00");
+        EXPECT_EQ(spec.get_string_attribute("compression"), "zip");
+        std::vector<std::uint16_t> expected(p.rgb.values.size()), values(p.rgb.values.size());
+        if (bits == 16) {
+          to_srgb_integers<std::uint16_t>(p.rgb.values, expected.data());
+        } else {
+          std::vector<std::uint8_t> of_a_byte(expected.size());
+          to_srgb_integers<std::uint8_t>(p.rgb.values, of_a_byte.data());
+          std::ranges::transform(of_a_byte, expected.begin(),
+                                 [](int v) { return static_cast<std::uint16_t>(257 * v); });
+        }
+        ASSERT_TRUE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT16, values.data()));
+        EXPECT_EQ(values, expected) << height << " rows of " << bits << " bits";
+      }
+}
+
 // Components are of eight bits beside the greatest; black, one colour, and what no number is.
 TEST(ImageIo, RadianceIsReadByOpenImageIo) {
   for (const int width : {3, 7, 8, 500}) {
@@ -276,7 +314,7 @@ TEST(ImageIo, RadianceIsReadByOpenImageIo) {
 // Rows leave the encoder while it works: what cannot be written is said, and nothing is left.
 TEST(ImageIo, OnAFullDisk) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  for (const std::string name : {"a.png", "a.jpg", "a.hdr"}) {
+  for (const std::string name : {"a.png", "a.jpg", "a.hdr", "a.tif"}) {
     const test::TemporaryDirectory directory;
     std::filesystem::create_symlink("/dev/full", directory / (name + ".tmp" + std::to_string(::getpid())));
     try {
