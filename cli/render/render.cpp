@@ -19,6 +19,7 @@
 #include "cli/render/supervise.h"
 #include "farm/files/output_lock.h"
 #include "farm/files/signals.h"
+#include "farm/run/checkpoint.h"
 #include "farm/run/patience.h"
 #include "farm/run/watchdog.h"
 #include "farm/transport/doing.h"
@@ -52,7 +53,8 @@ int supervise_frames(const RenderArguments& a, int argc, char** argv) {
   const std::filesystem::path held = lock_of_list(a.output);
   std::vector<std::string> command = supervised_command(argc, argv, a.launcher);
   command.insert(command.end(), {"--held-lock", held.string()});
-  const int status = supervise(command, held, a.restarts, a.options.resources.patience_s);
+  const int status =
+      supervise(command, held, {record_path(a.output), "frame"}, a.restarts, a.options.resources.patience_s);
   try {
     const OutputLock last(held);  // one that was killed leaves its file
   } catch (const MachineError&) {
@@ -68,8 +70,9 @@ int supervise_job(RenderArguments& a, int argc, char** argv) {
     throw UsageError("--force would begin anew at each restart: remove the old files instead");
   if (!a.frames.empty()) return supervise_frames(a, argc, argv);
   a.name_outputs();
-  return supervise(supervised_command(argc, argv, a.launcher), a.options.outputs.film, a.restarts,
-                   a.options.resources.patience_s);
+  const std::filesystem::path& film = a.options.outputs.film;
+  return supervise(supervised_command(argc, argv, a.launcher), film, {checkpoint_path(film), "checkpoint"},
+                   a.restarts, a.options.resources.patience_s);
 }
 
 }  // namespace

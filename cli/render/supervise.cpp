@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render/supervise.h"
 
+#include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include <csignal>
 #include <optional>
 #include <sstream>
+#include <string>
 #include <thread>
 
 #include "cli/common/main_guard.h"
@@ -136,24 +138,45 @@ bool may_be_better(int status) {
   return std::ranges::find(final, status) == std::end(final);
 }
 
+// Of the file that a render writes step by step; none where it is not there.
+std::optional<std::filesystem::file_time_type> last_step(const std::filesystem::path& file) {
+  std::error_code missing;
+  const auto at = std::filesystem::last_write_time(file, missing);
+  return missing ? std::nullopt : std::optional(at);
+}
+
+// How a render ended, and how often it did at the same place.
+std::string words_of(int status, int ends_there, const char* step) {
+  std::string words = fmt::format("the render ended with status {}", status);
+  if (status == 128 + SIGKILL) words += " (killed, as by the system where memory ends)";
+  if (ends_there > 1) words += fmt::format(", {} times in a row without another {}", ends_there, step);
+  return words;
+}
+
 }  // namespace
 
-int supervise(const std::vector<std::string>& command, const std::filesystem::path& film, int restarts,
-              double patience_s) {
+int supervise(const std::vector<std::string>& command, const std::filesystem::path& film, const Steps& steps,
+              int restarts, double patience_s) {
   pass_signals_on();
-  int mistakes = 0;
+  int mistakes = 0, ends_there = 0;
   for (int done = 0;; ++done) {
+    const auto step = last_step(steps.file);
     const End end = run_once(command, film, patience_s);
     const int status = end.status;
     mistakes = is_of_launcher(end) ? mistakes + 1 : 0;
+    ends_there = last_step(steps.file) == step ? ends_there + 1 : 1;
     if (mistakes == 2 && !stopped)
       say("vitrail: {} ended with status {} twice, before a render began: it is not started again\n",
           command.front(), status);
     if (mistakes == 2) return status;
-    if (stopped || !may_be_better(status) || done == restarts) return status;
+    if (stopped || !may_be_better(status)) return status;
+    const std::string words = words_of(status, ends_there, steps.name);
+    if (done == restarts) {
+      say("vitrail: {}: it was started again {} times and is not once more\n", words, restarts);
+      return status;
+    }
     const auto wait = std::min(60, 1 << std::min(done, 6)) * 1s;
-    say("vitrail: the render ended with status {}; started again in {} s, {} of {} times\n", status,
-        wait / 1s, done + 1, restarts);
+    say("vitrail: {}; started again in {} s, {} of {} times\n", words, wait / 1s, done + 1, restarts);
     for (auto left = std::chrono::milliseconds(wait); left > 0ms && !stopped; left -= 50ms)
       std::this_thread::sleep_for(50ms);
     if (stopped) return status;

@@ -170,6 +170,24 @@ TEST_F(Launchers, AKilledRankOfMpirunIsBroughtBack) {
   EXPECT_EQ(hash("a.film"), whole_hash(long_enough));
 }
 
+// As where memory ends at the same place, whoever comes: it does not go on for ever, and says what it was.
+TEST_F(Launchers, ARenderThatDiesAgainAndAgainEndsWithTheReason) {
+  const std::string script = path("launcher.sh");
+  std::ofstream(script) << fmt::format(
+      "echo start >> '{0}/starts'; \"$@\" &\n"
+      "while [ ! -e '{0}/a.film.lock' ]; do sleep .01; done\n"
+      "kill -9 $!; wait $!\n",
+      directory_.path().string());
+  const CommandResult failed = run(alone("a.film", fmt::format("--restarts 2 --launcher 'sh {}'", script)));
+  EXPECT_EQ(failed.status, 128 + SIGKILL);
+  EXPECT_EQ(fs::file_size(path("starts")), 3 * std::string("start\n").size());
+  EXPECT_THAT(failed.output, HasSubstr("2 times in a row without another checkpoint; started again in 2 s"));
+  EXPECT_THAT(
+      failed.output,
+      HasSubstr("ended with status 137 (killed, as by the system where memory ends), 3 times in a row "
+                "without another checkpoint: it was started again 2 times and is not once more"));
+}
+
 // As mpirun at times, whose rank it was.
 TEST_F(Launchers, ALauncherThatDoesNotEndIsKilled) {
   const std::string script = path("launcher.sh");
