@@ -164,12 +164,22 @@ class Evaluation {
         result_.reaches_infinity = true;
   }
 
-  // Of surfaces that coincide, those of `seen` are kept.
+  // Of surfaces that coincide, those of `seen` are kept, if CGAL does not refuse that; and if it refuses the
+  // other order, too, the smaller one stays as it is.
+  Solid intersection(const Solid& seen, const Solid& other) {
+    const auto size = [](const Solid& s) { return length(extent(solids::bounds_of(s))); };
+    if (size(seen) <= size(other)) return carried_out(Operation::intersect, seen, other, seen);
+    BooleanResult made = boolean(Operation::intersect, seen, other);
+    if (!made.solid) return carried_out(Operation::intersect, other, seen, other);
+    result_.perturbation = std::max(result_.perturbation, made.moved);
+    return std::move(*made.solid);
+  }
+
   Bodies common(const Bodies& seen, const Bodies& other) {
     Bodies made;
     for (const Solid& a : seen)
       for (const Solid& b : other) {
-        Solid both = carried_out(Operation::intersect, a, b, a);
+        Solid both = intersection(a, b);
         if (!both.empty()) made.push_back(std::move(both));
       }
     return made;

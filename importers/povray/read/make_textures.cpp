@@ -146,7 +146,7 @@ double Surfaces::share_through(const Numbers& color) const {
   double filter = std::max(color.v[3], 0.0);
   if (reader_.version < 3.7)
     filter *= std::clamp(reader_.linear(std::max({color.v[0], color.v[1], color.v[2]})), 0.0, 1.0);
-  return filter + std::max(color.v[4], 0.0);
+  return std::min(filter + std::max(color.v[4], 0.0), 1.0);
 }
 
 Spectrum Surfaces::filtered(const Numbers& color) const {

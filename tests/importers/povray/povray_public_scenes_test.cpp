@@ -111,6 +111,17 @@ TEST_F(PovrayPublicScenes, LettersThatAreCutOut) {
       0.02);
 }
 
+// filter and transmit may be more than 1 together.
+TEST_F(PovrayPublicScenes, PigmentsThatLetMoreThanAllThrough) {
+  for (const char* color : {"rgbft <0, 0, 0, 1, 1>", "rgbft <.5, .2, .1, .7, .6>", "rgbft <.9, .4, .1, 1, .2>"})
+    for (const char* ior : {"1", "1.2"})
+      expect_alike("#version 3.7; global_settings { assumed_gamma 1 }\n" + flat_camera +
+                       "plane { z, 2 pigment { rgb <.5, .6, .4> } finish { ambient 1 diffuse 0 } }\n"
+                       "box { <-1, -1, -.5>, <1, 1, .5> pigment { " +
+                       color + " } finish { ambient 0 diffuse 0 } interior { ior " + ior + " } }\n",
+                   0.01);
+}
+
 // POV-Ray does not ask how the faces of glass are wound: here every second one looks inward.
 TEST_F(PovrayPublicScenes, GlassOfLooseFaces) {
   const std::vector<std::array<int, 3>> corners{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
