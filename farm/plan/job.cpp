@@ -3,11 +3,30 @@
 
 #include <malloc.h>
 
+#include <algorithm>
+#include <bit>
+
 #include "farm/plan/job_manifest.h"
 #include "scene/system/resource_usage.h"
 #include "tracer/prepared/film_exponent.h"
 
 namespace vitrail {
+
+namespace {
+
+// With what the table of lights takes by which photons leave them (Emission): for a moment the bounds of all
+// lamps, in lists that grow.
+SceneMemory memory_of(const RenderScene& scene, std::uint64_t textures) {
+  SceneMemory memory{resident_bytes(), peak_resident_bytes(), textures};
+  if (!scene.manifest.settings.photons) return memory;
+  constexpr std::uint64_t kept = 24, for_a_moment = sizeof(LightBounds) + sizeof(std::uint32_t);
+  const std::uint64_t lamps = scene.lights.scene.triangles.size() + scene.lights.quadrics.size();
+  memory.peak = std::max(memory.peak, memory.resident + std::bit_ceil(lamps) * for_a_moment / 2 * 3);
+  memory.resident += kept * lamps;
+  return memory;
+}
+
+}  // namespace
 
 Job set_up(const RenderOptions& options, const Place& place) {
   JobManifest read = read_job_manifest(options);
@@ -20,7 +39,7 @@ Job set_up(const RenderOptions& options, const Place& place) {
   if (options.picture.daylight) set_daylight(*job.scene, *options.picture.daylight);
   const Manifest& m = job.scene->manifest;
   ::malloc_trim(0);  // what was freed since the manifest was read
-  job.plan = plan_job(m, options, place, {resident_bytes(), peak_resident_bytes(), textures});
+  job.plan = plan_job(m, options, place, memory_of(*job.scene, textures));
   std::shared_ptr<FilmScratch> scratch;
   if (job.plan.film.window > 0) scratch = std::make_shared<FilmScratch>(job.plan.film.window);
   job.film = Film(m.film, job.plan.key, film_exponent(*job.scene),

@@ -25,11 +25,13 @@ INTEGRATORS = {
     "photon": ["--integrator", "photon", "--photons", 20000, "--spp", 3],
     "adaptive": ["--adaptive", "--spp", 12],
     "splat": ["--splat", "--filter", "gaussian:1.5"],
+    "many photons": ["--integrator", "photon", "--photons", 400000, "--spp", 2],
 }
 WRITERS = {
     "film": [],
     "checkpoint": ["--checkpoint-every", 0.05],
     "picture.png": [],
+    "picture.tif": [],
     "picture.exr": [],
     "layers.exr": ["--aov", "albedo,position,normal,depth,crypto_object,crypto_material", "--alpha"],
     "spectral": ["--spectral", 16],
