@@ -113,7 +113,8 @@ TEST_F(PovrayPublicScenes, LettersThatAreCutOut) {
 
 // filter and transmit may be more than 1 together.
 TEST_F(PovrayPublicScenes, PigmentsThatLetMoreThanAllThrough) {
-  for (const char* color : {"rgbft <0, 0, 0, 1, 1>", "rgbft <.5, .2, .1, .7, .6>", "rgbft <.9, .4, .1, 1, .2>"})
+  for (const char* color :
+       {"rgbft <0, 0, 0, 1, 1>", "rgbft <.5, .2, .1, .7, .6>", "rgbft <.9, .4, .1, 1, .2>"})
     for (const char* ior : {"1", "1.2"})
       expect_alike("#version 3.7; global_settings { assumed_gamma 1 }\n" + flat_camera +
                        "plane { z, 2 pigment { rgb <.5, .6, .4> } finish { ambient 1 diffuse 0 } }\n"

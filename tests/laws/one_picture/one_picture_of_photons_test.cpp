@@ -196,8 +196,8 @@ TEST_F(OnePictureOfPhotons, MorePhotonsThanMemoryHasRoomFor) {
     return at == std::string::npos ? 0 : std::stoi(refused.output.substr(at + 14));
   };
   EXPECT_LE(least(100000000), least(20000) + 2);
-  const std::string photons = "--spp 2 --threads 1 --photons 50000";
-  const int memory = least(50000);
+  const std::string photons = "--spp 2 --threads 1 --photons 200000";
+  const int memory = least(200000);
   ASSERT_EQ(run(command("all.film", 8, 1, photons)).status, 0);
   EXPECT_EQ(stats("all.film")["spilled_bytes"], 0);
   for (const int ranks : {1, 2}) {
