@@ -3,11 +3,15 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/clip.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
+#include <CGAL/Surface_mesh.h>
 
 #include <cmath>
 
-#include "importers/solids/operand_mesh.h"
+#include "importers/solids/operand_mesh.inl"
 #include "scene/geometry/frame.h"
 
 namespace vitrail::solids {

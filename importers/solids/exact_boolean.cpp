@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Surface_mesh.h>
 
 #include <memory>
 
 #include "importers/solids/boolean.h"
-#include "importers/solids/operand_mesh.h"
+#include "importers/solids/operand_mesh.inl"
 
 namespace vitrail::solids {
 

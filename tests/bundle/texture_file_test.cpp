@@ -51,6 +51,9 @@ TEST(TextureFile, EveryTexelComesBack) {
                 const std::uint32_t code = expected[0];
                 if (info.format == TexelFormat::number_code)
                   ASSERT_EQ(std::bit_cast<float>(read[0]), static_cast<float>(code & 255) / 255);
+                else if (info.format == TexelFormat::band_code)
+                  for (std::size_t k = 0; k < 3; ++k)
+                    ASSERT_EQ(std::bit_cast<float>(read[k]), static_cast<float>(code >> 8 * k & 255) / 255);
                 else if (info.format == TexelFormat::color_code)
                   ASSERT_EQ(read[1], color_code_word(code & 255, code >> 8 & 255, code >> 16 & 255));
                 else if (info.format == TexelFormat::light_code)

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Solids as CGAL's meshes, whose faces know the triangles that they come from. For the files of this folder
-// that include CGAL.
+// Solids as CGAL's meshes, whose faces know the triangles that they come from. It is included behind CGAL's
+// headers for corefinement, polygon soups and Surface_mesh: no header here includes CGAL, so that what
+// contains it can be told from the sources.
 #pragma once
-
-#include <CGAL/Polygon_mesh_processing/corefinement.h>
-#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <map>
 #include <optional>
