@@ -114,7 +114,7 @@ class SheetOfState {
 }  // namespace
 
 DataSheet data_sheet(const GlazingSystem& system, Polarisation polarisation) {
-  DataSheet sheet{.system = system, .polarisation = polarisation};
+  DataSheet sheet{.system = system, .polarisation = polarisation, .scattering = scattering_of(system)};
   try {
     check_heat(system);
   } catch (const Error& error) {

@@ -9,6 +9,7 @@
 #include "glazing/color_fidelity.h"
 #include "glazing/evaluation.h"
 #include "glazing/heat_balance.h"
+#include "glazing/scattering.h"
 
 namespace vitrail {
 
@@ -53,6 +54,7 @@ struct DataSheet {
   Polarisation polarisation = Polarisation::mixed_at_panes;
   std::string why_no_heat;  // empty where there is
   std::vector<DataSheetState> states;
+  std::vector<PaneScattering> scattering;
 };
 
 // A system in one of its states; the name is as above.

@@ -41,12 +41,17 @@ class OpticsReader {
     }
     if (to_nm_ == 0)
       throw Error("the header has no line \"{ Units, Wavelength Units } SI Microns\"", {file_});
-    if (rows_.empty()) throw Error("there are no rows of wavelength, T, Rf, Rb", {file_});
+    if (rows_.empty() && scattering_.empty())
+      throw Error("there are no rows of wavelength, T, Rf, Rb", {file_});
     for (OpticalRow& row : rows_) row.nm *= to_nm_;
+    for (ScatteringRow& row : scattering_) row.nm *= to_nm_;
     const bool clear = same_word(type_, "monolithic") && (side_.empty() || same_word(side_, "neither"));
     product_.kind = clear ? PaneKind::clear : PaneKind::coated;
     if (type_.empty()) product_.notes.emplace_back("does not say its type and counts as coated");
-    product_.rows = checked_rows(std::move(rows_), product_.notes, file_, "");
+    if (scattering_.empty())
+      product_.rows = checked_rows(std::move(rows_), product_.notes, file_, "");
+    else
+      take_scattering(product_, scattering_, file_);
     add_emissivities(product_.heat, product_.rows);
     return std::move(product_);
   }
@@ -101,19 +106,32 @@ class OpticsReader {
     return values;
   }
 
+  // Of eight columns each is direct, then scattered.
   void take_row(std::string_view line) {
-    std::array<double, 4> v{};
+    constexpr const char* expected =
+        "expected wavelength, T, Rf, Rb, or wavelength, Tf, Tb, Rf, Rb, each direct and then diffuse";
+    std::vector<double> v;
     std::string_view rest = line;
-    for (double& number : v)
-      if (!parse_number(next_word(rest), number)) fail("expected wavelength, T, Rf, Rb", line);
-    if (!next_word(rest).empty()) fail("expected four numbers: wavelength, T, Rf, Rb", line);
-    rows_.push_back({v[0], {v[1], v[2], v[3]}});
+    for (std::string_view word; !(word = next_word(rest)).empty();)
+      if (!parse_number(word, v.emplace_back())) fail(expected, line);
+    if (v.size() != 4 && v.size() != 9) fail(expected, line);
+    if (v.size() == 4 ? !scattering_.empty() : !rows_.empty())
+      fail("rows of three and of eight columns are in one file", line);
+    if (v.size() == 4) {
+      rows_.push_back({v[0], {v[1], v[2], v[3]}});
+      return;
+    }
+    // Bounds of noise, as of the sums.
+    for (std::size_t i = 1; i < v.size(); ++i)
+      if (!(v[i] > -0.5 && v[i] < 2)) fail("the eight have to be fractions from 0 to 1", line);
+    scattering_.push_back({v[0], {v[1], v[5], v[7]}, {v[2], v[6], v[8]}, v[3], v[4]});
   }
 
   Lines lines_;
   const std::string& file_;
   Product product_;
   OpticalRows rows_;
+  std::vector<ScatteringRow> scattering_;
   std::string type_, side_;
   double to_nm_ = 0;
 };

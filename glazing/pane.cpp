@@ -132,7 +132,7 @@ WavelengthRange range_of(const Pane& pane) {
 }
 
 Pane pane_of(const Product& product, double thickness_mm) {
-  if (!product.rows.empty()) return MeasuredPane{product.rows, product.kind};
+  if (!product.rows.empty()) return MeasuredPane{product.rows, product.kind, product.scattered};
   if (!(thickness_mm > 0)) thickness_mm = product.thickness_mm;
   if (!(thickness_mm > 0))
     throw Error(

@@ -19,12 +19,15 @@ enum class PaneKind {
   coated,  // anything else that was measured: coatings, laminates, films
 };
 
-// A product has `rows`, or `index` where its optical constants were measured, or `states`.
+// A product has `rows`, or `index` where its optical constants were measured, or `states`. Frits, etched and
+// opal glass scatter: `scattered` is the part of `rows` that leaves in all directions, of the same
+// wavelengths.
 struct Product {
   std::string name, manufacturer{};
   PaneKind kind = PaneKind::clear;
   double thickness_mm = 0;  // 0 where the file does not say
   OpticalRows rows{};
+  OpticalRows scattered{};  // empty where nothing is
   IndexRows index{};
   // A thermochromic group: the temperature in °C and what it names, ascending. `kind` is coated if any is.
   struct State {

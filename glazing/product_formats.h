@@ -12,11 +12,13 @@ namespace vitrail {
 
 class JsonNode;
 
-// IGSDB and CGDB: an object, or a list of them, with "spectral_data" (µm) and "measured_data" (mm).
+// IGSDB and CGDB: an object, or a list of them, with "spectral_data" (µm) and "measured_data" (mm); of
+// version 2 "physical_properties" instead of both, whose rows have a "specular" and a "diffuse" part.
 std::vector<Product> igsdb_products(const JsonNode& root);
 bool is_igsdb(const JsonNode& root);
 
-// Optics: "{ key } value" lines, then wavelength, T, Rf, Rb, in µm or nm as the header says.
+// Optics: "{ key } value" lines, then wavelength, T, Rf, Rb, in µm or nm as the header says. Of glass that
+// scatters, eight: Tf, Tb, Rf, Rb, each direct, then scattered.
 std::vector<Product> optics_products(const std::string& text, const std::string& file);
 bool is_optics(std::string_view text);
 
@@ -33,5 +35,15 @@ bool is_idf(std::string_view text);
 // that the values may be fractions. `where` begins the message.
 OpticalRows checked_rows(OpticalRows rows, std::vector<std::string>& notes, const std::string& file,
                          const std::string& where);
+
+// A wavelength as a scattering product has it: what goes straight on or is mirrored, and what is scattered.
+struct ScatteringRow {
+  double nm = 0;
+  PaneValues direct, scattered;
+  double direct_tb = 0, scattered_tb = 0;  // through it from the back
+};
+
+// Gives the product the sums of these rows, checked as above, and their scattered part.
+void take_scattering(Product& product, const std::vector<ScatteringRow>& rows, const std::string& file);
 
 }  // namespace vitrail

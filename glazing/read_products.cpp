@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "glazing/foreign_file.h"
 #include "glazing/json_node.h"
@@ -54,6 +55,31 @@ OpticalRows checked_rows(OpticalRows rows, std::vector<std::string>& notes, cons
                   {file});
   }
   return tidy(std::move(rows), notes);
+}
+
+void take_scattering(Product& product, const std::vector<ScatteringRow>& rows, const std::string& file) {
+  OpticalRows sums, scattered;
+  double one_sided = 0;
+  for (const ScatteringRow& row : rows) {
+    const PaneValues &a = row.direct, &b = row.scattered;
+    sums.push_back({row.nm, {a.t + b.t, a.rf + b.rf, a.rb + b.rb}});
+    scattered.push_back({row.nm, b});
+    one_sided = std::max(one_sided, std::abs(a.t + b.t - row.direct_tb - row.scattered_tb));
+  }
+  product.rows = checked_rows(std::move(sums), product.notes, file, "");
+  std::vector<std::string> told_of_the_sums;
+  product.scattered = checked_rows(std::move(scattered), told_of_the_sums, file, "scattered, ");
+  for (std::size_t i = 0; i < product.rows.size(); ++i) {
+    const PaneValues& whole = product.rows[i].at;
+    PaneValues& part = product.scattered[i].at;
+    part = {std::min(part.t, whole.t), std::min(part.rf, whole.rf), std::min(part.rb, whole.rb)};
+  }
+  product.kind = PaneKind::coated;
+  // Light that scatters may pass more easily from one side; a system's T is the same from both.
+  constexpr double rounding = 0.005;
+  if (one_sided > rounding)
+    product.notes.push_back(fmt::format(
+        "T from the back differs by up to {:.3f}; that from the front counts for both sides", one_sided));
 }
 
 std::vector<Product> read_products(const std::filesystem::path& file) {

@@ -185,6 +185,8 @@ class SystemReader {
       if (const auto name = item.find("product")) file = fmt::format("{}#{}", file, name->text());
       Product found = product(file);
       if (found.rows.empty()) item.fail("a state needs measured T and R");
+      if (!found.scattered.empty())
+        into_.notes.push_back(fmt::format("{}: scatters light; as a state all of it goes straight on", file));
       if (made.name.empty()) made.name = found.name;
       if (made.states.empty()) {
         made.thickness_mm = found.thickness_mm;
@@ -351,7 +353,8 @@ bool is_glazing_file(const std::string& name) {
   const std::string_view start = trimmed(text);
   return is_optics(text) || is_idf(text) ||
          (start.starts_with("{") &&
-          (text.find("\"layers\"") != text.npos || text.find("\"spectral_data\"") != text.npos));
+          (text.find("\"layers\"") != text.npos || text.find("\"spectral_data\"") != text.npos ||
+           text.find("\"physical_properties\"") != text.npos));
 }
 
 ReadSystem read_system(const std::vector<std::string>& files) {

@@ -11,6 +11,7 @@
 #include "cli/glazing/sheet_report.h"
 #include "compare/web_page.h"
 #include "glazing/energyplus_text.h"
+#include "glazing/scattering.h"
 #include "glazing/system_file.h"
 #include "glazing/text_file.h"
 #include "scene/system/atomic_file.h"
@@ -130,6 +131,7 @@ int run(const Arguments& a) {
   const Polarisation polarisation = a.polarised ? Polarisation::apart : Polarisation::mixed_at_panes;
   const std::vector<double> nm = common_wavelengths(system);
   if (const std::string held = held_note(system, 300, 2500); !held.empty()) input.notes.push_back(held);
+  for (std::string& note : scattering_notes(system)) input.notes.push_back(std::move(note));
 
   GlazingReport report{system, standard.description, a.sampling, input.notes, {}};
   const auto add = [&](std::optional<double> theta, HemisphereRule rule) {

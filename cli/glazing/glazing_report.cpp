@@ -80,14 +80,19 @@ const char* model_of(const GlazingLayer& layer) {
   return std::get<MeasuredPane>(layer.pane).kind == PaneKind::clear ? "clear" : "coated";
 }
 
+bool scatters(const GlazingLayer& layer) {
+  const auto* pane = std::get_if<MeasuredPane>(&layer.pane);
+  return pane && !pane->scattered.empty();
+}
+
 }  // namespace
 
 std::string glazing_table(const GlazingReport& report) {
   std::string text;
   for (std::size_t i = 0; i < report.system.layers.size(); ++i) {
     const GlazingLayer& layer = report.system.layers[i];
-    text += fmt::format("pane {}: {}, {}{}\n", i + 1, layer.name, model_of(layer),
-                        layer.flipped ? ", flipped" : "");
+    text += fmt::format("pane {}: {}, {}{}{}\n", i + 1, layer.name, model_of(layer),
+                        scatters(layer) ? ", scatters" : "", layer.flipped ? ", flipped" : "");
   }
   text += fmt::format("standard: {}; sampling: {}\n", report.standard, report.sampling);
   for (const GlazingResult& result : report.results)

@@ -80,6 +80,17 @@ Json pane_json(const GlazingLayer& layer, bool last) {
   return json;
 }
 
+Json scattering_json(const std::vector<PaneScattering>& panes) {
+  Json json = Json::array();
+  for (const PaneScattering& of : panes)
+    json.push_back({{"pane", of.pane + 1},
+                    {"visible", three(of.visible)},
+                    {"visible_scattered", three(of.visible_scattered)},
+                    {"solar", three(of.solar)},
+                    {"solar_scattered", three(of.solar_scattered)}});
+  return json;
+}
+
 }  // namespace
 
 std::string sheet_json(const DataSheet& sheet, const std::vector<std::string>& notes) {
@@ -89,6 +100,7 @@ std::string sheet_json(const DataSheet& sheet, const std::vector<std::string>& n
   for (const DataSheetState& state : sheet.states) states.push_back(state_json(state));
   Json json{{"program", "vitrail glazing"}, {"name", sheet.system.name}, {"panes", panes}, {"notes", notes}};
   if (!sheet.why_no_heat.empty()) json["no_heat"] = sheet.why_no_heat;
+  if (!sheet.scattering.empty()) json["scattering"] = scattering_json(sheet.scattering);
   json["states"] = states;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

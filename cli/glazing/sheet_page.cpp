@@ -101,6 +101,18 @@ std::string figures_table(const DataSheet& sheet) {
   for (std::size_t i = 0; i < standards.size(); ++i)
     table.add("T<sub>uv</sub>, " + escaped(standards[i].standard),
               [i](const auto& s) { return number(s.standards[i].ultraviolet_t, 4); });
+  for (const PaneScattering& of : sheet.scattering) {
+    table.group(fmt::format("Pane {} alone: scattered, of all that it lets through or reflects", of.pane + 1)
+                    .c_str());
+    const auto add = [&](const char* name, double part, double all) {
+      table.add(name, [=](const auto&) { return number(part, 4) + " of " + number(all, 4); });
+    };
+    add("T<sub>vis</sub>", of.visible_scattered.t, of.visible.t);
+    add("R<sub>vis</sub> outside", of.visible_scattered.rf, of.visible.rf);
+    add("R<sub>vis</sub> inside", of.visible_scattered.rb, of.visible.rb);
+    add("T<sub>sol</sub>, NFRC 300-2003", of.solar_scattered.t, of.solar.t);
+    add("R<sub>sol</sub> outside, NFRC 300-2003", of.solar_scattered.rf, of.solar.rf);
+  }
   return table.text();
 }
 
@@ -213,6 +225,9 @@ constexpr const char* legend =
     "black body of the same colour temperature; 100 changes no colour, R<sub>g</sub> above 100 is more "
     "colourful.</tr>\n"
     "<tr><td>ε, λ<td>Hemispherical emissivity of a surface; conductivity of a pane.</tr>\n"
+    "<tr><td>scattered<td>What leaves a frit, etched or opal glass in all directions. The other figures "
+    "count it "
+    "as light that goes straight on.</tr>\n"
     "<tr><td>hemisphere<td>Light from everywhere outside alike, as under an even sky.</tr>\n"
     "<tr><td>winter, summer<td>The conditions of U (NFRC) and of SHGC at normal incidence.</tr>\n</table>\n";
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/reading/glazing_material.h"
 
+#include "glazing/scattering.h"
 #include "glazing/sheet.h"
 #include "glazing/system_file.h"
 #include "importers/spectra/sheet_file.h"
@@ -16,6 +17,7 @@ GlazingModel glazing_model(const std::string& file, const std::function<Id<Mater
   ReadSystem read = read_system({file});
   if (const std::string held = held_note(read.system, lambda_min_nm, lambda_max_nm); !held.empty())
     read.notes.push_back(file + ": " + held);
+  for (const std::string& note : scattering_notes(read.system)) read.notes.push_back(file + ": " + note);
   GlazingSheets sheets = sheets_of(read.system, Polarisation::mixed_at_panes);
   MeasuredMaterial front{file, std::move(sheets.front)}, back{file, std::move(sheets.back)};
   // Sides that are alike in this state may differ in another.

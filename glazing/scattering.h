@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Panes that scatter light: frits, etched and opal glass.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "glazing/system.h"
+
+namespace vitrail {
+
+// Of one pane alone, as it stands in its system: all that it lets through and reflects, and the part of it
+// that leaves in all directions. At normal incidence, by NFRC 300-2003.
+struct PaneScattering {
+  std::size_t pane = 0;  // from outside, from 0
+  PaneValues visible, solar, visible_scattered, solar_scattered;
+};
+
+// Of the panes that scatter; empty where none does.
+std::vector<PaneScattering> scattering_of(const GlazingSystem& system);
+
+// The same in words, and that scattered light counts as light that goes straight on: exact for one pane at
+// normal incidence, an approximation between panes and at other angles.
+std::vector<std::string> scattering_notes(const GlazingSystem& system);
+
+}  // namespace vitrail
