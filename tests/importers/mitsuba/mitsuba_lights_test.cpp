@@ -159,6 +159,36 @@ TEST_F(MitsubaLight, IlluminanceAndColourOfEnvironments) {
   expect_near(environment(lit(light), {{0, 0, 1}}).at(0), values(emission_from_rgb({1, 0.5, 0.25})), 5e-3);
 }
 
+// Mitsuba's own sky is black below the horizon. E/π is the mean over directions of equal cos θ dω.
+TEST_F(MitsubaLight, GroundsBelowTheSkyReflectIt) {
+  SkyLight light;
+  light.light_to_world = rotate(0.7, {1, 2, 3});
+  light.to_sun = normalize(Vector3d{2, 0, 1});
+  light.sun_scale = 0;
+  light.ground = 0.3f;
+  constexpr int rings = 16, sectors = 32;
+  std::vector<Vector3d> directions;
+  const auto add = [&](const Vector3d& d) {
+    directions.push_back(transform_vector(light.light_to_world, d));
+  };
+  for (int ring = 0; ring < rings; ++ring)
+    for (int sector = 0; sector < sectors; ++sector) {
+      const double sin2 = (ring + 0.5) / rings, phi = 2 * pi * (sector + 0.5) / sectors;
+      add({std::sqrt(sin2) * std::cos(phi), std::sqrt(sin2) * std::sin(phi), std::sqrt(1 - sin2)});
+    }
+  add({0, 0, -1});
+  add(normalize(Vector3d{3, -1, -2}));
+  const Json found = environment(lit(light), directions);
+  std::vector<double> reflected(wavelengths_nm.size());
+  for (std::size_t i = 0; i + 2 < directions.size(); ++i)
+    for (std::size_t c = 0; c < reflected.size(); ++c)
+      reflected[c] += 0.3 * found[i][c].get<double>() / (rings * sectors);
+  EXPECT_GT(reflected[1], 0);
+  expect_near(found[directions.size() - 2], reflected, 0.02, "below");
+  expect_near(found[directions.size() - 1], reflected, 0.02, "aslant");
+  EXPECT_THAT(diagnostics_, Contains(Field(&Diagnostic::message, HasSubstr("without a ground"))));
+}
+
 TEST_F(MitsubaLight, TexturedEmissionIsUnderD65) {
   Image image = black_image(2, 2, 3);
   image.values = {0.8f, 0.1f, 0.1f, 0.1f, 0.8f, 0.1f, 0.1f, 0.1f, 0.8f, 0.5f, 0.5f, 0.5f};

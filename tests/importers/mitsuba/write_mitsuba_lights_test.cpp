@@ -9,6 +9,7 @@
 #include <numbers>
 #include <pugixml.hpp>
 
+#include "images/image_files.h"
 #include "tests/importers/mitsuba/write_mitsuba_fixture.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
@@ -76,6 +77,29 @@ TEST_F(WriteMitsuba, LightsThatMitsubaDoesNotHave) {
   EXPECT_THAT(diagnostics_, drops("cannot read the image"));
   EXPECT_THAT(diagnostics_, approximates("goniometric"));
   EXPECT_THAT(diagnostics_, drops("without an image"));
+}
+
+// Mitsuba's own skies have none. The image's first row is the zenith, its last one the nadir.
+TEST_F(WriteMitsuba, SkiesWithAGroundAreImages) {
+  Scene scene = square_scene({});
+  SkyLight light;
+  light.distribution = SkyDistribution{.diffuse_lx = 10000};  // the same from everywhere
+  light.sun_scale = 0;
+  light.ground = 0.3f;
+  scene.lights = {{light, {}}};
+  const auto emitter = write(scene).child("emitter");
+  EXPECT_THAT(diagnostics_, approximates("without a ground"));
+  ASSERT_STREQ(emitter.attribute("type").value(), "envmap");
+  const Image image = read_linear_image(folder_ / value(emitter, "filename"));
+  ASSERT_GT(image.values.front(), 0);
+  EXPECT_NEAR(image.values.back() / image.values[2], 0.3, 1e-3);  // of blue
+  light.distribution = std::nullopt;
+  scene.lights = {{light, {}}};
+  EXPECT_STREQ(write(scene).child("emitter").attribute("type").value(), "envmap");
+  light.ground = 0;
+  scene.lights = {{light, {}}};
+  EXPECT_STREQ(write(scene).child("emitter").attribute("type").value(), "sunsky");
+  EXPECT_THAT(diagnostics_, IsEmpty());
 }
 
 // Mitsuba's masks leave the light of a surface alone.
