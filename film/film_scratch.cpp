@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -54,6 +55,12 @@ void* FilmScratch::allocate(std::size_t bytes) {
   const Underway underway("making room for the film in the folder for temporary files");
   const int descriptor = open_scratch_file();
   if (descriptor < 0) fail(bytes, errno);
+  // Where there is no room, trying would fill the disk of everybody for a moment.
+  struct statvfs disk = {};
+  if (::fstatvfs(descriptor, &disk) == 0 && disk.f_frsize > 0 && bytes / disk.f_frsize > disk.f_bavail) {
+    ::close(descriptor);
+    fail(bytes, ENOSPC);
+  }
   // A disk that is full later would end the process where it writes to the mapping.
   if (const int reason = ::posix_fallocate(descriptor, 0, static_cast<off_t>(bytes)); reason != 0) {
     ::close(descriptor);
