@@ -62,7 +62,8 @@ class GlassSurface {
     for (std::size_t first = 0; first < faces_.size(); ++first) {
       if (faces_[first].known) continue;
       const std::vector<std::size_t> part = part_around(first);
-      if (part.empty()) continue;
+      const auto is_turned = [&](std::size_t f) { return faces_[f].turned; };
+      if (std::ranges::none_of(part, is_turned)) continue;  // wound alike: it may be a hollow's
       const bool inward = volume(part) < 0;
       for (const std::size_t f : part)
         if (faces_[f].turned != inward) result.push_back(faces_[f]);

@@ -9,7 +9,8 @@ namespace vitrail::pov {
 
 // Turns the faces of glass outward, where triangles of one material and interior close a surface together but
 // are not all wound alike: POV-Ray asks whether a ray is in the interior already, and not how a face is
-// wound. The shapes are the scene's or a prototype's. Closed surfaces within others are turned outward, too.
+// wound. The shapes are the scene's or a prototype's. A surface whose faces are wound alike stays as it is:
+// it may bound a hollow.
 void turn_glass_out(Scene& scene, const std::vector<Shape>& shapes);
 
 }  // namespace vitrail::pov

@@ -114,7 +114,7 @@ TEST_F(PovrayPublicScenes, LettersThatAreCutOut) {
 // filter and transmit may be more than 1 together.
 TEST_F(PovrayPublicScenes, PigmentsThatLetMoreThanAllThrough) {
   for (const char* color :
-       {"rgbft <0, 0, 0, 1, 1>", "rgbft <.5, .2, .1, .7, .6>", "rgbft <.9, .4, .1, 1, .2>"})
+       {"rgbft <0, 0, 0, 1, 1>", "rgbft <.5, .2, .1, .7, .6>", "rgbft <.7, .4, .1, .8, .3>"})
     for (const char* ior : {"1", "1.2"})
       expect_alike("#version 3.7; global_settings { assumed_gamma 1 }\n" + flat_camera +
                        "plane { z, 2 pigment { rgb <.5, .6, .4> } finish { ambient 1 diffuse 0 } }\n"
@@ -138,11 +138,13 @@ TEST_F(PovrayPublicScenes, GlassOfLooseFaces) {
     faces += "triangle { " + corner(0) + ", " + corner(1) + ", " + corner(2) + " }\n" + "triangle { " +
              corner(0) + ", " + corner(2) + ", " + corner(3) + " }\n";
   }
-  for (const char* of : {"union", "mesh"})
+  const std::string hollow =
+      "sphere { 0, 1 } sphere { 0, .8 }\n";  // whose inner wall faces inward, and stays so
+  for (const std::string& of : {"union {\n" + faces, "mesh {\n" + faces, "difference {\n" + hollow})
     expect_alike("#version 3.7; global_settings { assumed_gamma 1 max_trace_level 12 }\n" + raised_camera +
                      "background { rgb <.4, .6, .9> } plane { y, -1 pigment { checker rgb .9 rgb .1 } "
                      "finish { ambient 1 diffuse 0 } }\n" +
-                     of + std::string(" {\n") + faces +
+                     of +
                      "pigment { rgbf 1 } finish { ambient 0 diffuse 0 } interior { ior 1.4 } "
                      "scale .9 rotate <20, 30, 0> translate y * .8 }\n",
                  0.04);
