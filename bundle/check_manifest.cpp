@@ -334,6 +334,8 @@ void check_media(const Checker& c, const Manifest& m) {
     if (const auto* grid = std::get_if<Grid>(&v)) check_grid(*grid, true);
   };
   for (const Medium& medium : m.media) {
+    c.require(!medium.fade || (medium.fade->distance > 0 && medium.fade->power > 0),
+              "a medium fades over nothing");
     if (const auto* k = std::get_if<AbsorptionScattering>(&medium.coefficients))
       check_volume(k->sigma_a), check_volume(k->sigma_s);
     if (const auto* k = std::get_if<ExtinctionAlbedo>(&medium.coefficients))

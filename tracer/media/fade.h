@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light that a InteriorFade (scene/records/medium.h) leaves.
+// Media that fade as POV-Ray's interiors do (scene/records/medium.h).
 #pragma once
 
 #include "scene/records/medium.h"
@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// Over a distance, ≥ 0, that ends where the medium does.
+// Returns the share of light that is left over a distance, ≥ 0, which ends where the medium does.
 SampledSpectrum left_by(const InteriorFade& fade, double distance, const SampledWavelengths& wavelengths);
 
 }  // namespace vitrail
