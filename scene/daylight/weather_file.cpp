@@ -66,7 +66,7 @@ class WeatherReader {
       double direct_w = number(words, first), diffuse_w = number(words, first + 1);
       if (direct_w >= missing_w || diffuse_w >= missing_w) direct_w = diffuse_w = 0, ++year.missing;
       year.hours.push_back(measured(moment, direct_w, diffuse_w));
-      year.hours.back().middle.year = is_epw ? static_cast<int>(number(words, 0)) : moment.year;
+      year.hours.back().middle.year = is_epw ? year_in(words) : moment.year;
       if (is_epw) year.hours.back().lux = lux_of(words);
       if (year.hours.size() > 1 && is_same_hour(year.hours.end()[-2].middle, year.hours.back().middle))
         fail("this hour has several lines; one an hour is needed");
@@ -79,6 +79,11 @@ class WeatherReader {
   static constexpr double missing_w = 9999;
   static bool is_same_hour(const LocalTime& a, const LocalTime& b) {
     return a.month == b.month && a.day == b.day && a.hour == b.hour;
+  }
+  int year_in(const auto& words) const {
+    const double year = number(words, 0);
+    if (!(year > -10'000 && year < 10'000)) fail("the year has to have four digits");
+    return static_cast<int>(year);
   }
   // Whether it is an EPW.
   bool read_head() {
@@ -142,7 +147,7 @@ class WeatherReader {
     if (number(words, 1) != moment.month || number(words, 2) != moment.day ||
         number(words, 3) != whole(moment) + 1)
       return {};
-    hour_.middle.year = static_cast<int>(number(words, 0));
+    hour_.middle.year = year_in(words);
     hour_.lux = lux_of(words);
     return measured(moment, number(words, 14), number(words, 15));
   }

@@ -127,6 +127,8 @@ TEST_F(WeatherFile, AYearIsRefusedWithItsLine) {
   EXPECT_THAT(refused_year(epw_line(1, 1, 1, "0", "-5")),
               HasSubstr("4: the sun or the sky of this hour is neg"));
   EXPECT_THAT(refused_year(epw_line(13, 1, 1, "0", "5")), HasSubstr("4: this is no month"));
+  EXPECT_THAT(refused_year("3e9" + epw_line(1, 1, 1, "0", "5").substr(4)),
+              HasSubstr("4: the year has to have four digits"));
   EXPECT_THAT(refused_year(epw_line(1, 1, 1, "0", "5") + epw_line(1, 1, 1, "0", "5")),
               HasSubstr("5: this hour has several lines"));
   EXPECT_THAT(refused_year(""), HasSubstr("there are no hours"));
