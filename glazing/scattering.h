@@ -9,14 +9,14 @@
 
 namespace vitrail {
 
-// Of one pane alone, as it stands in its system: all that it lets through and reflects, and the part of it
-// that leaves in all directions. At normal incidence, by NFRC 300-2003.
+// One pane alone, as it stands in its system, lets through and reflects so much in all, and scatters this
+// part of it in all directions. At normal incidence, by NFRC 300-2003.
 struct PaneScattering {
   std::size_t pane = 0;  // from outside, from 0
   PaneValues visible, solar, visible_scattered, solar_scattered;
 };
 
-// Of the panes that scatter; empty where none does.
+// Returns the panes that scatter; none where no pane does.
 std::vector<PaneScattering> scattering_of(const GlazingSystem& system);
 
 // The same in words, and that scattered light counts as light that goes straight on: exact for one pane at

@@ -46,7 +46,7 @@ class PhotonWork {
   WaitingBatches questions;   // of other ranks
   std::uint64_t landed = 0;   // of all iterations, here
   std::size_t most_kept = 0;  // of any, in memory
-  // Of photons and questions, to the disk, in all.
+  // Returns the bytes of photons and questions that went to the disk, in all.
   std::uint64_t written_bytes() const { return map_.written_bytes() + questions.written_bytes(); }
 
  private:

@@ -23,8 +23,8 @@ struct BooleanResult {
 // Of two closed solids, neither of which intersects itself where they meet.
 BooleanResult boolean(Operation operation, const Solid& a, const Solid& b);
 
-// What `others` leave of a closed solid, one after the other, with exact coordinates in between: a cut that
-// was rounded may intersect itself, and then the next cannot be made. Some ten times as slow.
+// Returns what `others` leave of a closed solid, one after the other, with exact coordinates in between: a
+// cut that was rounded may intersect itself, and then the next cannot be made. It is slower.
 BooleanResult subtract_exactly(const Solid& a, std::span<const Solid> others);
 
 // What of a surface, closed or not, is inside a closed solid, or outside.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What POV-Ray's patterns have at a point, to the last digit of its pictures. They have the same bits on
-// every machine.
+// These functions return what POV-Ray's patterns have at a point, to the last digit of its pictures, and the
+// same bits on every machine.
 #pragma once
 
 #include <cstddef>

@@ -24,9 +24,9 @@ constexpr std::size_t band_of(float lambda_nm) {
 // The linear sRGB colour c as a spectrum of bands; a grey is a constant. Negative components become 0.
 Spectrum band_spectrum(RGB c);
 
-// What was given as RGB by its numbers (of light without D65: white shines with 1 in each band), and
-// constants as they are. Light of a blackbody by its colour, and any other spectrum by the colour that it has
-// under D65.
+// Returns the bands of what was given as RGB by its numbers (light is without D65: white shines with 1 in
+// each band). Constants stay as they are; light of a blackbody has its colour, and any other spectrum the
+// colour that it has under D65.
 Spectrum in_bands(const Spectrum& spectrum);
 
 }  // namespace vitrail

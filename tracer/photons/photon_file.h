@@ -52,7 +52,7 @@ class PhotonFile {
   };
   class Merging;
   std::span<const PlacedPhoton> block(std::size_t first, std::array<PlacedPhoton, block_photons>& into) const;
-  // Where one looks for a cell: no photon of it lies before.
+  // Returns where one looks for a cell: no photon of it lies before.
   std::size_t begin_of(std::uint64_t cell) const;
 
   int runs_descriptor_ = -1, merged_descriptor_ = -1;

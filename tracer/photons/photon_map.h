@@ -41,7 +41,7 @@ class PhotonMap {
 
   std::size_t in_memory() const { return photons_.size(); }
   std::uint64_t written_bytes() const { return file_.written_bytes(); }  // to the disk, in all
-  // Of one in memory, and of its part of what finds those in files.
+  // One in memory takes these bytes, with its part of what finds those in files.
   static constexpr std::size_t photon_bytes = sizeof(PlacedPhoton) + 2;
 
  private:

@@ -12,7 +12,7 @@ namespace vitrail::pov {
 Warp read_warp(Reader& reader);
 
 Point3d warped(const Warp& warp, Point3d p);
-// By `turbulence` outside of a warp.
+// Returns the point as `turbulence` outside of a warp moves it.
 Point3d turbulent(const Pattern& pattern, Point3d p);
 
 }  // namespace vitrail::pov
