@@ -55,10 +55,10 @@ std::optional<BsdfSample> sample(const DielectricBsdf& bsdf, Vector3d out, float
 namespace {
 
 // Of the sheet, at each wavelength, without its factor.
-SampledSpectrum sheet_reflectance(const ThinDielectricBsdf& bsdf, double cosine) {
+SampledSpectrum sheet_reflectance(const ThinDielectricBsdf& bsdf, double cosine, double q) {
   SampledSpectrum result;
   for (int i = 0; i < hero_count; ++i)
-    result[i] = lanes::sheet_reflectance(cosine, static_cast<double>(bsdf.eta[i]));
+    result[i] = lanes::sheet_reflectance(cosine, static_cast<double>(bsdf.eta[i]), q);
   return result;
 }
 
@@ -70,16 +70,16 @@ BsdfValue eval(const ThinDielectricBsdf&, Vector3d, Vector3d) { return {}; }
 
 double pdf(const ThinDielectricBsdf&, Vector3d, Vector3d) { return 0; }
 
-SampledSpectrum straight_transmittance(const ThinDielectricBsdf& bsdf, double cosine) {
-  return bsdf.transmittance_factor * complement(sheet_reflectance(bsdf, cosine));
+SampledSpectrum straight_transmittance(const ThinDielectricBsdf& bsdf, double cosine, double q) {
+  return bsdf.transmittance_factor * complement(sheet_reflectance(bsdf, cosine, q));
 }
 
-SampledSpectrum mirrored_share(const ThinDielectricBsdf& bsdf, double cosine) {
-  return bsdf.reflectance_factor * sheet_reflectance(bsdf, cosine);
+SampledSpectrum mirrored_share(const ThinDielectricBsdf& bsdf, double cosine, double q) {
+  return bsdf.reflectance_factor * sheet_reflectance(bsdf, cosine, q);
 }
 
 std::optional<BsdfSample> sample(const ThinDielectricBsdf& bsdf, Vector3d out, float u_lobe, Point2f) {
-  const SampledSpectrum r = sheet_reflectance(bsdf, std::abs(out.z));
+  const SampledSpectrum r = sheet_reflectance(bsdf, std::abs(out.z), 0);
   const SampledSpectrum reflected = bsdf.reflectance_factor * r;
   const SampledSpectrum transmitted = bsdf.transmittance_factor * complement(r);
   const double bright_r = carried(bsdf.throughput, reflected),

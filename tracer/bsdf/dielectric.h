@@ -19,7 +19,7 @@ struct DielectricBsdf {
 };
 
 // A sheet of it whose two smooth faces are too close to tell apart. With all reflections between them
-// R′ = R + T²R·(1 + R² + …) = 2R/(1 + R), and the rest goes straight through.
+// R′ = R + T²R·(1 + R² + …) = 2R/(1 + R) of light of either polarisation, and the rest goes straight through.
 struct ThinDielectricBsdf {
   SampledSpectrum eta = filled(1.5f);  // index of the sheet / of what surrounds it
   SampledSpectrum reflectance_factor = filled(1), transmittance_factor = filled(1);
@@ -37,9 +37,10 @@ BsdfValue eval(const ThinDielectricBsdf& bsdf, Vector3d out, Vector3d in);
 double pdf(const ThinDielectricBsdf& bsdf, Vector3d out, Vector3d in);
 std::optional<BsdfSample> sample(const ThinDielectricBsdf& bsdf, Vector3d out, float u_lobe, Point2f u);
 
-// What goes straight through a thin sheet, for shadow rays that look for it.
-SampledSpectrum straight_transmittance(const ThinDielectricBsdf& bsdf, double cosine);
+// What goes straight through a thin sheet, for shadow rays that look for it, of light of that Q/I
+// (tracer/panes/polarization.h).
+SampledSpectrum straight_transmittance(const ThinDielectricBsdf& bsdf, double cosine, double q = 0);
 // And what it mirrors.
-SampledSpectrum mirrored_share(const ThinDielectricBsdf& bsdf, double cosine);
+SampledSpectrum mirrored_share(const ThinDielectricBsdf& bsdf, double cosine, double q = 0);
 
 }  // namespace vitrail

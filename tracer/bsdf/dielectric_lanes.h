@@ -17,11 +17,11 @@ struct RoughDielectric {
   Four<FloatsLike<D>> reflectance_factor, transmittance_factor;
 };
 
-// What a sheet of ThinDielectricBsdf mirrors, of that index.
+// What a sheet of ThinDielectricBsdf mirrors, of that index, of light of that Q/I.
 template <class D>
-VITRAIL_LANES FloatsLike<D> sheet_reflectance(D cosine, D eta) {
-  const D r = fresnel_dielectric<D>(lanes::min(cosine, fill<D>(1)), eta);
-  return to_floats(2.0 * r / (1.0 + r));
+VITRAIL_LANES FloatsLike<D> sheet_reflectance(D cosine, D eta, D q) {
+  const Polarized<D> r = fresnel_polarized<D>(lanes::min(cosine, fill<D>(1)), eta);
+  return to_floats(part_of<D>(q, {2.0 * r.s / (1.0 + r.s), 2.0 * r.p / (1.0 + r.p)}));
 }
 
 namespace detail {

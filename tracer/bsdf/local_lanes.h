@@ -50,15 +50,46 @@ VITRAIL_LANES D attainable(D p) {
   return select<D>(p > 0, select<D>(p < 1, inside, fill<D>(1)), fill<D>(0));
 }
 
+// Of light whose field is across the plane of incidence, and in it.
 template <class D>
-VITRAIL_LANES D fresnel_dielectric(D cosine, D eta) {
+struct Polarized {
+  D s, p;
+};
+// Returns what light of that Q/I = (s − p)/(s + p), in [−1,1], keeps where s and p keep these parts.
+template <class D>
+VITRAIL_LANES D part_of(D q, Polarized<D> parts) {
+  return ((1.0 + q) * parts.s + (1.0 - q) * parts.p) / 2.0;
+}
+// And the Q of that, for an I of 1 before.
+template <class D>
+VITRAIL_LANES D polarized_part_of(D q, Polarized<D> parts) {
+  return ((1.0 + q) * parts.s - (1.0 - q) * parts.p) / 2.0;
+}
+
+// Q/I of light of these, each rounded by itself.
+template <class D>
+VITRAIL_LANES D q_of(D polarized, D all) {
+  return select<D>(all > 0, lanes::clamp<D>(polarized / all, -1.0, 1.0), fill<D>(0));
+}
+
+template <class D>
+VITRAIL_LANES Polarized<D> fresnel_polarized(D cosine, D eta) {
   const D sin2_transmitted = (1.0 - cosine * cosine) / (eta * eta);
   const D transmitted = safe_sqrt(1.0 - sin2_transmitted);
   const D s = (cosine - eta * transmitted) / (cosine + eta * transmitted);
   const D p = (eta * cosine - transmitted) / (eta * cosine + transmitted);
-  const D partial = select<D>(sin2_transmitted >= 1, fill<D>(1), (s * s + p * p) / 2.0);
-  // Also at grazing incidence, where both cosines vanish.
-  return select<D>(eta == 1, fill<D>(0), partial);
+  const Mask<D> total = sin2_transmitted >= 1;
+  // Nothing also at grazing incidence, where both cosines vanish.
+  const auto reflected = [&](D amplitude) {
+    return select<D>(eta == 1, fill<D>(0), select<D>(total, fill<D>(1), amplitude * amplitude));
+  };
+  return {reflected(s), reflected(p)};
+}
+
+template <class D>
+VITRAIL_LANES D fresnel_dielectric(D cosine, D eta) {
+  const Polarized<D> r = fresnel_polarized(cosine, eta);
+  return (r.s + r.p) / 2.0;
 }
 
 // Where false, under total internal reflection, `refracted` means nothing.

@@ -75,13 +75,17 @@ inline FaceCode encode_face(Vector3d normal) {
   return {(code.first() >> 14) << 10 | code.second() >> 14};
 }
 
+// Unit length, of either side.
+inline Vector3d decode_face(FaceCode code) {
+  const DirectionCode centre =
+      DirectionCode::of((code.bits >> 10) << 14 | 1 << 13, (code.bits & 0x3ff) << 14 | 1 << 13);
+  return cast<double>(decode_direction(centre));
+}
+
 // Whether a face is parallel to the one encoded, to 0.5°. A wedge of that angle in glass spreads the visible
 // spectrum by less than 1e-4 rad.
 inline bool is_parallel(FaceCode code, Vector3d normal) {
-  const DirectionCode centre =
-      DirectionCode::of((code.bits >> 10) << 14 | 1 << 13, (code.bits & 0x3ff) << 14 | 1 << 13);
-  const Vector3d face = cast<double>(decode_direction(centre));
-  return length(cross(face, normal)) < 0.0045;
+  return length(cross(decode_face(code), normal)) < 0.0045;
 }
 
 }  // namespace vitrail

@@ -27,8 +27,7 @@ enum class RayRecordKind : std::uint8_t { path, connection, photon, probe };
 enum RayFlags : std::uint8_t {
   ray_resolved = 4,    // the hit is certain: it is to be shaded in hit_domain
   ray_dispersed = 8,   // only the hero wavelength is left
-  ray_in_pane = 16,    // inside smooth glass: the face it entered by is known; of a connection: it walks
-                       // through panes
+  ray_in_pane = 16,    // it has a PaneRecord; of a connection: it walks through panes
   ray_passed = 32,     // went straight on at an event that had the random numbers of its depth
   ray_unrecorded = 64  // the film keeps layers of the first surface, and it is yet to be met
 };
@@ -65,11 +64,12 @@ struct SampleRecord {
   std::uint32_t all_depth() const { return (sample_depth & 0x1ff) << 8 | depth; }
 };
 
-// Of a path or photon in a pane: the face it came in through, and PaneBits.
+// Of a path or photon that comes from a smooth face of glass.
 struct PaneRecord {
-  std::uint8_t face_and_bits[3];  // the FaceCode in 20 bits, PaneBits above it
+  std::uint8_t face_and_bits[3];  // its FaceCode in 20 bits, PaneBits above it
+  std::uint8_t polarization;      // bits of its Polarization
 };
-enum PaneBits : std::uint8_t { pane_parts = 1, pane_owes = 2 };
+enum PaneBits : std::uint8_t { pane_within = 1, pane_parts = 2, pane_owes = 4 };
 
 struct PathRecord : RayRecordHead {
   SampleRecord sample;

@@ -75,9 +75,10 @@ constexpr std::uint32_t scatter(std::uint32_t depth) {
 constexpr std::uint32_t light(std::uint32_t depth) {
   return 2 + 2 * depth;
 }  // point u, v, which light, which kind
-inline constexpr std::uint32_t lens = 0xffffffffu;      // point u, v; point u, v of the sun's disc
-inline constexpr std::uint32_t time = 0xfffffffeu;      // of the shutter, where anything moves
-inline constexpr std::uint32_t material = 0xfffffffdu;  // which of a blend, at the first surface
+inline constexpr std::uint32_t lens = 0xffffffffu;          // point u, v; point u, v of the sun's disc
+inline constexpr std::uint32_t time = 0xfffffffeu;          // of the shutter, where anything moves
+inline constexpr std::uint32_t material = 0xfffffffdu;      // which of a blend, at the first surface
+inline constexpr std::uint32_t polarization = 0xfffffffcu;  // of connections through panes
 }  // namespace sample_set
 
 // Numbers in [0,1) for the choice of a material: the first is stratified over the samples of a pixel, for a

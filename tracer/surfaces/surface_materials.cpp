@@ -237,13 +237,13 @@ Bsdf Materials::bsdf_at(const Material& material, const TexturePoint& at,
 }
 
 SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interaction& at,
-                                           const SampledWavelengths& wavelengths) const {
+                                           const SampledWavelengths& wavelengths, double q) const {
   const double cosine = std::abs(dot(at.out, at.shading));
   return mixed(material, at, 1, [&](const Material& m) -> SampledSpectrum {
     if (const auto* measured = std::get_if<MeasuredMaterial>(&m.model))
       return sheet_fractions(*measured->sheet, wavelengths, cosine).transmitted;
     if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model))
-      return straight_transmittance(maker_at(at.texture_point(), wavelengths).thin(*thin), cosine);
+      return straight_transmittance(maker_at(at.texture_point(), wavelengths).thin(*thin), cosine, q);
     if (const auto* slab = std::get_if<SlabMaterial>(&m.model))
       return straight_transmittance(maker_at(at.texture_point(), wavelengths).slab(*slab), cosine);
     if (const auto* glazed = std::get_if<GlazedMaterial>(&m.model))
@@ -253,13 +253,13 @@ SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interac
 }
 
 SampledSpectrum Materials::mirrors(std::uint32_t material, const Interaction& at,
-                                   const SampledWavelengths& wavelengths) const {
+                                   const SampledWavelengths& wavelengths, double q) const {
   const double cosine = std::abs(dot(at.out, at.shading));
   return mixed(material, at, 0, [&](const Material& m) -> SampledSpectrum {
     if (const auto* measured = std::get_if<MeasuredMaterial>(&m.model))
       return sheet_fractions(*measured->sheet, wavelengths, cosine).reflected;
     if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model))
-      return mirrored_share(maker_at(at.texture_point(), wavelengths).thin(*thin), cosine);
+      return mirrored_share(maker_at(at.texture_point(), wavelengths).thin(*thin), cosine, q);
     const auto* metal = std::get_if<ConductorMaterial>(&m.model);
     if (!metal || !scatters(m, at)) return {};
     const Bsdf bsdf = maker_at(at.texture_point(), wavelengths)(*metal);

@@ -40,12 +40,13 @@ class Materials {
   // The material that a path meets: of two sides the one it sees, of a blend one by chance, of a mask the
   // material or, null, nothing: light goes straight through.
   const Material* choose(std::uint32_t material, const Interaction& at, MaterialNumbers& numbers) const;
-  // The share of the light that goes straight through, by no chance.
+  // The share of the light that goes straight through, by no chance; thin glass tells light of that Q/I
+  // (tracer/panes/polarization.h) apart.
   SampledSpectrum passes_straight(std::uint32_t material, const Interaction& at,
-                                  const SampledWavelengths& wavelengths) const;
+                                  const SampledWavelengths& wavelengths, double q = 0) const;
   // And the share that sheets and smooth metal mirror.
   SampledSpectrum mirrors(std::uint32_t material, const Interaction& at,
-                          const SampledWavelengths& wavelengths) const;
+                          const SampledWavelengths& wavelengths, double q = 0) const;
 
   // Whether a chosen material turns wavelengths into different directions.
   bool disperses(const Material& material, const Interaction& at) const {

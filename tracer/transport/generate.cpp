@@ -69,10 +69,10 @@ void pack(const Tracing&, const CameraPath& path, bool resolved, RayRecord& reco
   if (path.passed) r.kind_and_flags |= ray_passed;
   if (path.unrecorded) r.kind_and_flags |= ray_unrecorded;
   if (path.connected) r.kind_and_flags |= ray_connected;
-  if (path.pane.within) r.kind_and_flags |= ray_in_pane;
+  if (path.pane.is_known()) r.kind_and_flags |= ray_in_pane;
   r.sample = SampleRecord::of(path.film.pixel, path.film.sample, path.numbered_depth());
   r.cone = path.cone;
-  if (path.pane.within) {
+  if (path.pane.is_known()) {  // then its density is 0, and so is its way since
     r.pane = path.pane.record();
   } else {
     r.scattered.pdf = pdf_code(path.pdf);

@@ -7,6 +7,7 @@
 
 #include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/local.h"
+#include "tracer/bsdf/local_lanes.h"
 #include "tracer/transport/parting.h"
 #include "tracer/transport/photon_history.h"
 
@@ -21,12 +22,14 @@ constexpr bool is_photon = std::is_same_v<T, PhotonPath>;
 struct GlassFace {
   const Material& record;
   const DielectricMaterial& material;
-  Vector3d normal;              // on its side
-  SampledSpectrum eta;          // as of `refract`
-  double cosine = 1;            // of its way to the normal
-  double outside = 1;           // and behind the face, of the hero
-  SampledSpectrum reflectance;  // by wavelength
-  double reflects = 0;          // the chance that it is reflected
+  Vector3d normal;                       // on its side
+  SampledSpectrum eta;                   // as of `refract`
+  double cosine = 1;                     // of its way to the normal
+  double outside = 1;                    // and behind the face, of the hero
+  double q = 0;                          // Q/I that comes to it,
+  double q_reflected = 0, q_passed = 0;  // and of what it leaves
+  SampledSpectrum reflectance;           // by wavelength
+  double reflects = 0;                   // the chance that it is reflected
 
   double hero_eta() const { return static_cast<double>(eta[0]); }
   MetFace met(const Interaction& at, const SampledWavelengths& wavelengths) const {
@@ -50,14 +53,18 @@ bool passes_for_nothing(const Tracing& tracing, const PhotonPath& photon, const 
 // their angle, but share the one outside; reflectance is the same from both sides.
 double reflect_share(const Scatterer& s, GlassFace& face) {
   const bool share_outside = s.pane.within && s.pane.parts;
-  double reflected = 0, all = 0;
+  double reflected = 0, polarized = 0, all = 0;
   for (std::size_t i = 0; i < s.active_wavelengths(); ++i) {
-    const double e = static_cast<double>(face.eta.v[i]);
-    face.reflectance.v[i] = static_cast<float>(share_outside ? fresnel_dielectric(face.outside, 1 / e)
-                                                             : fresnel_dielectric(face.cosine, e));
-    reflected += static_cast<double>(s.throughput.v[i]) * static_cast<double>(face.reflectance.v[i]);
-    all += static_cast<double>(s.throughput.v[i]);
+    const double e = static_cast<double>(face.eta.v[i]), carries = static_cast<double>(s.throughput.v[i]);
+    const auto r = share_outside ? lanes::fresnel_polarized(face.outside, 1 / e)
+                                 : lanes::fresnel_polarized(face.cosine, e);
+    face.reflectance.v[i] = static_cast<float>(lanes::part_of(face.q, r));
+    reflected += carries * static_cast<double>(face.reflectance.v[i]);
+    polarized += carries * lanes::polarized_part_of(face.q, r);
+    all += carries;
   }
+  face.q_reflected = lanes::q_of(polarized, reflected);
+  face.q_passed = lanes::q_of(face.q * all - polarized, all - reflected);
   return reflected / all;
 }
 
@@ -88,7 +95,7 @@ void pass_into(const Tracing& tracing, Scatterer& s, const Interaction& at, cons
   s.pane.within = false;
   const bool parts = !in_pane && tracing.scene.materials.disperses(face.record, at) && !s.dispersed;
   if (!in_pane && at.front && !at.exterior_eta)
-    s.pane = {true, parts, false, encode_face(face.normal)};
+    s.pane = {true, parts, false, encode_face(face.normal), {}};
   else if (parts)
     s.disperse();
 }
@@ -133,11 +140,12 @@ bool scatter(const Tracing& tracing, T& t, const Event& event) {
   const Material& record = tracing.manifest().materials[event.surface.material];
   const auto& material = std::get<DielectricMaterial>(record.model);
   const Vector3d normal = materials.shading_normal(record, at) * at.side();
-  if (t.pane.within && !is_parallel(t.pane.entered_by, normal) && !leave_pane(t)) return false;
+  if (t.pane.within && !is_parallel(t.pane.face, normal) && !leave_pane(t)) return false;
   const bool spent = is_spent(tracing, t);
   if (spent && !sees_through(tracing, t, at)) return false;
   GlassFace face{record, material, normal, relative_index(material, at, t.wavelengths)};
   face.cosine = dot(at.out, normal);
+  face.q = polarization_at(t, normal);
   face.outside = safe_sqrt(1 - (1 - face.cosine * face.cosine) / (face.hero_eta() * face.hero_eta()));
   part_within(tracing, t, at, face);
 
@@ -148,10 +156,12 @@ bool scatter(const Tracing& tracing, T& t, const Event& event) {
   bool for_nothing = false;
   if (static_cast<double>(u[2]) < face.reflects) {
     reflect_at(tracing, t, event, face, direction);
+    t.pane.meet(normal, face.q_reflected, u[0]);
   } else {
     if (!refract(at.out, normal, face.hero_eta(), direction)) return false;
     for_nothing = passes_for_nothing(tracing, t, at);
     refract_at(tracing, t, event, face, direction);
+    t.pane.meet(normal, face.q_passed, u[0]);
   }
   if constexpr (is_photon<T>) t.throughput = t.throughput * adjoint_of_shading(at, normal, direction);
   if (is_black(t.throughput) || !count_event(tracing, t, u[3], for_nothing)) return false;

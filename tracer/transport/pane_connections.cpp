@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tracer/bsdf/local.h"
+#include "tracer/bsdf/local_lanes.h"
 #include "tracer/panes/parallel_faces.h"
 #include "tracer/transport/connection.h"
 #include "tracer/transport/parting.h"
@@ -54,6 +55,13 @@ bool walks_on(Connection& connection) {
 
 namespace {
 
+// Q/I of a connection (polarization.h): it is s or p, half of the samples of a pixel each. So R is what
+// guides its walk without noise. Faces that are not parallel to others are met by both.
+double polarization_of(const Connection& connection, bool parallel) {
+  if (!parallel) return 0;
+  return sample_4d(connection.key, sample_set::polarization, Wanted::two)[0] < 0.5f ? 1 : -1;
+}
+
 enum class AtFace : std::uint8_t { ends, passes, turns };
 
 // Chooses whether the face turns a walk, and weighs it; where the face is not parallel to those that it has
@@ -77,13 +85,15 @@ AtFace walk_at(Connection& connection, const FaceLight<SampledSpectrum>& face, b
   return turns ? AtFace::turns : AtFace::passes;
 }
 
-// What a smooth face reflects and lets through; `outside`: the cosine in the medium that `eta` is seen from.
+// What a smooth face reflects and lets through of light of that Q/I; `outside`: the cosine in the medium that
+// `eta` is seen from.
 FaceLight<SampledSpectrum> light_at(const Tracing& tracing, const Connection& connection,
                                     const Interaction& at, const DielectricMaterial& material, double outside,
-                                    const SampledSpectrum& eta) {
+                                    const SampledSpectrum& eta, double q) {
   FaceLight<SampledSpectrum> face;
   for (std::size_t i = 0; i < hero_count; ++i)
-    face.reflected.v[i] = static_cast<float>(fresnel_dielectric(outside, static_cast<double>(eta.v[i])));
+    face.reflected.v[i] = static_cast<float>(
+        lanes::part_of(q, lanes::fresnel_polarized(outside, static_cast<double>(eta.v[i]))));
   const auto factor = [&](const SpectrumParameter& p) {
     return tracing.scene.textures.spectrum(p, at.texture_point(), connection.wavelengths);
   };
@@ -122,8 +132,9 @@ bool walk_interface(Tracing& tracing, Connection& connection, const Interaction&
   const bool anew = way.is_in || way.is_out;
   const double outside = std::abs(dot(anew ? way.to_light : at.out, normal));
   const SampledSpectrum seen = way.is_out ? inverse_of(eta) : eta;
+  const double q = polarization_of(connection, way.holds());
   const AtFace event =
-      walk_at(connection, light_at(tracing, connection, at, material, outside, seen), way.holds());
+      walk_at(connection, light_at(tracing, connection, at, material, outside, seen, q), way.holds());
   if (event == AtFace::ends || (event == AtFace::passes && !way.passes)) return false;
   const bool is_beyond = way.is_out && leaves && event == AtFace::passes;
   if (is_beyond && !connection.dispersed && tracing.scene.materials.disperses(record, at)) {
@@ -142,13 +153,6 @@ bool walk_sheet(const Tracing& tracing, Connection& connection, const Interactio
                 const Surface& surface) {
   Interaction other = at;
   other.front = !at.front, other.out = -at.out;
-  const auto straight = [&](const Interaction& side) {
-    return tracing.scene.materials.passes_straight(surface.material, side, connection.wavelengths);
-  };
-  const auto mirrored = [&](const Interaction& side) {
-    return tracing.scene.materials.mirrors(surface.material, side, connection.wavelengths);
-  };
-  const FaceLight<SampledSpectrum> face{mirrored(at), straight(at), mirrored(other), straight(other)};
   const Vector3d normal = at.shading * at.side();
   const double face_rad = face_doubt(tracing, connection, at, surface, normal);
   RefractedAim aim = connection.refracted;
@@ -161,7 +165,15 @@ bool walk_sheet(const Tracing& tracing, Connection& connection, const Interactio
                       way = parallel_way(-at.out, back, to_light, {normal}, doubt.allowed_rad());
                       return way.holds();
                     });
-  const AtFace event = walk_at(connection, face, way.holds());
+  const double q = polarization_of(connection, way.holds());
+  const auto straight = [&](const Interaction& side) {
+    return tracing.scene.materials.passes_straight(surface.material, side, connection.wavelengths, q);
+  };
+  const auto mirrored = [&](const Interaction& side) {
+    return tracing.scene.materials.mirrors(surface.material, side, connection.wavelengths, q);
+  };
+  const AtFace event =
+      walk_at(connection, {mirrored(at), straight(at), mirrored(other), straight(other)}, way.holds());
   if (event == AtFace::ends) return false;
   if (event == AtFace::passes) {
     continue_straight(tracing, connection, at, &surface);

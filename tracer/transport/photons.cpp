@@ -121,7 +121,7 @@ bool shade_event(Tracing& tracing, PhotonPath& photon, const Event& event) {
     pass_straight(tracing, photon, at, &event.surface);
     return true;
   }
-  if ((at.front || !event.kind.smooth_dielectric) && !leave_pane(photon)) return false;
+  if (!come_to(photon, event)) return false;
   // Before chance decides what of the surface is met: it decides once more for the path that gathers.
   if (event.kind.diffuse && !tracing.photons->sensors && !is_connected_to(tracing, photon))
     land(tracing, photon, cast<float>(at.p), photon.direction);
@@ -205,7 +205,7 @@ void pack(const Tracing&, const PhotonPath& photon, bool resolved, RayRecord& re
       (photon.refracted ? photon_refracted : 0) | (photon.scattered ? photon_scattered : 0) |
       (photon.counted ? photon_counted : 0) | photon.doubt.code << photon_doubt_shift);
   r.walk = static_cast<std::uint8_t>(photon.walk.bits());
-  if (photon.pane.within) {
+  if (photon.pane.is_known()) {  // then its density is 0
     r.kind_and_flags |= ray_in_pane;
     r.pane = photon.pane.record();
   } else {

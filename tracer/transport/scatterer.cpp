@@ -112,6 +112,11 @@ void count_straight(const Tracing& tracing, PhotonPath& photon) {
   photon.counted = true;
 }
 
+double polarization_at(const Scatterer& s, Vector3d normal) {
+  if (s.pane.polarization.code == 0) return 0;
+  return seen_by_face(s.pane.polarization, decode_face(s.pane.face), cast<double>(s.ray.direction), normal);
+}
+
 namespace {
 
 float survival(const Tracing& tracing, const Scatterer& s) {

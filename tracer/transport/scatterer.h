@@ -3,31 +3,46 @@
 #pragma once
 
 #include "tracer/panes/pane_walk.h"
+#include "tracer/panes/polarization.h"
 #include "tracer/rays/connection_code.h"
 #include "tracer/transport/traveller.h"
 
 namespace vitrail {
 
-// Inside smooth glass whose far face may be parallel to the one that it came in through. Wavelengths go on
-// together until they meet a face that is not.
+// What is known of the last smooth face of glass. Within glass its far face may be parallel to that:
+// wavelengths go on together until they meet a face that is not.
 struct PaneState {
   bool within = false;
-  bool parts = false;   // its wavelengths part but at a face parallel to that,
-  bool owes = false;    // and it counts as scattered there then
-  FaceCode entered_by;  // the face it came in through
+  bool parts = false;         // its wavelengths part but at a face parallel to that,
+  bool owes = false;          // and it counts as scattered there then
+  FaceCode face;              // the one it came in through; where it is not within, the last
+  Polarization polarization;  // by the faces up to that
+
+  bool is_known() const { return within || polarization.code != 0; }
+  // Lets a face of that normal, on its side, leave a ray polarised so; u in [0,1) rounds it.
+  void meet(Vector3d normal, double q, float u) {
+    if (!within) face = encode_face(normal);
+    polarization = Polarization::rounded(q, u);
+  }
 
   PaneRecord record() const {
-    std::uint32_t code = entered_by.bits;
+    std::uint32_t code = face.bits;
+    if (within) code |= std::uint32_t{pane_within} << FaceCode::length;
     if (parts) code |= std::uint32_t{pane_parts} << FaceCode::length;
     if (owes) code |= std::uint32_t{pane_owes} << FaceCode::length;
     return {{static_cast<std::uint8_t>(code), static_cast<std::uint8_t>(code >> 8),
-             static_cast<std::uint8_t>(code >> 16)}};
+             static_cast<std::uint8_t>(code >> 16)},
+            static_cast<std::uint8_t>(polarization.bits())};
   }
   static PaneState of(const PaneRecord& r) {
     const auto& byte = r.face_and_bits;
     const std::uint32_t code = byte[0] | std::uint32_t{byte[1]} << 8 | std::uint32_t{byte[2]} << 16;
     const std::uint32_t bits = code >> FaceCode::length;
-    return {true, (bits & pane_parts) != 0, (bits & pane_owes) != 0, {code & ((1u << FaceCode::length) - 1)}};
+    return {(bits & pane_within) != 0,
+            (bits & pane_parts) != 0,
+            (bits & pane_owes) != 0,
+            {code & ((1u << FaceCode::length) - 1)},
+            Polarization::of(r.polarization)};
   }
 };
 
@@ -76,6 +91,8 @@ std::array<float, 4> numbers_for_scattering(const Scatterer& s, Wanted wanted = 
 // counts. False where that was one scattering too many.
 bool leave_pane(CameraPath& path);
 bool leave_pane(PhotonPath& photon);
+// Q/I where it meets a face of that normal.
+double polarization_at(const Scatterer& s, Vector3d normal);
 
 // Photons have the cones of a first sample.
 inline std::uint32_t sample_of(const CameraPath& path) { return path.film.sample; }
@@ -111,6 +128,13 @@ void pass_straight(const Tracing& tracing, PhotonPath& photon, const Interaction
 // Counts that it goes straight on, where that counts: through a sheet, or what is not there of it.
 void count_straight(const Tracing& tracing, CameraPath& path);
 void count_straight(const Tracing& tracing, PhotonPath& photon);
+// At a surface: only the far face of a pane lets the wavelengths out the way they came in, and only smooth
+// glass keeps their polarisation. False as of leave_pane.
+template <class T>
+bool come_to(T& t, const Event& event) {
+  if (!event.kind.smooth_dielectric) t.pane.polarization = {};
+  return (!event.at.front && event.kind.smooth_dielectric) || leave_pane(t);
+}
 // An event after which it goes on as it came.
 template <class T>
 void scatter_straight(const Tracing& tracing, T& t, const Event& event) {

@@ -48,6 +48,7 @@ bool scatter_in_medium(Tracing& tracing, CameraPath& path, double g, Point3d p, 
     record_first_medium(tracing, path);
   if (is_spent(tracing, path)) return false;
   if (!leave_pane(path)) return false;
+  path.pane.polarization = {};
   const Vector3d out = normalize(-cast<double>(path.ray.direction));
   const Departure from{p, cast<float>(p), no_triangle, path.inside};
   const std::uint32_t candidates = light_candidates(tracing, path, p, true);
@@ -156,8 +157,7 @@ bool shade_surface(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
     pass_straight(tracing, path, at, &event.surface);
     return true;
   }
-  // Only the far face of a pane lets the wavelengths out the way they came in.
-  if ((at.front || !event.kind.smooth_dielectric) && !leave_pane(path)) return false;
+  if (!come_to(path, event)) return false;
   if (event.surface.area_light >= 0)
     add_emission(tracing, path, at, static_cast<std::uint32_t>(event.surface.area_light));
   if (event.kind.is_nothing(at)) {

@@ -9,8 +9,8 @@
 
 #include "scene/geometry/portable_math.h"
 #include "tests/laws/light/flat_scenes.h"
+#include "tests/support/polarised.h"
 #include "tests/support/temporary_directory.h"
-#include "tracer/bsdf/local.h"
 
 namespace vitrail::test::means_of_sheets_test {
 namespace {
@@ -51,10 +51,14 @@ Mean seen_through(const std::vector<Material>& sheets, double theta_deg, float x
 }
 
 Sheet thin_glass(double theta_deg) {
-  const double face = fresnel_dielectric(direction(theta_deg).z, 1.5), r = 2 * face / (1 + face);
+  const double r = over_polarisations([&](Fresnel f) {
+    const double face = f(direction(theta_deg).z, 1.5);
+    return 2 * face / (1 + face);
+  });
   return {r, 1 - r};
 }
 
+// A path meets each sheet as unpolarised light does.
 TEST(StackedSheets, OfThinGlass) {
   const Material glass{ThinDielectricMaterial{}};
   for (const double theta : {0.0, 60.0, 85.0})

@@ -12,6 +12,7 @@
 #include "scene/models/sensor_file.h"
 #include "tests/laws/light/media_scenes.h"
 #include "tests/support/long_tests.h"
+#include "tests/support/polarised.h"
 #include "tests/support/render.h"
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/local.h"
@@ -119,8 +120,9 @@ TEST(SensorsByPhotons, CausticOfABall) {
       const double turned = 2 * (in - within), around = 2 * within - in;
       // It leaves at the angle `around` from the lowest point, and goes down at `turned` towards the axis.
       const double x = std::sin(around), z = below - std::cos(around);
-      const double passes = 1 - fresnel_dielectric(std::cos(in), eta);
-      if (std::abs(x - z * std::tan(turned)) < r) flux += passes * passes * 2 * pi * h / rings;
+      const double passes =
+          over_polarisations([&](Fresnel f) { return std::pow(1 - f(std::cos(in), eta), 2); });
+      if (std::abs(x - z * std::tan(turned)) < r) flux += passes * 2 * pi * h / rings;
     }
     return photometric(flux / (pi * r * r));
   };

@@ -10,8 +10,8 @@
 namespace vitrail::test::picture_revision_test {
 namespace {
 
-constexpr std::uint32_t known_revision = 19;
-constexpr const char* known_pictures = "1c3cb27d5f757be6";
+constexpr std::uint32_t known_revision = 20;
+constexpr const char* known_pictures = "7264be6b7c0f472d";
 
 std::array<Point3f, 4> tile(float x, float z) {
   return {{{x, 0, z}, {x + 1, 0, z}, {x + 1, 1, z + 0.2f}, {x, 1, z + 0.2f}}};

@@ -7,6 +7,7 @@
 
 #include "tests/laws/scattering/bsdf_laws.h"
 #include "tests/laws/scattering/rough_cases.h"
+#include "tests/support/polarised.h"
 #include "tracer/bsdf/local.h"
 
 namespace vitrail::dielectric_laws_test {
@@ -104,14 +105,19 @@ TEST(DielectricLaws, ThinSheetSumsItsReflections) {
       ASSERT_TRUE(reflected);
       EXPECT_EQ(reflected->in, (Vector3d{-out.x, -out.y, out.z}));
       for (int i = 0; i < hero_count; ++i) {
-        const double r = fresnel_dielectric(above.z, static_cast<double>(sheet.eta[i])), t = 1 - r;
-        double sum = r;
-        for (int k = 0; k < 4000; ++k) sum += t * t * r * std::pow(r, 2 * k);
+        const auto reflected_by = [&](double eta) {
+          return test::over_polarisations([&](test::Fresnel f) {
+            const double r = f(above.z, eta), t = 1 - r;
+            double all = r;
+            for (int k = 0; k < 4000; ++k) all += t * t * r * std::pow(r, 2 * k);
+            return all;
+          });
+        };
+        const double sum = reflected_by(static_cast<double>(sheet.eta[i]));
         EXPECT_NEAR(straight_transmittance(sheet, above.z)[i], 1 - sum, 1e-4);
         // The chance of each is what its weight divides by.
         const double brightest = static_cast<double>(reflected->weight[2]);
-        EXPECT_NEAR(static_cast<double>(reflected->weight[i]) / brightest,
-                    sum / (2 * fresnel_dielectric(above.z, 4) / (1 + fresnel_dielectric(above.z, 4))), 1e-3);
+        EXPECT_NEAR(static_cast<double>(reflected->weight[i]) / brightest, sum / reflected_by(4), 1e-3);
       }
       if (through && through->in.z * out.z < 0) {
         EXPECT_EQ(through->in, -out);

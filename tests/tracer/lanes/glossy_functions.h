@@ -98,7 +98,7 @@ LANE_FUNCTION(coating, 15, 22) {
   put(lanes::sample_coating(coating, from, in.d(12), in.f(13), in.f(14)));
 }
 // A cosine, an index.
-LANE_FUNCTION(sheet, 2, 1) { out.number(lanes::sheet_reflectance(in.d(0), in.d(1))); }
+LANE_FUNCTION(sheet, 3, 1) { out.number(lanes::sheet_reflectance(in.d(0), in.d(1), in.d(2))); }
 // Widths and kinds, four of each factor, index, two directions, three numbers.
 LANE_FUNCTION(rough_dielectric, 22, 15) {
   const lanes::RoughDielectric<lanes::Doubles<W>> bsdf{in.d(12), microfacets_of(in, 0), four_of(in, 4),

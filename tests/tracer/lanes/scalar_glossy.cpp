@@ -167,11 +167,11 @@ std::vector<ScalarFunction> glossy_functions() {
          put(sample(bsdf, from, static_cast<float>(in[19]), numbers_of(in + 20)), results);
        }},
       {"sheet",
-       {number(0, 1, {0, 1}), float_number(0.4, 2.5, {1, 1.5})},
+       {number(0, 1, {0, 1}), float_number(0.4, 2.5, {1, 1.5}), number(-1, 1, {-1, 0, 1})},
        [](const Context&, const double* in, double* out) {
          ThinDielectricBsdf bsdf;
          bsdf.eta = filled(static_cast<float>(in[1]));
-         Results{out} << static_cast<double>(mirrored_share(bsdf, in[0])[0]);
+         Results{out} << static_cast<double>(mirrored_share(bsdf, in[0], in[2])[0]);
        }},
       {"plastic", plastic,
        [](const Context&, const double* in, double* out) {

@@ -12,6 +12,7 @@
 #include "tracer/bsdf/local.h"
 #include "tracer/rays/connection_code.h"
 #include "tracer/sampling/wavelengths.h"
+#include "tracer/transport/scatterer.h"
 
 namespace vitrail::ray_records_test {
 namespace {
@@ -120,6 +121,37 @@ TEST(Records, RoundingByChanceHasTheValueAsItsMean) {
     const float rounded = rounded_distance(value, 0x1234);
     EXPECT_EQ(distance_value(distance_code(rounded)), rounded);
   }
+}
+
+TEST(Records, PolarisationSurvivesItsCode) {
+  for (int code = -Polarization::steps; code <= Polarization::steps; ++code) {
+    const PaneState pane{
+        code % 2 == 0, code % 3 == 0, code % 5 == 0, {0xabcde}, {static_cast<std::int8_t>(code)}};
+    const PaneState back = PaneState::of(pane.record());
+    EXPECT_EQ(back.polarization.code, code);
+    EXPECT_EQ(back.within, pane.within);
+    EXPECT_EQ(back.parts, pane.parts);
+    EXPECT_EQ(back.owes, pane.owes);
+    EXPECT_EQ(back.face.bits, 0xabcdeu);
+    EXPECT_EQ(back.is_known(), pane.within || code != 0);
+  }
+}
+
+// Rounded by chance its mean is what it was; where the plane of incidence turns, it turns twice as far.
+TEST(Polarization, RoundsAndTurns) {
+  for (const double q : {-1.0, -0.777, 0.0, 0.01, 0.5, 1.0}) {
+    double mean = 0;
+    for (int i = 0; i < 1000; ++i)
+      mean += Polarization::rounded(q, (static_cast<float>(i) + 0.5f) / 1000).value() / 1000;
+    EXPECT_NEAR(mean, q, 1e-4);
+  }
+  const Vector3d d{0, 0, -1};
+  const Polarization s{Polarization::steps};
+  for (const double turned : {0.0, 0.3, pi / 4, pi / 2}) {
+    const Vector3d before{0.6, 0, 0.8}, n{0.8 * std::cos(turned), 0.8 * std::sin(turned), -0.6};
+    EXPECT_NEAR(seen_by_face(s, before, d, n), std::cos(2 * turned), 1e-12);
+  }
+  EXPECT_EQ(seen_by_face(s, {0, 0, 1}, d, {0.6, 0, 0.8}), 0);
 }
 
 TEST(Records, ThroughputSurvivesItsCode) {

@@ -117,13 +117,19 @@ void pass_sheet(LaneWork& work, CameraPath& path, const SheetHit& hit, const Sam
                    {surface, work.tracing.scene.materials.kind(surface.material), at, true});
 }
 
-void cross_face(CameraPath& path, Vector3d normal, bool front, bool reflected) {
+double polarization_at(const CameraPath& path, Vector3d normal) {
+  return vitrail::polarization_at(path, normal);
+}
+
+void cross_face(CameraPath& path, const CrossedFace& face) {
   PaneState& pane = path.pane;
   // Only the far face of a pane is one of it.
-  if (front || !is_parallel(pane.entered_by, normal)) pane.within = false;
-  if (reflected) return;
-  pane = {};
-  if (front) pane = {true, false, false, encode_face(normal)};
+  if (face.front || !is_parallel(pane.face, face.normal)) pane.within = false;
+  if (!face.reflected) {
+    pane = {};
+    if (face.front) pane = {true, false, false, encode_face(face.normal), {}};
+  }
+  pane.meet(face.normal, face.q, face.u);
 }
 
 }  // namespace lane_by_lane

@@ -152,8 +152,17 @@ struct SheetHit {
   bool front;
 };
 void pass_sheet(LaneWork& work, CameraPath& path, const SheetHit& hit, const SampledSpectrum& throughput);
-// At a face of glass of one index, whose normal is on the path's side: whether the path is in a pane then.
-void cross_face(CameraPath& path, Vector3d normal, bool front, bool reflected);
+// As vitrail::polarization_at.
+double polarization_at(const CameraPath& path, Vector3d normal);
+// A face of glass of one index.
+struct CrossedFace {
+  Vector3d normal;  // on the path's side
+  bool front, reflected;
+  double q;  // Q/I behind it,
+  float u;   // and what rounds it
+};
+// What is known of it then.
+void cross_face(CameraPath& path, const CrossedFace& face);
 
 }  // namespace lane_by_lane
 

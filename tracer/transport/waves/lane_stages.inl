@@ -101,11 +101,14 @@ void scatter_glass(LaneWork& work, const LaneList& list) {
             before = gather<F>(VITRAIL_EACH(g.material[j]->eta_before));
     const D eta = to_doubles(select<F>(mask_for<F>(at.front), behind / before, before / behind));
     const D cosine = dot(at.out, normal);
-    const F reflectance = to_floats(fresnel_dielectric(cosine, eta));
-    D reflected = fill<D>(0), all = fill<D>(0);
+    const D q = gather<D>(VITRAIL_EACH(lane_by_lane::polarization_at(*g.path[j], lane(normal, j))));
+    const Polarized<D> r = fresnel_polarized(cosine, eta);
+    const F reflectance = to_floats(part_of(q, r));
+    D reflected = fill<D>(0), polarized = fill<D>(0), all = fill<D>(0);
     for (int i = 0; i < 4; ++i) {
       const D carries = to_doubles(carried.throughput[i]);
       reflected = reflected + carries * to_doubles(reflectance);
+      polarized = polarized + carries * polarized_part_of(q, r);
       all = all + carries;
     }
     const D reflects = attainable(reflected / all);
@@ -126,9 +129,12 @@ void scatter_glass(LaneWork& work, const LaneList& list) {
         throughput[i] = throughput[i] * select<F>(mask_for<F>(goes_back), of_reflected[i], of_passed[i]);
     }
     const Mask<F> lives = mask_for<F>(goes_back | passes) & (greatest(throughput) > 0);
+    const D q_behind =
+        select<D>(goes_back, q_of(polarized, reflected), q_of(q * all - polarized, all - reflected));
     for (int j = 0; j < g.valid; ++j)
       if (is_set(lives, j))
-        lane_by_lane::cross_face(*g.path[j], lane(normal, j), is_set(at.front, j), is_set(goes_back, j));
+        lane_by_lane::cross_face(*g.path[j], {lane(normal, j), is_set(at.front, j), is_set(goes_back, j),
+                                              lane(q_behind, j), lane(u[0], j)});
     go_on(work, g, carried, at, lives, direction, throughput, fill<F>(0), Mask<F>{});
   }
 }
@@ -142,7 +148,7 @@ void scatter_sheet(LaneWork& work, const LaneList& list) {
     const Frame<D> frame = frame_around(at.shading, fill<D>(Vector3d{}), fill<D>(1));
     const Vector<D> out = frame.to_local(at.out);
     const D eta = to_doubles(gather<F>(VITRAIL_EACH(g.material[j]->eta_behind)));
-    const F reflectance = sheet_reflectance(abs(out.z), eta);
+    const F reflectance = sheet_reflectance(abs(out.z), eta, fill<D>(0));
     Four<F> reflected = spectrum_of(g, 0), passed = spectrum_of(g, 1);
     D bright_r = fill<D>(0), bright_t = fill<D>(0);
     for (int i = 0; i < 4; ++i) {
