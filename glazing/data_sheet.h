@@ -51,7 +51,7 @@ struct DataSheetState {
 // A glazing in each of its states.
 struct DataSheet {
   GlazingSystem system;
-  Polarisation polarisation = Polarisation::mixed_at_panes;
+  Polarisation polarisation = Polarisation::apart;
   std::string why_no_heat;  // empty where there is
   std::vector<DataSheetState> states;
   std::vector<PaneScattering> scattering;

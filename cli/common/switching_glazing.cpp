@@ -166,7 +166,7 @@ std::vector<SetSheet> sheets_under(const std::vector<GlazingSetting>& settings,
       if (settings[i].name == glazing.name && set(system, settings[i].quantity, settings[i].value))
         any = used[i] = true;
     if (!any) continue;
-    const GlazingSheets made = sheets_of(system, Polarisation::mixed_at_panes);
+    const GlazingSheets made = sheets_of(system, Polarisation::apart);
     for (const auto& [front, back] : glazing.sheets) {
       sheets.push_back({front, made.front});
       sheets.push_back({back, made.back});

@@ -30,7 +30,7 @@ struct Arguments {
   std::filesystem::path csv, report, energyplus;
   std::vector<std::string> gaps;
   std::optional<double> state, temperature_c;
-  bool polarised = false, json = false, force = false;
+  bool unpolarised = false, json = false, force = false;
 };
 
 void add_options(CLI::App& app, Arguments& a) {
@@ -52,7 +52,9 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--sampling", a.sampling,
                  "which wavelengths: full and condensed as in WinCalc, standard as in Optics and the IGSDB")
       ->check(CLI::IsMember({"full", "condensed", "standard"}));
-  app.add_flag("--polarised", a.polarised, "keep polarisations apart between panes; WINDOW takes their mean");
+  app.add_flag("--unpolarised", a.unpolarised,
+               "take the mean of both polarisations at each pane, as WINDOW does");
+  app.add_flag("--polarised")->group("");  // what is so without it now
   app.add_option("--csv", a.csv, "write the spectra here");
   app.add_option("--report", a.report, "write a data sheet here, a page (.html) or JSON (.json)");
   app.add_option("--energyplus", a.energyplus,
@@ -128,7 +130,7 @@ int run(const Arguments& a) {
   ReadSystem input = read(a);
   const GlazingSystem& system = input.system;
   const Standard standard = a.standard.empty() ? nfrc_2003() : read_standard(a.standard);
-  const Polarisation polarisation = a.polarised ? Polarisation::apart : Polarisation::mixed_at_panes;
+  const Polarisation polarisation = a.unpolarised ? Polarisation::mixed_at_panes : Polarisation::apart;
   const std::vector<double> nm = common_wavelengths(system);
   if (const std::string held = held_note(system, 300, 2500); !held.empty()) input.notes.push_back(held);
   for (std::string& note : scattering_notes(system)) input.notes.push_back(std::move(note));

@@ -102,7 +102,7 @@ const std::vector<Heading> of_plan{
 
 const std::vector<Heading> of_glazing{
     {"Which panes", "files=FILE flip=PANE gap=MM[:GAS] state temperature=CELSIUS"},
-    {"How to evaluate them", "theta=DEGREES standard=FILE sampling polarised"},
+    {"How to evaluate them", "theta=DEGREES standard=FILE sampling unpolarised"},
     {"What to write", "report=FILE energyplus=FILE csv=FILE json force"},
 };
 

@@ -18,7 +18,7 @@ GlazingModel glazing_model(const std::string& file, const std::function<Id<Mater
   if (const std::string held = held_note(read.system, lambda_min_nm, lambda_max_nm); !held.empty())
     read.notes.push_back(file + ": " + held);
   for (const std::string& note : scattering_notes(read.system)) read.notes.push_back(file + ": " + note);
-  GlazingSheets sheets = sheets_of(read.system, Polarisation::mixed_at_panes);
+  GlazingSheets sheets = sheets_of(read.system, Polarisation::apart);
   MeasuredMaterial front{file, std::move(sheets.front)}, back{file, std::move(sheets.back)};
   // Sides that are alike in this state may differ in another.
   if (front == back && !switches(read.system)) return {std::move(front), std::move(read.notes)};

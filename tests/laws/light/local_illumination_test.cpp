@@ -51,7 +51,7 @@ double transmitted(const std::string& file, int panes, double cosine) {
   std::vector<std::array<double, 2>> samples;
   for (double nm = lambda_min_nm; nm <= lambda_max_nm; ++nm)
     samples.push_back(
-        {nm, std::pow(system_values(system, nm, cosine, Polarisation::mixed_at_panes).t, panes)});
+        {nm, std::pow(system_values(system, nm, cosine, Polarisation::apart).t, panes)});
   return luminance(Spectrum{tabulate(samples, true)});
 }
 

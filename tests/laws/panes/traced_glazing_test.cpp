@@ -44,7 +44,7 @@ double expected(const std::string& file, double theta_deg, auto value) {
   std::vector<std::array<double, 2>> samples;
   for (double nm = lambda_min_nm; nm <= lambda_max_nm; ++nm)
     samples.push_back({nm, value(system_values(system, nm, std::cos(theta_deg * std::numbers::pi / 180),
-                                               Polarisation::mixed_at_panes))});
+                                               Polarisation::apart))});
   return luminance(Spectrum{tabulate(samples, true)});
 }
 
