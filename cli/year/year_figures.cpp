@@ -87,19 +87,54 @@ bool is_sunlit(const YearHour& hour, std::span<const float> beams) {
   return hour.sun && hour.direct_normal_lx * static_cast<double>(beams[*hour.sun]) > enough_sun_lx;
 }
 
-HourLux hour_lux(const SkyYear& year, const YearHour& hour, const SensorState& state) {
-  HourLux result;
-  if (!hour.sky) return result;
-  const std::span<const float> sky = year.sky_of(hour);
-  float sky_variance = 0;
+struct SkyLux {
+  Years lux{};
+  float variance = 0, melanopic = 0;
+};
+
+// Of some hours at once, since the coefficients are what has to be fetched. All years are added alike, so
+// each set of instructions has the same bits.
+constexpr std::size_t hours_at_once = 4;
+[[gnu::target_clones("avx512f", "avx2", "default")]] void add_skies(
+    const std::array<std::span<const float>, hours_at_once>& skies, const SensorState& state,
+    std::array<SkyLux, hours_at_once>& all) {
+  float lux[hours_at_once][years]{};  // by no pointer, so that they stay in registers
   for (std::size_t i = 0; i < state.patches.size(); ++i) {
-    const Years& c = state.sky[i];
-    const float luminance = sky[state.patches[i]], off = luminance * state.sky_errors[i];
-    for (std::size_t r = 0; r < years; ++r) result.lux[r] += luminance * c[r];
-    sky_variance += off * off;
-    result.melanopic += luminance * state.melanopic[i];
+    const float* const c = state.sky[i].data();
+    for (std::size_t h = 0; h < hours_at_once; ++h) {
+      const float luminance = skies[h][state.patches[i]], off = luminance * state.sky_errors[i];
+      for (std::size_t r = 0; r < years; ++r) lux[h][r] += luminance * c[r];
+      all[h].variance += off * off;
+      all[h].melanopic += luminance * state.melanopic[i];
+    }
   }
-  auto variance = static_cast<double>(sky_variance);
+  for (std::size_t h = 0; h < hours_at_once; ++h) std::ranges::copy(lux[h], all[h].lux.begin());
+}
+
+// Of each hour, with the glass as it is then. Most of the time of a year's figures.
+std::vector<SkyLux> sky_lux(const SkyYear& year, const std::vector<SensorState>& of_states,
+                            const std::vector<std::size_t>& of_hours) {
+  std::vector<SkyLux> lux(year.hours.size());
+  for (std::size_t state = 0; state < of_states.size(); ++state) {
+    std::vector<std::size_t> hours;
+    for (std::size_t h = 0; h < year.hours.size(); ++h)
+      if (year.hours[h].sky && of_hours[h] == state) hours.push_back(h);
+    for (std::size_t first = 0; first < hours.size(); first += hours_at_once) {
+      const auto hour = [&](std::size_t k) { return hours[std::min(first + k, hours.size() - 1)]; };
+      std::array<std::span<const float>, hours_at_once> skies;
+      std::array<SkyLux, hours_at_once> all{};
+      for (std::size_t k = 0; k < hours_at_once; ++k) skies[k] = year.sky_of(year.hours[hour(k)]);
+      add_skies(skies, of_states[state], all);
+      for (std::size_t k = 0; k < hours_at_once; ++k) lux[hour(k)] = all[k];
+    }
+  }
+  return lux;
+}
+
+HourLux hour_lux(const YearHour& hour, const SkyLux& sky, const SensorState& state) {
+  if (!hour.sky) return {};
+  HourLux result{sky.lux, 0, sky.melanopic};
+  auto variance = static_cast<double>(sky.variance);
   if (hour.sun) {
     const auto lx = static_cast<float>(hour.direct_normal_lx);
     for (std::size_t r = 0; r < years; ++r) result.lux[r] += lx * state.suns[*hour.sun][r];
@@ -280,8 +315,9 @@ SensorYear sensor_year(const SkyYear& year, const NearSuns& near,
       figure(Figure::daylight_factor)[r] +=
           static_cast<double>(year.overcast[usual.patches[i]] * usual.sky[i][r]);
   const double a_use = uses > 0 ? 1 / uses : 0, a_daylight = daylight > 0 ? 1 / daylight : 0;
+  const std::vector<SkyLux> skies = sky_lux(year, of_states, states.of_hours);
   for (std::size_t h = 0; h < year.hours.size(); ++h) {
-    const HourLux lux = hour_lux(year, year.hours[h], of_states[states.of_hours[h]]);
+    const HourLux lux = hour_lux(year.hours[h], skies[h], of_states[states.of_hours[h]]);
     result.lux.push_back(lux.lux[0]), result.error.push_back(lux.error);
     result.melanopic.push_back(std::max(lux.melanopic, 0.0f));
     // The other years have the hour's ratio.

@@ -84,7 +84,7 @@ void trace(Transport& transport, const YearArguments& a, RenderOptions o, const 
            CoefficientKind kind, double share) {
   o.outputs.film = film_of(a, state.name, kind);
   // The sun alone differs between the samples of an hour by their wavelengths, and at the edges of shadows.
-  constexpr int beam_samples = 32;
+  constexpr int beam_samples = 16;
   const std::size_t rows = o.picture.daylight->count();
   o.picture.samples_per_pixel =
       even(share * (kind == CoefficientKind::sky         ? a.sky_paths / static_cast<double>(rows)
