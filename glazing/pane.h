@@ -34,8 +34,7 @@ PaneValues coated_glass(PaneValues normal, double cosine);
 struct MeasuredPane {
   OpticalRows rows;
   PaneKind kind = PaneKind::clear;
-  OpticalRows
-      scattered{};  // the part of `rows` that leaves in all directions; values_at has it go straight on
+  OpticalRows scattered{};  // the part of `rows` that leaves in all directions (system.h); values_at has all
 };
 
 // Thick sheets that light passes without interference, with coherent films on their faces, from outside. All

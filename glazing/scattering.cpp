@@ -44,8 +44,8 @@ std::vector<std::string> scattering_notes(const GlazingSystem& system) {
     const PaneValues &all = of.visible, &part = of.visible_scattered;
     notes.push_back(fmt::format(
         "pane {} scatters {:.3f} of its T {:.3f}, {:.3f} of its R outside {:.3f} and {:.3f} of its R inside "
-        "{:.3f} (light, at the normal): between panes, at other angles and in pictures all of it goes "
-        "straight on",
+        "{:.3f} (light, at the normal); it is taken to scatter the same parts at other angles, in all "
+        "directions alike",
         of.pane + 1, part.t, all.t, part.rf, all.rf, part.rb, all.rb));
   }
   return notes;

@@ -19,8 +19,7 @@ struct PaneScattering {
 // Returns the panes that scatter; none where no pane does.
 std::vector<PaneScattering> scattering_of(const GlazingSystem& system);
 
-// The same in words, and that scattered light counts as light that goes straight on: exact for one pane at
-// normal incidence, an approximation between panes and at other angles.
+// The same in words, and what is supposed of it (streams.h).
 std::vector<std::string> scattering_notes(const GlazingSystem& system);
 
 }  // namespace vitrail

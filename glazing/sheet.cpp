@@ -37,17 +37,29 @@ GlazingSheets sheets_of(const GlazingSystem& system, Polarisation polarisation) 
     for (const double x : nm) sheet->wavelengths_nm.push_back(static_cast<float>(x));
     for (const double c : cosines) sheet->cosines.push_back(static_cast<float>(c));
   }
-  for (const double x : nm)
-    for (const double c : cosines) {
-      const PaneValues v = system_values(system, x, c, polarisation);
-      const auto add = [&](MeasuredSheet& sheet, double r) {
-        const double t = std::clamp(v.t, 0.0, 1.0);
-        sheet.transmittance.push_back(static_cast<float>(t));
-        sheet.reflectance.push_back(static_cast<float>(std::clamp(r, 0.0, 1 - t)));
+  const bool scatters = scatters_light(system);
+  for (const double x : nm) {
+    const Streams normal = scatters ? system_streams(system, x, 1, polarisation) : Streams{};
+    const PaneValues& made = normal.scattered;
+    if (scatters) {
+      const auto add = [](ScatteredShares& side, double r, double t) {
+        side.reflected.push_back(static_cast<float>(r)), side.transmitted.push_back(static_cast<float>(t));
       };
-      add(sheets.front, v.rf);
-      add(sheets.back, v.rb);
+      add(sheets.front_scattered, made.rf, made.t);
+      add(sheets.back_scattered, made.rb, made.t);
     }
+    for (const double c : cosines) {
+      const PaneValues v = scatters ? system_streams(system, x, c, polarisation).direct
+                                    : system_values(system, x, c, polarisation);
+      const auto add = [&](MeasuredSheet& sheet, double r, double scattered) {
+        const double left = std::max(0.0, 1 - scattered), t = std::clamp(v.t, 0.0, left);
+        sheet.transmittance.push_back(static_cast<float>(t));
+        sheet.reflectance.push_back(static_cast<float>(std::clamp(r, 0.0, left - t)));
+      };
+      add(sheets.front, v.rf, made.rf + made.t);
+      add(sheets.back, v.rb, made.rb + made.t);
+    }
+  }
   return sheets;
 }
 

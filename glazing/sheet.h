@@ -6,10 +6,18 @@
 
 namespace vitrail {
 
-// A system as rays meet it: what its outside and its inside do, at each half degree, at the wavelengths of
-// its panes in the visible. Between angles the error is below 1e-4 up to 85°.
+// What a side scatters of light at the normal, at the wavelengths of the sheets; empty where nothing is. It
+// lets through as much of light from inside as of light from outside: a Lambertian surface is reciprocal.
+struct ScatteredShares {
+  std::vector<float> reflected, transmitted;  // their sums are at most 1
+};
+
+// A system as rays meet it: what its outside and its inside reflect and let straight through, at each half
+// degree, at the wavelengths of its panes in the visible, and what they scatter. Between angles the error is
+// below 1e-4 up to 85°. Where light grazes, what is scattered takes the place of what is mirrored.
 struct GlazingSheets {
   MeasuredSheet front, back;
+  ScatteredShares front_scattered, back_scattered;
 };
 GlazingSheets sheets_of(const GlazingSystem& system, Polarisation polarisation);
 

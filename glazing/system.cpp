@@ -15,12 +15,6 @@ namespace vitrail {
 
 namespace {
 
-// Two panes, the first outside.
-PaneValues joined(const PaneValues& a, const PaneValues& b) {
-  const double series = 1 / (1 - std::min(a.rb * b.rf, 1 - 1e-12));
-  return {a.t * b.t * series, a.rf + a.t * a.t * b.rf * series, b.rb + b.t * b.t * a.rb * series};
-}
-
 PaneValues turned(const PaneValues& v, bool flipped) { return flipped ? PaneValues{v.t, v.rb, v.rf} : v; }
 
 PolarisedValues oriented_values(const GlazingLayer& layer, double nm, double cosine,
@@ -28,28 +22,6 @@ PolarisedValues oriented_values(const GlazingLayer& layer, double nm, double cos
   PolarisedValues v = values_at(layer.pane, nm, cosine);
   if (polarisation == Polarisation::mixed_at_panes) v.s = v.p = mean(v);
   return {turned(v.s, layer.flipped), turned(v.p, layer.flipped)};
-}
-
-// What arrives at each pane less what leaves it. In the gap behind pane i light runs inwards, T/(1 − Rb R),
-// and outwards, R of that, where T and Rb are those of all panes before the gap and R is that of all behind
-// it.
-std::vector<double> absorbed_of(const std::vector<PaneValues>& panes) {
-  std::vector<PaneValues> behind(panes.size(), panes.back());
-  for (std::size_t i = panes.size() - 1; i-- > 0;) behind[i] = joined(panes[i], behind[i + 1]);
-  std::vector<double> absorbed;
-  PaneValues before = panes.front();
-  double inwards = 1, outwards = behind.front().rf;
-  for (std::size_t i = 0; i < panes.size(); ++i) {
-    const bool last = i + 1 == panes.size();
-    if (i > 0) before = joined(before, panes[i]);
-    const double further =
-        last ? before.t : before.t / (1 - std::min(before.rb * behind[i + 1].rf, 1 - 1e-12));
-    const double back = last ? 0 : further * behind[i + 1].rf;
-    absorbed.push_back(std::max(0.0, inwards - outwards - further + back));
-    inwards = further;
-    outwards = back;
-  }
-  return absorbed;
 }
 
 // Positive half of the nodes of Gauss and Legendre's rule on [−1, 1], and their weights (Abramowitz & Stegun,
@@ -83,6 +55,52 @@ std::vector<Direction> hemisphere(HemisphereRule rule) {
   return directions;
 }
 
+// Of one polarisation: what a pane scatters at the normal, of all that it lets through or reflects, it
+// scatters at each angle.
+Streams streams_of(const PaneValues& all, const PaneValues& scatters, const PaneValues& diffuse) {
+  const PaneValues scattered{all.t * scatters.t, all.rf * scatters.rf, all.rb * scatters.rb};
+  return {
+      {all.t - scattered.t, all.rf - scattered.rf, all.rb - scattered.rb}, scattered, scattered.t, diffuse};
+}
+
+// The parts of what the pane lets through and reflects that it scatters, at normal incidence.
+PaneValues scattered_parts(const GlazingLayer& layer, double nm) {
+  const auto* pane = std::get_if<MeasuredPane>(&layer.pane);
+  if (!pane || pane->scattered.empty()) return {};
+  const PaneValues all = value_at(pane->rows, nm), part = value_at(pane->scattered, nm);
+  const auto share = [](double some, double whole) { return whole > 0 ? std::min(some / whole, 1.0) : 0; };
+  return turned({share(part.t, all.t), share(part.rf, all.rf), share(part.rb, all.rb)}, layer.flipped);
+}
+
+PaneValues over_hemisphere(const GlazingLayer& layer, double nm) {
+  PaneValues sum;
+  for (const auto& [cosine, weight] : hemisphere(HemisphereRule::gauss)) {
+    const PaneValues v = turned(mean(values_at(layer.pane, nm, cosine)), layer.flipped);
+    sum = {sum.t + weight * v.t, sum.rf + weight * v.rf, sum.rb + weight * v.rb};
+  }
+  return sum;
+}
+
+// Of all panes, from outside, s and then p.
+std::array<std::vector<Streams>, 2> streams_of(const GlazingSystem& system, double nm, double cosine,
+                                               Polarisation polarisation) {
+  std::array<std::vector<Streams>, 2> panes;
+  for (const GlazingLayer& layer : system.layers) {
+    const PolarisedValues v = oriented_values(layer, nm, cosine, polarisation);
+    const PaneValues scatters = scattered_parts(layer, nm),
+                     diffuse = scatters_light(system) ? over_hemisphere(layer, nm) : PaneValues{};
+    panes[0].push_back(streams_of(v.s, scatters, diffuse));
+    panes[1].push_back(streams_of(v.p, scatters, diffuse));
+  }
+  return panes;
+}
+
+Streams all_of(const std::vector<Streams>& panes) {
+  Streams all = panes.front();
+  for (std::size_t i = 1; i < panes.size(); ++i) all = joined(all, panes[i]);
+  return all;
+}
+
 bool knows(const GlazingLayer& layer, Quantity quantity) {
   if (layer.states.empty()) return false;
   if (layer.by_temperature) return quantity == Quantity::temperature;
@@ -90,6 +108,18 @@ bool knows(const GlazingLayer& layer, Quantity quantity) {
 }
 
 }  // namespace
+
+bool scatters_light(const GlazingSystem& system) {
+  return std::ranges::any_of(system.layers, [](const GlazingLayer& layer) {
+    const auto* pane = std::get_if<MeasuredPane>(&layer.pane);
+    return pane && !pane->scattered.empty();
+  });
+}
+
+void forget_scattering(GlazingSystem& system) {
+  for (GlazingLayer& layer : system.layers)
+    if (auto* pane = std::get_if<MeasuredPane>(&layer.pane)) pane->scattered.clear();
+}
 
 bool switches(const GlazingSystem& system) {
   return std::ranges::any_of(system.layers, [](const GlazingLayer& l) { return !l.states.empty(); });
@@ -130,25 +160,23 @@ std::optional<double> value_of(const GlazingSystem& system, Quantity quantity) {
   return {};
 }
 
+Streams system_streams(const GlazingSystem& system, double nm, double cosine, Polarisation polarisation) {
+  const auto [of_s, of_p] = streams_of(system, nm, cosine, polarisation);
+  const Streams s = all_of(of_s), p = all_of(of_p);
+  return {mean({s.direct, p.direct}), mean({s.scattered, p.scattered}), (s.scattered_tb + p.scattered_tb) / 2,
+          s.diffuse};
+}
+
 PaneValues system_values(const GlazingSystem& system, double nm, double cosine, Polarisation polarisation) {
-  PolarisedValues all;
-  for (std::size_t i = 0; i < system.layers.size(); ++i) {
-    const PolarisedValues v = oriented_values(system.layers[i], nm, cosine, polarisation);
-    all = i == 0 ? v : PolarisedValues{joined(all.s, v.s), joined(all.p, v.p)};
-  }
-  return mean(all);
+  const auto [direct, scattered, scattered_tb, diffuse] = system_streams(system, nm, cosine, polarisation);
+  return {direct.t + scattered.t, direct.rf + scattered.rf, direct.rb + scattered.rb};
 }
 
 std::vector<double> absorbed_shares(const GlazingSystem& system, double nm, double cosine,
                                     Polarisation polarisation) {
-  std::vector<PaneValues> s, p;
-  for (const GlazingLayer& layer : system.layers) {
-    const PolarisedValues v = oriented_values(layer, nm, cosine, polarisation);
-    s.push_back(v.s);
-    p.push_back(v.p);
-  }
-  std::vector<double> result = absorbed_of(s);
-  const std::vector<double> other = absorbed_of(p);
+  const auto [s, p] = streams_of(system, nm, cosine, polarisation);
+  std::vector<double> result = absorbed_by(s);
+  const std::vector<double> other = absorbed_by(p);
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = (result[i] + other[i]) / 2;
   return result;
 }

@@ -10,6 +10,7 @@
 #include "glazing/pane.h"
 #include "glazing/pane_heat.h"
 #include "glazing/states.h"
+#include "glazing/streams.h"
 
 namespace vitrail {
 
@@ -54,8 +55,18 @@ std::optional<double> value_of(const GlazingSystem& system, Quantity quantity);
 // keeps them apart, which matters beyond 45° or so (docs/why/glazing.md has the difference).
 enum class Polarisation { mixed_at_panes, apart };
 
-// T, front and back reflectance of the whole by the sum over all reflections between its panes. Light stays
-// specular, so the sum is a geometric series. T is the same from both sides.
+// Whether a pane of it does.
+bool scatters_light(const GlazingSystem& system);
+// Lets all that its panes scatter go straight on.
+void forget_scattering(GlazingSystem& system);
+
+// What all panes do together with light from one direction, by the sum over all reflections between them.
+// What a pane scatters of it is the same part at all angles; diffuse light meets each pane as it is over the
+// hemisphere.
+Streams system_streams(const GlazingSystem& system, double nm, double cosine, Polarisation polarisation);
+
+// T, front and back reflectance of the whole, direct and scattered together. T is that from the front; where
+// nothing scatters it is the same from both sides.
 PaneValues system_values(const GlazingSystem& system, double nm, double cosine, Polarisation polarisation);
 
 // Returns which shares of light from outside the panes absorb: with T and Rf of the whole they sum to 1.

@@ -73,4 +73,16 @@ inline std::filesystem::path write_text(const std::filesystem::path& file, const
   return file;
 }
 
+// Tf, Tb, Rf, Rb, each direct, then diffuse; the same at all wavelengths of light.
+inline const std::string optics_frit = R"({ Units, Wavelength Units } SI Microns
+{ Thickness } 6
+{ Emissivity, front back } Emis= 0.86 0.84
+{ Product Name: Frit }
+{ Type: Coated }
+{ Coated Side: Back }
+0.300 0.10 0.50 0.10 0.48 0.02 0.18 0.03 0.22
+0.800 0.10 0.50 0.10 0.48 0.02 0.18 0.03 0.22
+2.500 0.20 0.40 0.20 0.38 0.02 0.13 0.03 0.16
+)";
+
 }  // namespace vitrail::test

@@ -18,18 +18,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// Tf, Tb, Rf, Rb, each direct, then diffuse; the same at all wavelengths of light.
-const std::string optics_frit = R"({ Units, Wavelength Units } SI Microns
-{ Thickness } 6
-{ Emissivity, front back } Emis= 0.86 0.84
-{ Product Name: Frit }
-{ Type: Coated }
-{ Coated Side: Back }
-0.300 0.10 0.50 0.10 0.48 0.02 0.18 0.03 0.22
-0.800 0.10 0.50 0.10 0.48 0.02 0.18 0.03 0.22
-2.500 0.20 0.40 0.20 0.38 0.02 0.13 0.03 0.16
-)";
-
 const std::string igsdb_frit =
     R"({"name": "Frit", "type": "GLAZING", "subtype": "COATED", "coated_side": "BACK",
  "physical_properties": {"is_specular": false, "thickness": 6, "predefined_emissivity_front": "0.86",
@@ -112,6 +100,48 @@ TEST(Scattering, IsNamedByDataSheets) {
                                  "0.220 of its R inside 0.250")));
   system.layers[0].flipped = true;
   expect_values(scattering_of(system).at(0).visible_scattered, {0.5, 0.22, 0.18});
+}
+
+// Direct light of 1 onto a frit and a mirror behind it that scatters half: by hand, order by order.
+TEST(Scattering, BetweenPanesIsTheSumOfAllOrders) {
+  const Streams frit{{0.2, 0.05, 0.07}, {0.4, 0.1, 0.15}, 0.4, {0.5, 0.25, 0.3}},
+      mirror{{0.1, 0.3, 0.2}, {0.05, 0.35, 0.1}, 0.06, {0.12, 0.6, 0.4}};
+  double direct = frit.direct.t, diffuse = frit.scattered.t, t = 0, scattered_t = 0, rf = frit.direct.rf,
+         scattered_rf = frit.scattered.rf;
+  for (int order = 0; order < 200; ++order) {
+    t += direct * mirror.direct.t;
+    scattered_t += direct * mirror.scattered.t + diffuse * mirror.diffuse.t;
+    const double back = direct * mirror.direct.rf,
+                 diffuse_back = direct * mirror.scattered.rf + diffuse * mirror.diffuse.rf;
+    rf += back * frit.direct.t;
+    scattered_rf += back * frit.scattered_tb + diffuse_back * frit.diffuse.t;
+    direct = back * frit.direct.rb;
+    diffuse = back * frit.scattered.rb + diffuse_back * frit.diffuse.rb;
+  }
+  const Streams both = joined(frit, mirror);
+  EXPECT_NEAR(both.direct.t, t, 1e-12);
+  EXPECT_NEAR(both.direct.rf, rf, 1e-12);
+  EXPECT_NEAR(both.scattered.t, scattered_t, 1e-12);
+  EXPECT_NEAR(both.scattered.rf, scattered_rf, 1e-12);
+  double sum = both.t() + both.direct.rf + both.scattered.rf;
+  for (const double share : absorbed_by({frit, mirror, frit})) EXPECT_GT(share, 0);
+  for (const double share : absorbed_by({frit, mirror})) sum += share;
+  EXPECT_NEAR(sum, 1, 1e-12);
+}
+
+// Behind a frit a clear pane meets light of all angles, which it lets through less well.
+TEST(Scattering, IsDiffuseBehindTheNextPane) {
+  const TemporaryDirectory directory;
+  const GlazingSystem frit = read_system({write_text(directory / "frit.txt", optics_frit).string()}).system;
+  const GlazingSystem clear = read_system({write_text(directory / "clear.dat", optics_text).string()}).system;
+  const GlazingSystem both{"", {frit.layers[0], clear.layers[0]}};
+  const Streams of = system_streams(both, 550, 1, Polarisation::apart);
+  GlazingSystem straight = both;
+  forget_scattering(straight);
+  EXPECT_LT(of.t(), system_values(straight, 550, 1, Polarisation::apart).t - 0.02);
+  double sum = of.t() + of.direct.rf + of.scattered.rf;
+  for (const double share : absorbed_shares(both, 550, 1, Polarisation::apart)) sum += share;
+  EXPECT_NEAR(sum, 1, 1e-12);
 }
 
 TEST(Scattering, AsAStateIsSaid) {

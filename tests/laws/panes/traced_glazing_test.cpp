@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A pane that rays meet lets through and reflects what `vitrail glazing` says, from either side, at any
 // angle.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -71,6 +72,54 @@ TEST(TracedGlazing, IsTheSystem) {
                                                 .append(flipped)
                                                 .append(R"(}, {"gap_mm": 12}, {"pane": "clear.dat"}]})"));
     expect_traced(file.string(), std::string("flipped: ").append(flipped));
+  }
+}
+
+// Frits scatter in all directions alike, as much as at the normal.
+TEST(TracedGlazing, ScattersWhatItsPanesDo) {
+  const TemporaryDirectory directory;
+  write_text(directory / "frit.txt", optics_frit);
+  write_text(directory / "clear.dat", optics_text);
+  for (const char* panes :
+       {R"({"pane": "frit.txt"})", R"({"pane": "frit.txt"}, {"gap_mm": 12}, {"pane": "clear.dat"})",
+        R"({"pane": "clear.dat"}, {"gap_mm": 12}, {"pane": "frit.txt", "flipped": true})"}) {
+    const auto file =
+        write_text(directory / "unit.json", fmt::format(R"({{"layers": [{}]}})", panes)).string();
+    const GlazingSystem system = read_system({file}).system;
+    const auto expected_of = [&](auto value) {
+      std::vector<std::array<double, 2>> samples;
+      for (double nm = lambda_min_nm; nm <= lambda_max_nm; ++nm)
+        samples.push_back({nm, value(system_streams(system, nm, 1, Polarisation::apart))});
+      return luminance(Spectrum{tabulate(samples, true)});
+    };
+    const auto seen_from_inside = [&](auto add_light, double theta_deg) {
+      Scene scene;
+      add_light(scene);
+      add_shape(scene, square(scene, 0), material_of(scene, file));
+      look_along(scene, -direction(theta_deg, 20), {}, 0.01);
+      scene.settings.max_depth = 10;
+      return mean_of(render(scene, 256).film);
+    };
+    const auto from_outside = seen_from_inside(
+        [](Scene& scene) {
+          constexpr float w = 1000;  // it shines down
+          add_shape(scene, add_quads(scene, {{{{-w, -w, 1}, {-w, w, 1}, {w, w, 1}, {w, -w, 1}}}}),
+                    Material{DiffuseMaterial{ConstantSpectrum{0}}}, AreaLight{ConstantSpectrum{1}});
+        },
+        0);
+    expect_luminance(from_outside, expected_of([](const Streams& s) { return s.t(); }), 0.004, panes, 1e-3);
+    // The sun comes at the normal: all that is seen from aside is scattered.
+    const auto from_the_sun = seen_from_inside(
+        [](Scene& scene) {
+          scene.lights.push_back(Light{DistantLight{{0, 0, -1}, ConstantSpectrum{1}}});
+        },
+        50);
+    expect_luminance(from_the_sun,
+                     expected_of([](const Streams& s) { return s.scattered.t; }) / std::numbers::pi, 0.01,
+                     panes, 1e-3);
+    expect_luminance(seen(file, 0, true),
+                     expected_of([](const Streams& s) { return s.t() + s.direct.rf + s.scattered.rf; }),
+                     0.004, panes, 1e-3);
   }
 }
 
