@@ -24,7 +24,7 @@ double weight_of_finding(const CameraPath& path, double light_pdf) {
 // The discs of suns that are connected to as distant lights are seen as well, but where connections were made
 // before: those find them.
 void add_environment(Tracing& tracing, const CameraPath& path) {
-  if (is_hidden(tracing, path)) return;
+  if (is_hidden(tracing, path) || is_past_last_level(tracing, path)) return;
   const LightSampler& lights = tracing.scene.lights;
   const Vector3d direction = normalize(cast<double>(path.ray.direction));
   auto [radiance, light_pdf] = background(lights, direction, path.wavelengths);
@@ -177,6 +177,10 @@ bool is_hidden(const Tracing& tracing, const CameraPath& path) {
   return tracing.settings().hides_emitters && !path.has_scattered();
 }
 
+bool is_past_last_level(const Tracing& tracing, const CameraPath& path) {
+  return tracing.settings().direct_only && !path.only_straight && path.depth > 0 && is_spent(tracing, path);
+}
+
 // Of mirrors and glass before what is lit by lamps alone (FilmKey::threshold).
 bool is_too_dark(const Tracing& tracing, const CameraPath& path) {
   if (!tracing.settings().direct_only || path.only_straight) return false;
@@ -191,6 +195,7 @@ bool ends_lit(const Tracing& tracing) {
 void add_emission(Tracing& tracing, const CameraPath& path, const Interaction& at, std::uint32_t light) {
   const LightSampler& lights = tracing.scene.lights;
   if (!lights.scene.area_lights[light].sampled && path.connected && tracing.settings().direct_only) return;
+  if (is_past_last_level(tracing, path)) return;
   const double cosine = dot(at.out, at.geometric);
   const SampledSpectrum radiance =
       emitted(lights, light, at.texture_point(), cosine, path.wavelengths, path.lamp);
@@ -221,7 +226,8 @@ std::optional<Arrived> fly(Tracing& tracing, CameraPath& path) {
   const FlightSample flown =
       sample_flight(*medium, flight, path.wavelengths, path.active_wavelengths(), path.throughput, random);
   // As unsampled lamps (add_emission): with direct light alone what glows is seen and lights nothing.
-  if (!is_black(flown.emitted) && !(path.connected && tracing.settings().direct_only))
+  if (!is_black(flown.emitted) && !(path.connected && tracing.settings().direct_only) &&
+      !is_past_last_level(tracing, path))
     deposit(tracing, path.film, path.throughput * flown.emitted, {group_of(tracing.scene, *medium)});
   path.throughput = path.throughput * flown.weight;
   if (is_black(path.throughput)) return std::nullopt;

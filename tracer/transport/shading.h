@@ -21,6 +21,9 @@ std::optional<Arrived> fly(Tracing& tracing, CameraPath& path);
 bool shade(Tracing& tracing, CameraPath& path, const Arrived& arrived, ShadowRays& shadows);
 // Whether lamps and surroundings are not to be seen by a path, as it comes from the camera directly.
 bool is_hidden(const Tracing& tracing, const CameraPath& path);
+// With direct light alone: whether a path comes from its last mirror or glass. There no surface is lit, so
+// nothing glows either, as at POV-Ray's max_trace_level.
+bool is_past_last_level(const Tracing& tracing, const CameraPath& path);
 // With direct light alone: whether no wavelength of a path brings as much as is looked at.
 bool is_too_dark(const Tracing& tracing, const CameraPath& path);
 // Whether a path ends where connections to lights are made: with direct light alone it could only find lamps

@@ -50,8 +50,7 @@ double transmitted(const std::string& file, int panes, double cosine) {
   const GlazingSystem system = read_system({file}).system;
   std::vector<std::array<double, 2>> samples;
   for (double nm = lambda_min_nm; nm <= lambda_max_nm; ++nm)
-    samples.push_back(
-        {nm, std::pow(system_values(system, nm, cosine, Polarisation::apart).t, panes)});
+    samples.push_back({nm, std::pow(system_values(system, nm, cosine, Polarisation::apart).t, panes)});
   return luminance(Spectrum{tabulate(samples, true)});
 }
 
@@ -139,6 +138,31 @@ TEST_F(LocalIllumination, MirrorsAndRefractedRaysAreFollowed) {
   // The sun does not pass the block on its way to what is seen: it stands at 50°.
   const double face = fresnel_dielectric(1, 1.5), all = (1 - face) / (1 + face);
   expect_luminance(mean_of(render(behind, of_all(1024, 512)).film), all * lit, 0.01, "refracted", 1e-3);
+}
+
+// What the last mirror shows is black: a lamp and the sky as well as what they light. What is lit there finds
+// lamps by its own samples all the same.
+TEST_F(LocalIllumination, TheLastMirrorShowsNothing) {
+  for (const bool sky : {false, true})
+    for (const int depth : {1, 2}) {
+      Scene scene;
+      add_shape(scene, add_quads(scene, {{{{-1, -1, -1}, {-1, 1, -1}, {1, 1, 1}, {1, -1, 1}}}}),
+                Material{ConductorMaterial{PerfectReflector{}, {}, ConstantSpectrum{0.9f}}});
+      if (sky)
+        scene.lights.push_back(Light{InfiniteLight{ConstantSpectrum{1}}});
+      else
+        add_shape(scene, square(scene, -50, wide), Material{DiffuseMaterial{ConstantSpectrum{0}}},
+                  AreaLight{ConstantSpectrum{1}, true});
+      look_along(scene, {1, 0, 0}, {}, 0.01);
+      scene.settings.direct_only = true;
+      scene.settings.max_depth = depth;
+      EXPECT_NEAR(mean_of(render(scene, 64).film).value.y, depth == 1 ? 0 : 0.9, 1e-3)
+          << (sky ? "sky" : "lamp") << " of depth " << depth;
+    }
+  Scene lit = ground(InfiniteLight{ConstantSpectrum{1}});
+  lit.settings.max_depth = 1;
+  expect_luminance(mean_of(render(lit, of_all(1024, 512)).film), static_cast<double>(albedo), 0.003,
+                   "under the sky", 1e-3);
 }
 
 Film with_threshold(const Scene& scene, double threshold) {

@@ -67,7 +67,7 @@ std::uint32_t LaneLists::candidates_of(const Tracing& tracing, const CameraPath&
 bool LaneLists::take_leaving(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   const LightSampler& lights = tracing.scene.lights;
   if (!lights.has_background() || (lights.has_discs() && !path.connected)) return false;
-  if (is_hidden(tracing, path)) return false;
+  if (is_hidden(tracing, path) || is_past_last_level(tracing, path)) return false;
   record_leaving(tracing, path);
   find_wavelengths(tracing, path, path.film);
   leaving_.push_back(place);
