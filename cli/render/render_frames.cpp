@@ -2,6 +2,7 @@
 #include "cli/render/render_frames.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +20,7 @@
 #include "farm/files/signals.h"
 #include "farm/transport/agreement.h"
 #include "farm/transport/doing.h"
+#include "scene/system/resource_usage.h"
 #include "scene/system/say.h"
 
 namespace vitrail {
@@ -198,7 +200,14 @@ bool FrameRun::take(std::size_t i, const RenderArguments& a) {
   return true;
 }
 
+// What earlier frames have left resident counts as this one's own (farm/plan/job.cpp).
+void give_back_memory() {
+  ::malloc_trim(0);
+  forget_code_pages();
+}
+
 int FrameRun::render_frame(std::size_t i) {
+  give_back_memory();
   std::optional<FrameJob> job;
   agree(transport_, [&] { job.emplace(typed_, list_.frames[i].words, list_.outputs[i]); });
   const JobSteps steps{&views_,

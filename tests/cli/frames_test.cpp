@@ -170,5 +170,22 @@ TEST_F(Frames, OfTheExamplesAreFrames) {
   EXPECT_NE(bytes("f001.png"), bytes("f003.png"));
 }
 
+// What is enough for one picture is enough for any number of them.
+TEST_F(Frames, HaveTheMemoryThatOneHas) {
+  std::string least = "1M";
+  for (int tries = 0; tries < 6; ++tries) {
+    const CommandResult one =
+        render(fmt::format("-o {} --force --quiet --memory {}", path("one.png"), least));
+    const std::size_t at = one.output.find("at least ");
+    if (at == one.output.npos) break;
+    least = one.output.substr(at + 9, one.output.find('M', at) - at - 8);
+  }
+  std::string seeds;
+  for (int i = 1; i <= 12; ++i) seeds += fmt::format("--seed {}\n", i);
+  write_frames(seeds);
+  const CommandResult all = render_frames("--quiet --memory " + least);
+  EXPECT_EQ(all.status, 0) << all.output;
+}
+
 }  // namespace
 }  // namespace vitrail::test::frames_test
