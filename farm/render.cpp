@@ -8,7 +8,6 @@
 #include <chrono>
 #include <exception>
 
-#include "farm/conclude/gather_profile.h"
 #include "farm/conclude/gather_timeline.h"
 #include "farm/conclude/job_report.h"
 #include "farm/files/crashes.h"
@@ -17,7 +16,9 @@
 #include "farm/plan/same_job.h"
 #include "farm/run/about.h"
 #include "farm/run/file_watch.h"
+#include "farm/run/gather_profile.h"
 #include "farm/run/rank.h"
+#include "farm/run/settle_homes.h"
 #include "farm/run/workers.h"
 #include "farm/transport/agreement.h"
 #include "farm/transport/doing.h"
@@ -34,8 +35,8 @@ bool has_light(const Manifest& m) {
 }
 
 // Returns the statistics of this rank.
-RenderStats run(Transport& transport, const RenderOptions& options, const Job& job, RankState& state,
-                Rank& rank, bool finished_before) {
+RenderStats run(Transport& transport, const RenderOptions& options, Job& job, RankState& state, Rank& rank,
+                bool finished_before) {
   const Manifest& manifest = job.scene->manifest;
   const bool is_root = transport.rank() == 0;
   RenderStats stats;
@@ -49,9 +50,12 @@ RenderStats run(Transport& transport, const RenderOptions& options, const Job& j
     stats.ending = Ending::finished;
   } else {
     if (is_root) print_start(options, manifest, job.plan.goal, transport.size(), job.plan.threads);
-    std::optional<Workers> workers;
-    agree(transport, [&] { workers.emplace(state, job.plan.threads); });
-    stats.ending = rank.run();
+    const auto work = [&] {
+      std::optional<Workers> workers;
+      agree(transport, [&] { workers.emplace(state, job.plan.threads); });
+      return rank.run();
+    };
+    while ((stats.ending = work()) == Ending::none) settle_homes(transport, state, job, options, stats);
     stats.rounds = rank.rounds();
   }
   rank.add_to(stats);
@@ -71,6 +75,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   agree(transport, [&] { job = set_up(options, {transport.rank(), transport.size()}); });
   const Manifest& manifest = job.scene->manifest;
   expect_same_job(transport, manifest, job.plan.key, job.plan.goal, job.plan.homes, options);
+  require_all_may_settle(transport, job.plan);
   const std::string words = about(manifest, options);
   EarlierWork earlier = read_earlier_work(transport, options, job.film, job.plan.goal, words);
   const std::uint64_t samples_before = job.film.samples();  // on rank 0
@@ -89,7 +94,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   now_doing("writing the statistics");
   gather_stats(transport, stats, state.domains.touched());
   std::optional<RayProfile> profile;
-  if (state.work.profiling) profile = gather_profile(transport, manifest, *state.work.profiling, stats);
+  if (!options.outputs.profile.empty())
+    profile = gather_profile(transport, manifest, *state.work.profiling, stats);
   agree(transport, [&] {  // what fails on rank 0 ends the job everywhere
     if (transport.rank() == 0) conclude(job, options, samples_before, profile, stats);
   });

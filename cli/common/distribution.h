@@ -8,6 +8,8 @@
 
 namespace vitrail {
 
-void declare_distribution(CLI::App& app, Distribution& distribution, std::filesystem::path& homes);
+// `homes`: a profile; `stay`: set in its place by the word bytes.
+void declare_distribution(CLI::App& app, Distribution& distribution, std::filesystem::path& homes,
+                          bool& stay);
 
 }  // namespace vitrail

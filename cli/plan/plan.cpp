@@ -33,7 +33,7 @@ struct Arguments {
   int threads = 16, ranks_of_a_disk = 1, ranks_of_a_link = 1;
   Distribution distribution = Distribution::automatic;
   std::filesystem::path homes;
-  bool json = false, force = false;
+  bool json = false, force = false, homes_stay = false;
   std::uint64_t domain_memory = 0;  // for tests, as render's: at most so much of it for domains; 0: no limit
 };
 
@@ -194,7 +194,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::Range(1, 100000));
   app.add_option("--threads", a.threads, "threads of a rank; default: 16")->check(CLI::Range(1, 4096));
-  declare_distribution(app, a.distribution, a.homes);
+  declare_distribution(app, a.distribution, a.homes, a.homes_stay);
   app.add_option("--memory", a.memory, "memory of a rank, as for render; default: no limit");
   app.add_option("--times", a.pictures, "simulate this many times the samples of the profile")
       ->check(more_than_0);

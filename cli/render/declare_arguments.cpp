@@ -113,7 +113,7 @@ void declare_resources(CLI::App& app, RenderArguments& a) {
   app.add_option("-t,--threads,--nthreads", o.resources.threads,
                  "threads a rank, at most 64 or four a processor; default: one a processor allowed")
       ->check(CLI::Range(1, 4096));
-  declare_distribution(app, o.resources.distribution, o.resources.homes);
+  declare_distribution(app, o.resources.distribution, o.resources.homes, o.resources.homes_stay);
   app.add_option_function<std::string>(
          "--traversal",
          [&o](const std::string& whose) {
@@ -242,6 +242,7 @@ void declare_hidden(CLI::App& app, RenderArguments& a) {
   RenderOptions& o = a.options;
   app.add_option("--held-lock", a.held_lock)->group("");
   app.add_option("--shuffle-delivery", o.resources.shuffle_seed)->group("");
+  app.add_option("--settle-after", o.resources.settle_after_s)->group("");
   app.add_option("--domain-memory", o.resources.domain_memory_bytes)->group("");
 }
 

@@ -106,8 +106,28 @@ void widen_room(JobPlan& plan, std::uint64_t largest_domain) {
   plan.memory.domains_bytes -= more;
 }
 
+// Where ranks do not trace in all domains, homes may settle. A profile takes an eighth of the room at most:
+// with less for domains the job might wait for the disk.
+void set_profile_aside(JobPlan& plan, const Manifest& m, const RenderOptions& options, int ranks,
+                       std::uint64_t largest_domain) {
+  const JobResources& r = options.resources;
+  const std::uint64_t room = plan.memory.domains_bytes;
+  const bool all_are_local = r.distribution == Distribution::replicate ||
+                             (r.distribution == Distribution::automatic && plan.all_domains <= room);
+  if (ranks == 1 || !r.homes.empty() || r.homes_stay || options.outputs.dry_run ||
+      plan.key.photons.photons > 0 || all_are_local)
+    return;
+  const std::uint64_t bytes =
+      options.outputs.profile.empty() ? profile_bytes(m.domains.size(), plan.threads) : 0;
+  if (bytes > room / 8 || room - bytes < largest_domain) return;
+  plan.may_settle = true;
+  plan.profile_bytes = bytes;
+  plan.memory.domains_bytes -= bytes;
+}
+
 // Memory for domains, rays, and photons that land. On rank 0 a picture is made in the end.
-void share_out(JobPlan& plan, const Manifest& m, const RenderOptions& options, int rank) {
+void share_out(JobPlan& plan, const Manifest& m, const RenderOptions& options, const Place& place) {
+  const int rank = place.rank;
   const std::uint64_t budget = options.resources.memory_bytes;
   const LargestDomain largest = largest_domain(m);
   plan.most_photons = least_room(plan.key.photons, budget);
@@ -129,6 +149,7 @@ void share_out(JobPlan& plan, const Manifest& m, const RenderOptions& options, i
     plan.memory = {
         std::max(largest.bytes, std::min(plan.memory.domains_bytes, options.resources.domain_memory_bytes)),
         few_rays_bytes};
+  set_profile_aside(plan, m, options, place.ranks, largest.bytes);
   widen_room(plan, largest.bytes);
 }
 
@@ -156,6 +177,11 @@ std::uint64_t film_file_bytes(const FilmSettings& film, const FilmKey& key) {
   return sums + sums / 32 + header_and_words;
 }
 
+std::int64_t rays_allowed(const Manifest& m, const RenderOptions& options, const JobPlan& plan, int ranks) {
+  const bool in_flow = is_in_flow(m, plan.homes, options.resources.distribution, plan.memory.domains_bytes);
+  return (in_flow ? rays_allowed_in_flow(plan.threads) : rays_allowed_a_rank(plan.memory)) * ranks;
+}
+
 JobPlan plan_job(const Manifest& m, const RenderOptions& options, const Place& place,
                  const SceneMemory& scene) {
   JobPlan plan;
@@ -165,14 +191,11 @@ JobPlan plan_job(const Manifest& m, const RenderOptions& options, const Place& p
   plan.scene = scene;
   plan.base_bytes = base_bytes(m, options, plan, place.ranks);
   plan.all_domains = bytes_of_all(m);
-  share_out(plan, m, options, place.rank);
+  share_out(plan, m, options, place);
   plan.homes = homes_of(m, options, place.ranks);
   plan.queues = plan.key.photons.photons > 0 ? queue_bounds_with_photons(plan.memory, place.ranks)
                                              : queue_bounds(plan.memory, place.ranks);
-  const bool in_flow = is_in_flow(m, plan.homes, options.resources.distribution, plan.memory.domains_bytes);
-  const std::int64_t rays_a_rank =
-      in_flow ? rays_allowed_in_flow(plan.threads) : rays_allowed_a_rank(plan.memory);
-  plan.scheduler = {place.ranks, plan.threads, rays_a_rank * place.ranks, place.rank};
+  plan.scheduler = {place.ranks, plan.threads, rays_allowed(m, options, plan, place.ranks), place.rank};
   return plan;
 }
 

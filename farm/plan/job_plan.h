@@ -34,6 +34,9 @@ struct JobPlan {
   std::uint64_t all_domains = 0;  // bytes
   std::size_t most_photons = 0;   // in memory, of those that land here; 0: no limit
   Homes homes{{}, 1};
+  // Whether the job may settle its homes (run/settling.h), and what is set aside for the profile until then.
+  bool may_settle = false;
+  std::uint64_t profile_bytes = 0;
   QueueBounds queues;
   Scheduler::Job scheduler;
 };
@@ -45,6 +48,10 @@ std::uint64_t texture_budget(const Manifest& manifest, std::uint64_t memory_byte
 // where options.resources.memory_bytes is too little, with what would do.
 JobPlan plan_job(const Manifest& manifest, const RenderOptions& options, const Place& place,
                  const SceneMemory& scene);
+
+// Returns the rays that may be alive in the whole job, by the plan's homes and memory.
+std::int64_t rays_allowed(const Manifest& manifest, const RenderOptions& options, const JobPlan& plan,
+                          int ranks);
 
 // Of the file of such a film: its sums, and what it says of itself.
 std::uint64_t film_file_bytes(const FilmSettings& film, const FilmKey& key);

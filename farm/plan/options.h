@@ -71,6 +71,7 @@ struct JobResources {
   Distribution distribution = Distribution::automatic;
   Traversal traversal = Traversal::own;
   std::filesystem::path homes;      // a RayProfile: ranks answer for equal work; empty: for equal bytes
+  bool homes_stay = false;          // until the end; else they settle where a job is long (run/settling.h)
   double checkpoint_every_s = 600;  // 0: only when asked by a signal
   // From `start` to the end of what comes after the film; 0: none. The film then holds what was done. At
   // least half of it is for tracing, and ends no sooner than with some samples.
@@ -82,6 +83,8 @@ struct JobResources {
   // For tests: at most this for domains, whatever memory_bytes leaves, and so little for rays that they go to
   // the disk; 0: no such limit.
   std::uint64_t domain_memory_bytes = 0;
+  // For tests: homes settle after so many seconds, however little time is left.
+  std::optional<double> settle_after_s;
   // For tests: processes rays in an arbitrary order: no picture may depend on it.
   std::optional<std::uint64_t> shuffle_seed;
 };

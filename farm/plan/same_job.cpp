@@ -39,8 +39,8 @@ std::vector<Part> parts_of(const Manifest& m, const FilmKey& key, const Goal& go
                  fmt::format("{} {} {} {} {} {} {}", goal.samples, goal.in_rounds, goal.adaptive,
                              goal.open_ended, goal.target ? goal.target->value : 0,
                              goal.target && goal.target->just_noticeable, o.resources.time_limit_s)},
-                {"distribution or homes",
-                 fmt::format("{} {}", static_cast<int>(o.resources.distribution), to_string(homes))},
+                {"distribution or homes", fmt::format("{} {} {}", static_cast<int>(o.resources.distribution),
+                                                      o.resources.homes_stay, to_string(homes))},
                 {"output, profile, trace, dry run or --force",
                  fmt::format("{}\n{}\n{}\n{} {}", o.outputs.film.string(), o.outputs.profile.string(),
                              o.outputs.trace.string(), o.outputs.dry_run, o.outputs.force)}});

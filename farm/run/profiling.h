@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `render --profile` records. Telling where each ray goes costs a render its waves, so tasks take turns:
-// one is recorded, ray by ray; one walks from domain to domain as rays do in little memory; one is traced as
-// without a profile. Only the last two tell what tracing costs.
+// What `render --profile` records, and a job that is to settle its homes. Telling where each ray goes costs a
+// render its waves, so tasks take turns: one is recorded, ray by ray; one walks from domain to domain as rays
+// do in little memory; one is traced as without a profile. Only the last two tell what tracing costs.
 #pragma once
 
 #include <array>
@@ -19,10 +19,15 @@ class Profiling {
   // By kind of task, generating first, and manner: samples or rays, and seconds.
   using Sums = std::array<double, 4 * manners>;
 
-  explicit Profiling(std::size_t domains) : traffic(domains) {}
+  // Of so many tasks one is recorded, one walks, the others are traced as without a profile.
+  explicit Profiling(std::size_t domains, std::uint64_t turns = manners)
+      : traffic(domains), of_turns_(turns) {}
 
   // How the next task of this kind is traced.
-  Manner next(Scheduler::Work work) { return static_cast<Manner>(turns_[index(work)]++ % manners); }
+  Manner next(Scheduler::Work work) {
+    const std::uint64_t turn = turns_[index(work)]++ % of_turns_;
+    return turn < manners ? static_cast<Manner>(turn) : Manner::plain;
+  }
   // One with so many samples, or rays, took so many seconds of the processor.
   void took(Scheduler::Work work, Manner manner, std::uint64_t rays, double seconds) {
     const std::size_t at = 2 * (manners * index(work) + static_cast<std::size_t>(manner));
@@ -30,6 +35,12 @@ class Profiling {
     sums[at + 1] += seconds;
   }
 
+  // Returns the seconds that all tasks took.
+  double all_s() const {
+    double all_s = 0;
+    for (std::size_t i = 1; i < sums.size(); i += 2) all_s += sums[i];
+    return all_s;
+  }
   // What all tasks together would take, traced in this manner, or as those recorded where none was.
   static double seconds_of_all(const Sums& sums, Manner manner) {
     double all_s = 0;
@@ -54,6 +65,7 @@ class Profiling {
  private:
   static std::size_t index(Scheduler::Work work) { return work == Scheduler::Work::trace; }
 
+  std::uint64_t of_turns_;
   std::array<std::uint64_t, 2> turns_{};
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -70,13 +71,21 @@ void Progress::show(const Round& round) {
   print(round, std::chrono::duration<double>(now - start_).count());
 }
 
+double Progress::samples_left(const RoundSums& sums) const {
+  return std::max(0.0, (samples_ - samples_before_) * pixels_ - static_cast<double>(sums.samples));
+}
+
+double Progress::until_limit_s() const {
+  if (time_limit_s_ <= 0) return std::numeric_limits<double>::infinity();
+  const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - limit_start_;
+  return std::max(0.0, time_limit_s_ - gone.count());
+}
+
 double Progress::remaining_s(double done, double elapsed_s) const {
   const double here = done - samples_before_ / samples_;
   const double left_s = here > 0 ? elapsed_s * (1 - done) / here : 0;
   if (time_limit_s_ <= 0) return left_s;
-  const double before_s = std::chrono::duration<double>(start_ - limit_start_).count();
-  const double until_limit_s = std::max(0.0, time_limit_s_ - before_s - elapsed_s);
-  return here > 0 ? std::min(left_s, until_limit_s) : until_limit_s;
+  return here > 0 ? std::min(left_s, until_limit_s()) : until_limit_s();
 }
 
 void Progress::print(const Round& round, double elapsed_s) {

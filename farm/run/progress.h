@@ -24,6 +24,8 @@ class Progress {
   // Called as often as one likes; prints at its own pace.
   void show(const Round& round);
   void finish();
+  double samples_left(const RoundSums& sums) const;  // of all pixels together
+  double until_limit_s() const;                      // infinite without a limit
 
  private:
   void print(const Round& round, double elapsed_s);

@@ -50,6 +50,7 @@ Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options,
       phases_(state, {transport.rank(), transport.size()}, std::move(earlier.done)),
       exchange_(transport, state, phases_, job.plan.queues.being_sent),
       checkpointing_(transport, state, options, job.keeper.get(), std::move(about), earlier.render_time_s),
+      settling_(job.plan, options),
       stall_(options.resources.patience_s) {}
 
 Ending Rank::run() {
@@ -88,6 +89,8 @@ void Rank::join_round() {
   mine.interrupted = stop_signal() == SIGINT;
   mine.terminated = stop_signal() == SIGTERM;
   mine.time_is_up = checkpointing_.time_is_up();
+  mine.profiles = settling_.profiles();
+  mine.settles = settling_.settles();
   mine.working = !state_.scheduler.all_workers_wait() || state_.loads_under_way > 0;
   if (state_.failure) (is_bad_input(state_.failure) ? mine.bad_input : mine.machine_failure) = 1;
   const TraceCounters& c = state_.work.counters;
@@ -100,6 +103,7 @@ void Rank::join_round() {
 // How the render ends, where it does.
 std::optional<Ending> Rank::after_round(const Round& round) {
   progress_.show(round);
+  if (transport_.rank() == 0) watch_settling(round.sums);
   const Decision decision = decide(round);
   if (decision == Decision::go_on) {
     watch_for_stall(round.sums);
@@ -108,6 +112,20 @@ std::optional<Ending> Rank::after_round(const Round& round) {
   const std::optional<Ending> ending = act_on(decision, round.sums);
   now_doing("tracing rays");
   return ending;
+}
+
+void Rank::watch_settling(const RoundSums& sums) {
+  settling_.watch(sums, {state_.elapsed_s(), progress_.samples_left(sums), progress_.until_limit_s(),
+                         static_cast<std::int64_t>(state_.plan.tiles_x() * state_.plan.tiles_y())});
+}
+
+// Or not any more. A profile that the user asked for goes on.
+void Rank::record(const Locked&, bool wanted) {
+  constexpr std::uint64_t turns = 16;
+  std::optional<Profiling>& profiling = state_.work.profiling;
+  if (!options_.outputs.profile.empty() || profiling.has_value() == wanted) return;
+  profiling.reset();
+  if (wanted) profiling.emplace(state_.scene.manifest.domains.size(), turns);
 }
 
 void Rank::watch_for_stall(const RoundSums& sums) {
@@ -131,22 +149,23 @@ Rank::Decision Rank::decide(const Round& round) {
     const Locked locked(state_);
     state_.scheduler.ranks_told(std::make_shared<const std::vector<RankReport>>(round.ranks));
     quiet = state_.scheduler.decide(sums);
+    record(locked, sums.profiles > 0);
   }
   state_.work_available.notify_all();
   exchange_.give_items();
   if (quiet == Scheduler::Decision::go_on || phases_.begin_next(sums)) return Decision::go_on;
-  return ending_of(sums) == Ending::none ? Decision::checkpoint : Decision::end;
+  return ending_of(sums) == Ending::none ? Decision::pause : Decision::end;
 }
 
 std::optional<Ending> Rank::act_on(Decision decision, const RoundSums& sums) {
-  if (decision == Decision::checkpoint) {
-    checkpointing_.write_checkpoint();
-    return std::nullopt;
+  if (decision == Decision::pause) {
+    if (sums.pause > 0) checkpointing_.write_checkpoint();
+    return settle(sums);
   }
   Ending ending = ending_of(sums);
   if (ending == Ending::finished && goal_.in_rounds) {
     const std::optional<Ending> end = begin_next_round(stop_of(sums));
-    if (!end) return std::nullopt;
+    if (!end) return settle(sums);
     ending = *end;
   }
   if (options_.outputs.dry_run)
@@ -156,6 +175,13 @@ std::optional<Ending> Rank::act_on(Decision decision, const RoundSums& sums) {
     checkpointing_.write_last(/*as_film=*/writes_film(ending));
   progress_.finish();
   return ending;
+}
+
+// If that was asked for: no ray is alive.
+std::optional<Ending> Rank::settle(const RoundSums& sums) {
+  if (sums.settles == 0) return std::nullopt;
+  settling_.is_over();
+  return Ending::none;
 }
 
 Ending Rank::ending_of(const RoundSums& sums) const {
@@ -212,6 +238,7 @@ void Rank::add_to(RenderStats& stats) const {
   stats.load_s = state_.work.load_s;
   stats.trace_s = state_.work.trace_s;
   stats.idle_s = state_.work.idle_s;
+  if (stats.settled.domains > 0) stats.settled.trace_s += stats.trace_s;
   stats.forwarded_rays = state_.scheduler.forwarded_rays();
   stats.forwarded_bytes = exchange_.sent_bytes();
   stats.messages = exchange_.messages();

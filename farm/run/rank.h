@@ -8,6 +8,7 @@
 #include "farm/run/exchange.h"
 #include "farm/run/phases.h"
 #include "farm/run/progress.h"
+#include "farm/run/settling.h"
 #include "farm/scheduler/stall.h"
 
 namespace vitrail {
@@ -19,7 +20,8 @@ class Rank {
        std::string about);
 
   // Until the picture is whole, the time is up or the job is told to stop. Rank 0 has then written the film,
-  // or a checkpoint where a signal stopped it. Throws what went wrong here, or OtherRankFailed, after all
+  // or a checkpoint where a signal stopped it. Ending::none: the job is paused to settle its homes, after
+  // which `run` goes on (settle_homes.h). Throws what went wrong here, or OtherRankFailed, after all
   // ranks have agreed to end.
   Ending run();
 
@@ -27,13 +29,16 @@ class Rank {
   int rounds() const { return phases_.rounds(); }  // begun here
 
  private:
-  enum class Decision { go_on, checkpoint, end };
+  enum class Decision { go_on, pause, end };
 
   void join_round();
   std::optional<Ending> after_round(const Round& round);
   Decision decide(const Round& round);
   std::optional<Ending> act_on(Decision decision, const RoundSums& sums);
+  std::optional<Ending> settle(const RoundSums& sums);
   std::optional<Ending> begin_next_round(Ending stop);
+  void watch_settling(const RoundSums& sums);
+  void record(const Locked& locked, bool wanted);
   void watch_for_stall(const RoundSums& sums);
   [[noreturn]] void leave_failed(const RoundSums& sums);
   Ending ending_of(const RoundSums& sums) const;
@@ -46,6 +51,7 @@ class Rank {
   Phases phases_;
   Exchange exchange_;
   Checkpointing checkpointing_;
+  Settling settling_;
   Stall stall_;
   RankState::Clock::time_point last_counters_;
 };

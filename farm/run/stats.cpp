@@ -42,16 +42,19 @@ void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>&
   transport.max_to_root(anywhere);
   s.domains_touched = static_cast<std::uint64_t>(std::ranges::count(anywhere, 1));
 
-  std::int64_t busiest_ns[] = {static_cast<std::int64_t>(1e9 * s.trace_s)};
+  std::int64_t busiest_ns[] = {static_cast<std::int64_t>(1e9 * s.trace_s),
+                               static_cast<std::int64_t>(1e9 * s.settled.trace_s)};
   transport.max_to_root(busiest_ns);
   s.busiest_trace_s = 1e-9 * static_cast<double>(busiest_ns[0]);
+  s.settled.busiest_trace_s = 1e-9 * static_cast<double>(busiest_ns[1]);
 
-  double times[] = {s.cpu_s, s.load_s, s.trace_s, s.idle_s};
+  double times[] = {s.cpu_s, s.load_s, s.trace_s, s.idle_s, s.settled.trace_s};
   transport.sum_to_root(std::span(times));
   s.cpu_s = times[0];
   s.load_s = times[1];
   s.trace_s = times[2];
   s.idle_s = times[3];
+  s.settled.trace_s = times[4];
 
   std::int64_t memory[] = {
       static_cast<std::int64_t>(s.peak_rss_bytes), static_cast<std::int64_t>(s.base_rss_bytes),
@@ -93,6 +96,10 @@ std::string to_json(const RenderStats& s) {
                                  {"trace_s", s.trace_s},
                                  {"busiest_trace_s", s.busiest_trace_s},
                                  {"idle_s", s.idle_s},
+                                 {"settled_s", s.settled.at_s},
+                                 {"domains_moved", s.settled.domains},
+                                 {"settled_trace_s", s.settled.trace_s},
+                                 {"busiest_settled_trace_s", s.settled.busiest_trace_s},
                                  {"rays_camera", s.traced.rays_camera},
                                  {"rays_indirect", s.traced.rays_indirect},
                                  {"rays_shadow", s.traced.rays_shadow},

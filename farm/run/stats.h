@@ -15,6 +15,14 @@ enum class Ending { none, finished, time_is_up, interrupted, terminated };
 // Into the film rather than a checkpoint.
 constexpr bool writes_film(Ending e) { return e == Ending::finished || e == Ending::time_is_up; }
 
+// What came of homes that settled (run/settling.h).
+struct Settled {
+  double at_s = 0;             // since rendering began; 0: they did not
+  std::uint64_t domains = 0;   // that moved
+  double trace_s = 0;          // since then, of all ranks
+  double busiest_trace_s = 0;  // and of the rank that traced longest since then
+};
+
 // The statistics of a render, of one rank and, after `gather_stats`, of the job: sums, and maxima for the
 // memory.
 struct RenderStats {
@@ -22,6 +30,7 @@ struct RenderStats {
   std::uint64_t spp = 0, seed = 0, samples = 0;
   double wall_s = 0, cpu_s = 0, load_s = 0, trace_s = 0, idle_s = 0;
   double busiest_trace_s = 0;  // of the rank that traced longest
+  Settled settled;
   // Of those in the midst of the job, from the moment from which no ray is born until work goes on: all, and
   // the longest.
   double checkpoint_s = 0, longest_checkpoint_s = 0;

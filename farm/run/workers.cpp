@@ -137,7 +137,6 @@ void wait_for_work(Locked& locked, RankState& s) {
 void work(RankState& s, int thread) {
   Hands hands;
   Locked locked(s);
-  if (s.work.profiling) hands.traffic.emplace(s.scene.manifest.domains.size());
   std::optional<Clock::time_point> idle_since;
   while (!s.finished) {
     Task task = take_task(locked, s);
@@ -151,6 +150,7 @@ void work(RankState& s, int thread) {
     Clock::time_point begin;
     double busy_s = 0;
     const std::uint64_t rays = task.end - task.first + task.batch.count();
+    if (s.work.profiling && !hands.traffic) hands.traffic.emplace(s.scene.manifest.domains.size());
     const auto manner = s.work.profiling ? s.work.profiling->next(task.work) : Profiling::Manner::plain;
     locked.without([&] {
       const Underway underway("tracing rays");
@@ -164,7 +164,7 @@ void work(RankState& s, int thread) {
     s.scheduler.finish_task(task.end - task.first);
   }
   note_idleness(locked, s, thread, idle_since);
-  if (hands.traffic) s.work.profiling->traffic.add(*hands.traffic);
+  if (hands.traffic && s.work.profiling) s.work.profiling->traffic.add(*hands.traffic);
 }
 
 std::int64_t bytes_of(const LoadStep::Load& load, const Manifest& manifest) {

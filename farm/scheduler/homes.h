@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,25 @@ Homes homes_by_bytes(const Manifest& manifest, int ranks);
 
 // The same of about equal work, as `profile` saw it. A domain with more than a rank's share has as many homes
 // as shares, and where the border of two shares lies within a domain or near to it, both ranks are its homes.
-// Throws Error for a profile of another bundle.
-Homes homes_by_work(const Manifest& manifest, const RayProfile& profile, int ranks);
+// `bytes_share`: how much of a domain's weight are its bytes, in [0, 1]. Throws Error for a profile of
+// another bundle.
+Homes homes_by_work(const Manifest& manifest, const RayProfile& profile, int ranks, double bytes_share = .02);
+
+// The same with no more of the bytes than needed, so that the domains and copies of each rank fit into
+// `bytes_a_rank`. Empty: they do not, or the busiest rank would have nearly as much work as with `now`. Where
+// `now` does not fit either, nothing has to.
+std::optional<Homes> better_homes(const Manifest& manifest, const RayProfile& profile, const Homes& now,
+                                  std::uint64_t bytes_a_rank);
+
+// Returns the bytes of the domains and copies of the rank that has most. Objects count in each domain that
+// needs them.
+std::uint64_t most_bytes_at_home(const Manifest& manifest, const Homes& homes);
+
+// Returns the number of domains whose homes differ.
+std::size_t domains_moved(const Homes& from, const Homes& to);
+
+// Returns the work of the busiest rank over the mean, where the homes of each domain share its work as evenly
+// as they can; 1 where the profile saw none.
+double busiest_over_mean(const Homes& homes, const RayProfile& profile);
 
 }  // namespace vitrail

@@ -44,17 +44,38 @@ Residency::Residency(const Manifest& manifest, std::uint64_t budget_bytes, Homes
       object_is_loading_(manifest.objects.size()),
       resident_(manifest.domains.size()),
       absent_(manifest.domains.size()) {
+  settle_in(rank);
+}
+
+// What is local: from the homes, when no ray waits and nothing is in absent_.
+void Residency::settle_in(int rank) {
   std::uint64_t at_home = 0;
   for (std::uint32_t d = 0; d < homes_.domains(); ++d) {
     const bool home = homes_.has(d, rank);
     local_[d] = everything_ || home;
-    if (local_[d]) absent_.insert(d, 0);
-    if (home) at_home += bytes_loaded(manifest, d) + mark_objects(manifest, d, local_objects_);
+    if (local_[d] && state_[d] == State::absent) absent_.insert(d, 0);
+    if (home) at_home += bytes_loaded(manifest_, d) + mark_objects(manifest_, d, local_objects_);
   }
-  places_ = distribution == Distribution::replicate
+  places_ = distribution_ == Distribution::replicate
                 ? homes_.domains() * static_cast<std::uint64_t>(homes_.ranks())
                 : homes_.places();
   spare_ = at_home < budget_ ? budget_ - at_home : 0;
+}
+
+LoadStep Residency::settle(Homes homes, std::uint64_t budget_bytes, int rank) {
+  homes_ = std::move(homes);
+  budget_ = budget_bytes;
+  local_objects_.assign(local_objects_.size(), false);
+  forwarded_.assign(forwarded_.size(), 0);
+  absent_ = Fullest(local_.size());
+  settle_in(rank);
+  LoadStep step;
+  for (std::uint32_t d = 0; d < local_.size(); ++d)
+    if (!local_[d] && state_[d] == State::resident) {
+      evict(d);
+      step.evicted.push_back(d);
+    }
+  return step;
 }
 
 void Residency::set_waiting(std::uint32_t domain, std::uint64_t rays) {
@@ -128,6 +149,13 @@ LoadStep Residency::loader_is_free(std::uint64_t alive, bool starving) {
   return step;
 }
 
+void Residency::evict(std::uint32_t domain) {
+  ++evictions_;
+  resident_.erase(domain);
+  state_[domain] = State::absent;
+  in_table_ -= bytes_loaded(manifest_, domain) + remove_users(domain);
+}
+
 bool Residency::make_room(std::uint32_t wanted, std::uint64_t bytes, std::uint64_t alive, bool starving,
                           std::vector<std::uint32_t>& evicted) {
   while (held_ + bytes > budget_) {
@@ -143,12 +171,9 @@ bool Residency::make_room(std::uint32_t wanted, std::uint64_t bytes, std::uint64
     // half.
     const bool needed = starving && 2 * candidate * places_ >= alive;
     if (fewest >= candidate || !(needed || worthwhile)) return false;
-    ++evictions_;
+    evict(*victim);
     evicted.push_back(*victim);
-    resident_.erase(*victim);
     absent_.insert(*victim, fewest);
-    state_[*victim] = State::absent;
-    in_table_ -= bytes_loaded(manifest_, *victim) + remove_users(*victim);
   }
   return true;
 }
@@ -172,11 +197,7 @@ bool is_in_flow(const Manifest& manifest, const Homes& homes, Distribution distr
   const bool by_work = homes.places() > homes.domains(), all_fits = bytes_of_all(manifest) <= bytes_a_rank;
   if (!by_work || distribution == Distribution::replicate) return false;
   if (all_fits) return distribution == Distribution::decompose;
-  std::vector<std::uint64_t> bytes(static_cast<std::size_t>(homes.ranks()));
-  for (std::uint32_t d = 0; d < homes.domains(); ++d)
-    for (int rank = homes.first(d); rank <= homes.last(d); ++rank)
-      bytes[static_cast<std::size_t>(rank)] += bytes_needed(manifest, d);
-  return std::ranges::all_of(bytes, [&](std::uint64_t b) { return b <= bytes_a_rank; });
+  return most_bytes_at_home(manifest, homes) <= bytes_a_rank;
 }
 
 }  // namespace vitrail

@@ -63,15 +63,20 @@ class Residency {
   // nothing else to do.
   LoadStep loader_is_free(std::uint64_t alive, bool starving);
   void loaded(std::uint32_t domain);
+  // The domains have other homes, while no ray waits and no load is under way. Those leave that have none
+  // here any more: rays that come by would else be traced here.
+  LoadStep settle(Homes homes, std::uint64_t budget_bytes, int rank);
   // Workers let go of what was evicted.
   void released(std::uint64_t bytes) { held_ -= bytes; }
 
  private:
   enum class State : std::uint8_t { absent, loading, resident };
 
+  void settle_in(int rank);
   void set_waiting(std::uint32_t domain, std::uint64_t rays);
   std::uint64_t add_users(std::uint32_t domain, std::vector<std::uint32_t>* missing);
   std::uint64_t remove_users(std::uint32_t domain);
+  void evict(std::uint32_t domain);
   bool make_room(std::uint32_t wanted, std::uint64_t bytes, std::uint64_t alive, bool starving,
                  std::vector<std::uint32_t>& evicted);
 

@@ -176,6 +176,14 @@ RankReport Scheduler::report() const {
           is_idle() ? -1 : static_cast<std::int64_t>(spare_items())};
 }
 
+LoadStep Scheduler::settle(Homes homes, std::uint64_t domain_bytes, std::int64_t rays_allowed) {
+  LoadStep step = residency_.settle(std::move(homes), domain_bytes, job_.rank);
+  homes_overlap_ = residency_.homes().places() > residency_.homes().domains();
+  job_.rays_allowed = rays_allowed;
+  resume();
+  return step;
+}
+
 Scheduler::Decision Scheduler::decide(const RoundSums& sums) {
   const std::int64_t alive = sums.born - sums.died;
   // Twice in a row nothing was alive and nothing new was born in between: then nothing was alive at one
@@ -186,7 +194,7 @@ Scheduler::Decision Scheduler::decide(const RoundSums& sums) {
   born_then_ = sums.born;
   alive_ = static_cast<std::uint64_t>(std::max<std::int64_t>(0, alive));
   idle_ranks_ = sums.idle;
-  paused_ = sums.pause + sums.interrupted + sums.terminated + sums.time_is_up > 0;
+  paused_ = sums.pause + sums.interrupted + sums.terminated + sums.time_is_up + sums.settles > 0;
   // What is free is shared by those that asked for some; who wants none gives back what it had.
   if (!wants_to_generate()) {
     allowance_ = 0;

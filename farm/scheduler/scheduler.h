@@ -84,6 +84,9 @@ class Scheduler {
   // `resume` where the job was paused.
   Decision decide(const RoundSums& sums);
   void resume() { calm_ = false; }
+  // While the job is paused and loads nothing: from now on the domains have these homes, and work goes on.
+  // `domain_bytes` and `rays_allowed`: as at the start. Returns what leaves the memory.
+  LoadStep settle(Homes homes, std::uint64_t domain_bytes, std::int64_t rays_allowed);
 
   std::uint64_t items_dealt() const { return next_item_; }  // to the last ray
   std::uint64_t items_given() const { return given_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "farm/conclude/gather_profile.h"
+#include "farm/run/gather_profile.h"
 #include "farm/run/profiling.h"
 
 namespace vitrail::profiling_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/conclude/gather_profile.h"
+#include "farm/run/gather_profile.h"
 
 #include <algorithm>
 #include <cmath>

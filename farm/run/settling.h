@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// When a job whose homes nobody has planned records where its rays go, and when it settles homes by that.
+#pragma once
+
+#include "farm/plan/job_plan.h"
+#include "farm/scheduler/round.h"
+
+namespace vitrail {
+
+// Rank 0 decides it, once: a job that will end soon records nothing, and never pauses for it.
+class Settling {
+ public:
+  Settling(const JobPlan& plan, const RenderOptions& options);
+
+  // What is known of a job at a round, on rank 0.
+  struct Moment {
+    double now_s = 0;          // since rendering began
+    double samples_left = 0;   // of the goal, as far as is known
+    double until_limit_s = 0;  // the time that --time leaves; infinite without it
+    std::int64_t items_a_pass = 0;
+  };
+  void watch(const RoundSums& sums, const Moment& moment);
+
+  // Whether tasks are to be recorded, and whether the job is to pause and settle.
+  bool profiles() const { return stage_ == Stage::profiles || stage_ == Stage::settles; }
+  bool settles() const { return stage_ == Stage::settles; }
+  void is_over() { stage_ = Stage::over; }
+
+ private:
+  enum class Stage : std::uint8_t { waits, profiles, settles, over };
+
+  double left_s(const RoundSums& sums, const Moment& moment) const;
+
+  double wait_s_, profile_s_, worth_profiling_s_, worth_settling_s_;
+  Stage stage_;
+  double since_s_ = 0;     // when the stage began
+  double ended_then_ = 0;  // samples
+  std::int64_t items_then_ = 0;
+};
+
+}  // namespace vitrail
