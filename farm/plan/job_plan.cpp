@@ -177,11 +177,6 @@ std::uint64_t film_file_bytes(const FilmSettings& film, const FilmKey& key) {
   return sums + sums / 32 + header_and_words;
 }
 
-std::int64_t rays_allowed(const Manifest& m, const RenderOptions& options, const JobPlan& plan, int ranks) {
-  const bool in_flow = is_in_flow(m, plan.homes, options.resources.distribution, plan.memory.domains_bytes);
-  return (in_flow ? rays_allowed_in_flow(plan.threads) : rays_allowed_a_rank(plan.memory)) * ranks;
-}
-
 JobPlan plan_job(const Manifest& m, const RenderOptions& options, const Place& place,
                  const SceneMemory& scene) {
   JobPlan plan;
@@ -195,7 +190,10 @@ JobPlan plan_job(const Manifest& m, const RenderOptions& options, const Place& p
   plan.homes = homes_of(m, options, place.ranks);
   plan.queues = plan.key.photons.photons > 0 ? queue_bounds_with_photons(plan.memory, place.ranks)
                                              : queue_bounds(plan.memory, place.ranks);
-  plan.scheduler = {place.ranks, plan.threads, rays_allowed(m, options, plan, place.ranks), place.rank};
+  const bool in_flow = is_in_flow(m, plan.homes, options.resources.distribution, plan.memory.domains_bytes);
+  const std::int64_t rays_a_rank =
+      in_flow ? rays_allowed_in_flow(plan.threads) : rays_allowed_a_rank(plan.memory);
+  plan.scheduler = {place.ranks, plan.threads, rays_a_rank * place.ranks, place.rank};
   return plan;
 }
 

@@ -49,10 +49,6 @@ std::uint64_t texture_budget(const Manifest& manifest, std::uint64_t memory_byte
 JobPlan plan_job(const Manifest& manifest, const RenderOptions& options, const Place& place,
                  const SceneMemory& scene);
 
-// Returns the rays that may be alive in the whole job, by the plan's homes and memory.
-std::int64_t rays_allowed(const Manifest& manifest, const RenderOptions& options, const JobPlan& plan,
-                          int ranks);
-
 // Of the file of such a film: its sums, and what it says of itself.
 std::uint64_t film_file_bytes(const FilmSettings& film, const FilmKey& key);
 

@@ -76,9 +76,7 @@ void settle_homes(Transport& transport, RankState& state, Job& job, const Render
   stats.settled = {state.elapsed_s(), moved, -state.work.trace_s};  // rest is added in the end
   plan.homes = std::move(homes);
   plan.memory.domains_bytes += std::exchange(plan.profile_bytes, 0);
-  plan.scheduler.rays_allowed = rays_allowed(manifest, options, plan, transport.size());
-  state.domains.begin(
-      state.scheduler.settle(plan.homes, plan.memory.domains_bytes, plan.scheduler.rays_allowed));
+  state.domains.begin(state.scheduler.settle(plan.homes, plan.memory.domains_bytes));
 }
 
 }  // namespace vitrail

@@ -11,6 +11,8 @@ namespace {
 // The first seconds are of loading. The time left has to be worth the recording, which costs a few hundredths
 // of its time, and then a pause, in which the rays end that are alive.
 constexpr double loading_s = 2, recording_s = 5, worth_profiling_s = 50, worth_settling_s = 40;
+// One in some 200 is recorded and timed. With fewer the shares of ranks are those of chance.
+constexpr std::int64_t rays_a_rank = 1 << 21;
 
 // Samples, less what their rays still have to do: a job begins with millions of rays that wait.
 double ended(const RoundSums& sums) {
@@ -25,10 +27,12 @@ Settling::Settling(const JobPlan& plan, const RenderOptions& options)
       profile_s_(recording_s),
       worth_profiling_s_(worth_profiling_s),
       worth_settling_s_(worth_settling_s),
+      rays_(rays_a_rank * plan.scheduler.ranks),
       stage_(plan.may_settle ? Stage::waits : Stage::over) {
   if (!options.resources.settle_after_s) return;
   wait_s_ = worth_profiling_s_ = worth_settling_s_ = 0;
   profile_s_ = *options.resources.settle_after_s;
+  rays_ = 0;
 }
 
 // By the samples that ended since the stage began.
@@ -46,8 +50,9 @@ void Settling::watch(const RoundSums& sums, const Moment& moment) {
     since_s_ = moment.now_s;
     ended_then_ = ended(sums);
     items_then_ = sums.items_done;
+    rays_then_ = sums.rays_traced;
   } else if (stage_ == Stage::profiles && moment.now_s - since_s_ >= profile_s_ &&
-             sums.items_done - items_then_ >= moment.items_a_pass) {
+             sums.items_done - items_then_ >= moment.items_a_pass && sums.rays_traced - rays_then_ >= rays_) {
     stage_ = left_s(sums, moment) >= worth_settling_s_ ? Stage::settles : Stage::over;
   }
 }

@@ -32,10 +32,11 @@ class Settling {
   double left_s(const RoundSums& sums, const Moment& moment) const;
 
   double wait_s_, profile_s_, worth_profiling_s_, worth_settling_s_;
+  std::int64_t rays_;  // that a profile needs
   Stage stage_;
   double since_s_ = 0;     // when the stage began
   double ended_then_ = 0;  // samples
-  std::int64_t items_then_ = 0;
+  std::int64_t items_then_ = 0, rays_then_ = 0;
 };
 
 }  // namespace vitrail

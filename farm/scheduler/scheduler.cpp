@@ -176,10 +176,9 @@ RankReport Scheduler::report() const {
           is_idle() ? -1 : static_cast<std::int64_t>(spare_items())};
 }
 
-LoadStep Scheduler::settle(Homes homes, std::uint64_t domain_bytes, std::int64_t rays_allowed) {
+LoadStep Scheduler::settle(Homes homes, std::uint64_t domain_bytes) {
   LoadStep step = residency_.settle(std::move(homes), domain_bytes, job_.rank);
   homes_overlap_ = residency_.homes().places() > residency_.homes().domains();
-  job_.rays_allowed = rays_allowed;
   resume();
   return step;
 }

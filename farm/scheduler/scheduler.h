@@ -85,8 +85,8 @@ class Scheduler {
   Decision decide(const RoundSums& sums);
   void resume() { calm_ = false; }
   // While the job is paused and loads nothing: from now on the domains have these homes, and work goes on.
-  // `domain_bytes` and `rays_allowed`: as at the start. Returns what leaves the memory.
-  LoadStep settle(Homes homes, std::uint64_t domain_bytes, std::int64_t rays_allowed);
+  // `domain_bytes`: as at the start. As many rays as before may be alive. Returns what leaves the memory.
+  LoadStep settle(Homes homes, std::uint64_t domain_bytes);
 
   std::uint64_t items_dealt() const { return next_item_; }  // to the last ray
   std::uint64_t items_given() const { return given_; }

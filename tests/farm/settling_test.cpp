@@ -25,10 +25,12 @@ struct Job {
   void second(std::int64_t samples, double left, double until_limit_s = no_limit, std::int64_t items = 10) {
     sums.samples += samples;
     sums.items_done += items;
+    sums.rays_traced += rays;
     settling.watch(sums, {++now_s, left, until_limit_s, 20});
   }
   Settling settling;
   RoundSums sums;
+  std::int64_t rays = 1 << 21;  // a second
   double now_s = 0;
 };
 
@@ -86,6 +88,16 @@ TEST(Settling, AProfileIsOfAWholePass) {
   EXPECT_TRUE(job.settling.settles());
 }
 
+TEST(Settling, AProfileNeedsRays) {
+  Job job(true);
+  job.rays = 10'000;
+  for (int s = 0; s < 20; ++s) job.second(100, 100'000);
+  EXPECT_FALSE(job.settling.settles()) << "others use the machine";
+  job.rays = 1 << 21;
+  job.second(100, 100'000);
+  EXPECT_TRUE(job.settling.settles());
+}
+
 Manifest of_domains(std::size_t count, std::uint64_t bytes) {
   Manifest m;
   m.domains.resize(count);
@@ -133,7 +145,7 @@ TEST(Settling, WhatMovedOutLeavesTheMemory) {
     scheduler.loaded(d);
     scheduler.begin_batch(d, 5);
   }
-  const LoadStep step = scheduler.settle(Homes({1, 0, 0, 1}, {1, 1, 0, 1}, 2), 250, 1000);
+  const LoadStep step = scheduler.settle(Homes({1, 0, 0, 1}, {1, 1, 0, 1}, 2), 250);
   EXPECT_EQ(step.evicted, std::vector<std::uint32_t>{0});
   EXPECT_FALSE(step.load);
   EXPECT_EQ(residency.evictions(), 1u);
