@@ -14,7 +14,6 @@
 #include "farm/files/signals.h"
 #include "farm/plan/job.h"
 #include "farm/plan/same_job.h"
-#include "farm/run/about.h"
 #include "farm/run/file_watch.h"
 #include "farm/run/gather_profile.h"
 #include "farm/run/rank.h"
@@ -76,8 +75,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   const Manifest& manifest = job.scene->manifest;
   expect_same_job(transport, manifest, job.plan.key, job.plan.goal, job.plan.homes, options);
   require_all_may_settle(transport, job.plan);
-  const std::string words = about(manifest, options);
-  EarlierWork earlier = read_earlier_work(transport, options, job.film, job.plan.goal, words);
+  EarlierWork earlier = read_earlier_work(transport, options, job.film, job.plan.goal, job.about);
   const std::uint64_t samples_before = job.film.samples();  // on rank 0
   // Run.
   now_doing("beginning to render");
@@ -85,7 +83,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
       transport.size() > 1 ? fmt::format("rank {} of {}: ", transport.rank(), transport.size()) : "");
   RankState state(*job.scene, job.film, std::move(earlier.plan), job.plan, options);
   const bool finished_before = earlier.finished;
-  Rank rank(transport, state, options, job, std::move(earlier), words);
+  Rank rank(transport, state, options, job, std::move(earlier));
   RenderStats stats = run(transport, options, job, state, rank, finished_before);
   stats.peak_rss_bytes = peak_resident_bytes();
   stats.cpu_s = cpu_seconds();

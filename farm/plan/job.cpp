@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "farm/plan/about.h"
 #include "farm/plan/job_manifest.h"
 #include "scene/system/resource_usage.h"
 #include "tracer/prepared/film_exponent.h"
@@ -16,8 +17,9 @@ namespace {
 
 // With what the table of lights takes by which photons leave them (Emission): for a moment the bounds of all
 // lamps, in lists that grow.
-SceneMemory memory_of(const RenderScene& scene, std::uint64_t textures) {
-  SceneMemory memory{resident_bytes(), peak_resident_bytes(), textures};
+SceneMemory memory_of(const RenderScene& scene, const std::string& about, std::uint64_t textures) {
+  const std::uint64_t written = about.size();  // once more, in what a checkpoint writes
+  SceneMemory memory{resident_bytes() + written, peak_resident_bytes(), textures};
   if (!scene.manifest.settings.photons) return memory;
   constexpr std::uint64_t kept = 24, for_a_moment = sizeof(LightBounds) + sizeof(std::uint32_t);
   const std::uint64_t lamps = scene.lights.scene.triangles.size() + scene.lights.quadrics.size();
@@ -38,8 +40,9 @@ Job set_up(const RenderOptions& options, const Place& place) {
   job.scene->replaced_camera = read.replaced_camera;
   if (options.picture.daylight) set_daylight(*job.scene, *options.picture.daylight);
   const Manifest& m = job.scene->manifest;
-  ::malloc_trim(0);  // what was freed since the manifest was read
-  job.plan = plan_job(m, options, place, memory_of(*job.scene, textures));
+  job.about = about(m, options);  // with the names of all masks, where a film keeps masks
+  ::malloc_trim(0);               // what was freed since the manifest was read
+  job.plan = plan_job(m, options, place, memory_of(*job.scene, job.about, textures));
   std::shared_ptr<FilmScratch> scratch;
   if (job.plan.film.window > 0) scratch = std::make_shared<FilmScratch>(job.plan.film.window);
   job.film = Film(m.film, job.plan.key, film_exponent(*job.scene),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "farm/files/film_keeper.h"
 #include "farm/plan/job_plan.h"
@@ -12,6 +13,7 @@ namespace vitrail {
 // What a rank holds from the first step of a render to the last.
 struct Job {
   std::unique_ptr<RenderScene> scene;
+  std::string about;  // of its film (about.h)
   JobPlan plan;
   Film film;
   std::unique_ptr<FilmKeeper> keeper;  // on rank 0, unless it is a dry run

@@ -31,12 +31,12 @@ double interval_s(const RenderOptions& options) {
 }  // namespace
 
 Checkpointing::Checkpointing(Transport& transport, RankState& state, const RenderOptions& options,
-                             FilmKeeper* keeper, std::string about, double time_before_s)
+                             FilmKeeper* keeper, const std::string& about, double time_before_s)
     : transport_(transport),
       state_(state),
       options_(options),
       keeper_(keeper),
-      about_(std::move(about)),
+      about_(about),
       time_before_s_(time_before_s),
       limit_start_(limit_start(options, state.begun)),
       last_(state.begun),

@@ -15,10 +15,10 @@ namespace vitrail {
 
 class Checkpointing {
  public:
-  // `about`: FilmProgress's. `keeper`: on rank 0, unless it is a dry run. `time_before_s`: render time of
-  // earlier runs.
+  // `about`: FilmProgress's; outlives it. `keeper`: on rank 0, unless it is a dry run. `time_before_s`:
+  // render time of earlier runs.
   Checkpointing(Transport& transport, RankState& state, const RenderOptions& options, FilmKeeper* keeper,
-                std::string about, double time_before_s);
+                const std::string& about, double time_before_s);
 
   // Asks for a checkpoint or an end where one is due. Where domains come and go, or rays go to other ranks,
   // and time is limited, an early checkpoint measures how long the rays alive take to end; that is left
@@ -55,7 +55,7 @@ class Checkpointing {
   RankState& state_;
   const RenderOptions& options_;
   FilmKeeper* keeper_;
-  std::string about_;
+  const std::string& about_;
   double time_before_s_;
   bool wanted_ = false, time_is_up_ = false, has_gained_ = false;
   // On rank 0, where time is limited: what is left for the film, of which the first is but for gathering.

@@ -41,7 +41,7 @@ Ending stop_of(const RoundSums& sums) {
 }  // namespace
 
 Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options, Job& job,
-           EarlierWork earlier, std::string about)
+           EarlierWork earlier)
     : transport_(transport),
       state_(state),
       options_(options),
@@ -49,7 +49,7 @@ Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options,
       progress_(options, transport.rank(), state.film, expected_samples(state.film, goal_)),
       phases_(state, {transport.rank(), transport.size()}, std::move(earlier.done)),
       exchange_(transport, state, phases_, job.plan.queues.being_sent),
-      checkpointing_(transport, state, options, job.keeper.get(), std::move(about), earlier.render_time_s),
+      checkpointing_(transport, state, options, job.keeper.get(), job.about, earlier.render_time_s),
       settling_(job.plan, options),
       stall_(options.resources.patience_s) {}
 

@@ -15,9 +15,8 @@ namespace vitrail {
 
 class Rank {
  public:
-  // All references outlive it. `about`: FilmProgress's.
-  Rank(Transport& transport, RankState& state, const RenderOptions& options, Job& job, EarlierWork earlier,
-       std::string about);
+  // All references outlive it.
+  Rank(Transport& transport, RankState& state, const RenderOptions& options, Job& job, EarlierWork earlier);
 
   // Until the picture is whole, the time is up or the job is told to stop. Rank 0 has then written the film,
   // or a checkpoint where a signal stopped it. Ending::none: the job is paused to settle its homes, after

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "farm/plan/about.h"
 #include "farm/plan/job_manifest.h"
 #include "farm/plan/rounds.h"
-#include "farm/run/about.h"
-#include "farm/run/scene_parts.h"
+#include "farm/plan/scene_parts.h"
 #include "film/picture_fields.h"
 
 namespace vitrail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/run/scene_parts.h"
+#include "farm/plan/scene_parts.h"
 
 #include <fmt/format.h>
 

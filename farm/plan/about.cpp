@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/run/about.h"
+#include "farm/plan/about.h"
 
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bundle/matte_names.h"
-#include "farm/run/scene_parts.h"
+#include "farm/plan/scene_parts.h"
 #include "scene/records/kinds.h"
 #include "tracer/view/pixel_filter.h"
 
