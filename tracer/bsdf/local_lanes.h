@@ -50,7 +50,8 @@ VITRAIL_LANES D attainable(D p) {
   return select<D>(p > 0, select<D>(p < 1, inside, fill<D>(1)), fill<D>(0));
 }
 
-// Of light whose field is across the plane of incidence, and in it.
+// It holds a value of light whose field is across the plane of incidence, and one of light whose field is in
+// it.
 template <class D>
 struct Polarized {
   D s, p;
@@ -60,13 +61,13 @@ template <class D>
 VITRAIL_LANES D part_of(D q, Polarized<D> parts) {
   return ((1.0 + q) * parts.s + (1.0 - q) * parts.p) / 2.0;
 }
-// And the Q of that, for an I of 1 before.
+// Returns the Q of that, for an I of 1 before.
 template <class D>
 VITRAIL_LANES D polarized_part_of(D q, Polarized<D> parts) {
   return ((1.0 + q) * parts.s - (1.0 - q) * parts.p) / 2.0;
 }
 
-// Q/I of light of these, each rounded by itself.
+// Returns Q/I of light of these, each rounded by itself.
 template <class D>
 VITRAIL_LANES D q_of(D polarized, D all) {
   return select<D>(all > 0, lanes::clamp<D>(polarized / all, -1.0, 1.0), fill<D>(0));

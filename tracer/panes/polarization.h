@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The polarisation of light between smooth faces of glass. A face reflects light whose field is across the
-// plane of incidence (s) otherwise than light whose field is in it (p). Faces that share that plane keep the
-// two apart: one pane of index 1.5 lets 1.4 % more of the light at 60° through than it would if every face
-// met unpolarised light, two let 6.5 % more through.
+// This is the polarisation of light between smooth faces of glass. A face reflects light whose field is
+// across the plane of incidence (s) otherwise than light whose field is in it (p). Faces that share that
+// plane keep the two apart: one pane of index 1.5 lets 1.4 % more of the light at 60° through than it would
+// if every face met unpolarised light, two let 6.5 % more through.
 //
 // Paths and photons carry the sum of s and p, and beside it Stokes' Q/I = (s − p)/(s + p). Both are linear in
 // what faces do, so Q/I may be rounded by chance and the mean stays that of s and p apart. One Q/I stands for
@@ -18,7 +18,7 @@
 
 namespace vitrail {
 
-// Q/I in steps of 1/31.
+// It holds Q/I in steps of 1/31.
 struct Polarization {
   std::int8_t code = 0;  // −31 (p alone) to 31 (s alone); 0: unpolarised
 

@@ -75,7 +75,7 @@ inline FaceCode encode_face(Vector3d normal) {
   return {(code.first() >> 14) << 10 | code.second() >> 14};
 }
 
-// Unit length, of either side.
+// Returns the normal, of unit length, of either side.
 inline Vector3d decode_face(FaceCode code) {
   const DirectionCode centre =
       DirectionCode::of((code.bits >> 10) << 14 | 1 << 13, (code.bits & 0x3ff) << 14 | 1 << 13);

@@ -91,7 +91,7 @@ std::array<float, 4> numbers_for_scattering(const Scatterer& s, Wanted wanted = 
 // counts. False where that was one scattering too many.
 bool leave_pane(CameraPath& path);
 bool leave_pane(PhotonPath& photon);
-// Q/I where it meets a face of that normal.
+// Returns Q/I as the ray meets a face of that normal (polarization.h).
 double polarization_at(const Scatterer& s, Vector3d normal);
 
 // Photons have the cones of a first sample.
@@ -128,8 +128,8 @@ void pass_straight(const Tracing& tracing, PhotonPath& photon, const Interaction
 // Counts that it goes straight on, where that counts: through a sheet, or what is not there of it.
 void count_straight(const Tracing& tracing, CameraPath& path);
 void count_straight(const Tracing& tracing, PhotonPath& photon);
-// At a surface: only the far face of a pane lets the wavelengths out the way they came in, and only smooth
-// glass keeps their polarisation. False as of leave_pane.
+// Tells the ray that it meets a surface: only the far face of a pane lets the wavelengths out the way they
+// came in, and only smooth glass keeps their polarisation. Returns what leave_pane does.
 template <class T>
 bool come_to(T& t, const Event& event) {
   if (!event.kind.smooth_dielectric) t.pane.polarization = {};

@@ -135,14 +135,14 @@ Scene room_with_window() {
 const std::vector<Sensor> on_the_floor{
     {{0, 1, 0}, {0, 0, 1}}, {{0, 0, 0}, {0, 0, 1}}, {{0, -1.5, 0}, {0, 0, 1}}, {{-1.5, -0.5, 0}, {0, 0, 1}}};
 
-// Of a pane with parallel faces: its two reflections without end, absorbing nothing.
+// Of a pane with parallel faces: its two reflections without end, absorbing nothing, of s and p apart.
 constexpr double index = 1.52;
 double pane(double cosine) {
   const double sine2 = (1 - cosine * cosine) / (index * index), inside = std::sqrt(1 - sine2);
   const double s = (cosine - index * inside) / (cosine + index * inside),
                p = (index * cosine - inside) / (index * cosine + inside);
-  const double f = (s * s + p * p) / 2;
-  return (1 - f) / (1 + f);
+  const auto passes = [](double f) { return (1 - f) / (1 + f); };
+  return (passes(s * s) + passes(p * p)) / 2;
 }
 
 // ∫ T cos cos/(π r²) dA over a rectangle of a plane, by its middle points: from the floor's point to u, v.
