@@ -6,7 +6,8 @@
 
 namespace vitrail {
 
-// What a side scatters of light at the normal, at the wavelengths of the sheets; empty where nothing is. It
+// They say what a side scatters of light at the normal, at the wavelengths of the sheets. They are empty
+// where nothing is scattered. A side
 // lets through as much of light from inside as of light from outside: a Lambertian surface is reciprocal.
 struct ScatteredShares {
   std::vector<float> reflected, transmitted;  // their sums are at most 1

@@ -10,11 +10,11 @@
 
 namespace vitrail {
 
-// Two panes, or groups of panes, as one; the first outside. The sum over all reflections between them, a
-// geometric series.
+// Returns two panes, or groups of panes, as one; the first is outside. It sums all reflections between them,
+// a geometric series.
 PaneValues joined(const PaneValues& outside, const PaneValues& inside);
 
-// What a pane, or panes together, do with light of 1.
+// It says what a pane, or panes together, do with light of 1.
 struct Streams {
   PaneValues direct;        // of direct light: what stays direct
   PaneValues scattered;     // of direct light: what becomes diffuse; t of light from the front

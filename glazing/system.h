@@ -55,12 +55,12 @@ std::optional<double> value_of(const GlazingSystem& system, Quantity quantity);
 // keeps them apart, which matters beyond 45° or so (docs/why/glazing.md has the difference).
 enum class Polarisation { mixed_at_panes, apart };
 
-// Whether a pane of it does.
+// Returns whether a pane of it scatters light.
 bool scatters_light(const GlazingSystem& system);
 // Lets all that its panes scatter go straight on.
 void forget_scattering(GlazingSystem& system);
 
-// What all panes do together with light from one direction, by the sum over all reflections between them.
+// Returns what all panes do together with light from one direction, with all reflections between them.
 // What a pane scatters of it is the same part at all angles; diffuse light meets each pane as it is over the
 // hemisphere.
 Streams system_streams(const GlazingSystem& system, double nm, double cosine, Polarisation polarisation);

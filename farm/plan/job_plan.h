@@ -34,7 +34,7 @@ struct JobPlan {
   std::uint64_t all_domains = 0;  // bytes
   std::size_t most_photons = 0;   // in memory, of those that land here; 0: no limit
   Homes homes{{}, 1};
-  // Whether the job may settle its homes (run/settling.h), and what is set aside for the profile until then.
+  // The job may settle its homes (run/settling.h), and sets this aside for the profile until then.
   bool may_settle = false;
   std::uint64_t profile_bytes = 0;
   QueueBounds queues;

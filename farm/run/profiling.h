@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `render --profile` records, and a job that is to settle its homes. Telling where each ray goes costs a
-// render its waves, so tasks take turns: one is recorded, ray by ray; one walks from domain to domain as rays
-// do in little memory; one is traced as without a profile. Only the last two tell what tracing costs.
+// It holds what `render --profile` and a job that is to settle its homes record. Telling where each ray goes
+// costs a render its waves, so tasks take turns: one is recorded, ray by ray; one walks from domain to domain
+// as rays do in little memory; one is traced as without a profile. Only the last two tell what tracing costs.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ class Profiling {
   // By kind of task, generating first, and manner: samples or rays, and seconds.
   using Sums = std::array<double, 4 * manners>;
 
-  // Of so many tasks one is recorded, one walks, the others are traced as without a profile.
+  // It records one of so many tasks, lets one walk, and has the others traced as without a profile.
   explicit Profiling(std::size_t domains, std::uint64_t turns = manners)
       : traffic(domains), of_turns_(turns) {}
 

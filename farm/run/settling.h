@@ -12,7 +12,7 @@ class Settling {
  public:
   Settling(const JobPlan& plan, const RenderOptions& options);
 
-  // What is known of a job at a round, on rank 0.
+  // It holds what is known of a job at a round, on rank 0.
   struct Moment {
     double now_s = 0;          // since rendering began
     double samples_left = 0;   // of the goal, as far as is known
@@ -21,7 +21,7 @@ class Settling {
   };
   void watch(const RoundSums& sums, const Moment& moment);
 
-  // Whether tasks are to be recorded, and whether the job is to pause and settle.
+  // They tell whether tasks are to be recorded, and whether the job is to pause and settle.
   bool profiles() const { return stage_ == Stage::profiles || stage_ == Stage::settles; }
   bool settles() const { return stage_ == Stage::settles; }
   void is_over() { stage_ = Stage::over; }

@@ -15,7 +15,7 @@ enum class Ending { none, finished, time_is_up, interrupted, terminated };
 // Into the film rather than a checkpoint.
 constexpr bool writes_film(Ending e) { return e == Ending::finished || e == Ending::time_is_up; }
 
-// What came of homes that settled (run/settling.h).
+// It tells what came of homes that settled (run/settling.h).
 struct Settled {
   double at_s = 0;             // since rendering began; 0: they did not
   std::uint64_t domains = 0;   // that moved
