@@ -39,7 +39,7 @@ GlazingSheets sheets_of(const GlazingSystem& system, Polarisation polarisation) 
   }
   const bool scatters = scatters_light(system);
   for (const double x : nm) {
-    const Streams normal = scatters ? system_streams(system, x, 1, polarisation) : Streams{};
+    const Streams normal = system_streams(system, x, 1, polarisation);
     const PaneValues& made = normal.scattered;
     if (scatters) {
       const auto add = [](ScatteredShares& side, double r, double t) {
@@ -49,8 +49,7 @@ GlazingSheets sheets_of(const GlazingSystem& system, Polarisation polarisation) 
       add(sheets.back_scattered, made.rb, made.t);
     }
     for (const double c : cosines) {
-      const PaneValues v = scatters ? system_streams(system, x, c, polarisation).direct
-                                    : system_values(system, x, c, polarisation);
+      const PaneValues v = system_streams(system, x, c, polarisation).direct;
       const auto add = [&](MeasuredSheet& sheet, double r, double scattered) {
         const double left = std::max(0.0, 1 - scattered), t = std::clamp(v.t, 0.0, left);
         sheet.transmittance.push_back(static_cast<float>(t));

@@ -72,13 +72,20 @@ PaneValues scattered_parts(const GlazingLayer& layer, double nm) {
   return turned({share(part.t, all.t), share(part.rf, all.rf), share(part.rb, all.rb)}, layer.flipped);
 }
 
-PaneValues over_hemisphere(const GlazingLayer& layer, double nm) {
+// The sum of values(cosine) over a hemisphere, by their weights.
+PaneValues summed(const std::vector<Direction>& directions, const auto& values) {
   PaneValues sum;
-  for (const auto& [cosine, weight] : hemisphere(HemisphereRule::gauss)) {
-    const PaneValues v = turned(mean(values_at(layer.pane, nm, cosine)), layer.flipped);
+  for (const auto& [cosine, weight] : directions) {
+    const PaneValues v = values(cosine);
     sum = {sum.t + weight * v.t, sum.rf + weight * v.rf, sum.rb + weight * v.rb};
   }
   return sum;
+}
+
+PaneValues over_hemisphere(const GlazingLayer& layer, double nm) {
+  return summed(hemisphere(HemisphereRule::gauss), [&](double cosine) {
+    return turned(mean(values_at(layer.pane, nm, cosine)), layer.flipped);
+  });
 }
 
 // Of all panes, from outside, s and then p.
@@ -223,14 +230,9 @@ SystemSpectrum hemispherical_spectrum(const GlazingSystem& system, std::vector<d
                                       Polarisation polarisation, HemisphereRule rule) {
   SystemSpectrum spectrum{std::move(nm), {}};
   const auto directions = hemisphere(rule);
-  for (const double x : spectrum.nm) {
-    PaneValues sum;
-    for (const auto& [cosine, weight] : directions) {
-      const PaneValues v = system_values(system, x, cosine, polarisation);
-      sum = {sum.t + weight * v.t, sum.rf + weight * v.rf, sum.rb + weight * v.rb};
-    }
-    spectrum.values.push_back(sum);
-  }
+  for (const double x : spectrum.nm)
+    spectrum.values.push_back(
+        summed(directions, [&](double cosine) { return system_values(system, x, cosine, polarisation); }));
   return spectrum;
 }
 
