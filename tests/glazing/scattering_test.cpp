@@ -104,7 +104,7 @@ TEST(Scattering, IsNamedByDataSheets) {
 
 // Direct light of 1 onto a frit and a mirror behind it that scatters half: by hand, order by order.
 TEST(Scattering, BetweenPanesIsTheSumOfAllOrders) {
-  const Streams frit{{0.2, 0.05, 0.07}, {0.4, 0.1, 0.15}, 0.4, {0.5, 0.25, 0.3}},
+  const Streams frit{{0.2, 0.05, 0.07}, {0.4, 0.1, 0.15}, 0.35, {0.5, 0.25, 0.3}},
       mirror{{0.1, 0.3, 0.2}, {0.05, 0.35, 0.1}, 0.06, {0.12, 0.6, 0.4}};
   double direct = frit.direct.t, diffuse = frit.scattered.t, t = 0, scattered_t = 0, rf = frit.direct.rf,
          scattered_rf = frit.scattered.rf;
