@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """short_jobs_test.py PROGRAMS SOURCE: short jobs of all kinds, one after the other in one folder: integrators and ways to sample,
-1 or 2 ranks, 1 to 3 threads, 1 to 16 domains, all or an eighth of them in memory. Some are killed, ended by TERM or by --time, or made
-to write a checkpoint at random moments, and typed again until they are done. Each gives the film of one rank and one thread with one
-domain. One that differs is kept with that film, its own, its messages and its commands, in VITRAIL_SOAK_KEEP (else
-/tmp/vitrail-differing-films). 14 jobs; VITRAIL_SOAK_JOBS says how many, with VITRAIL_LONG_TESTS 10,000. VITRAIL_SOAK_SEED begins
+1 or 2 ranks, 1 to 3 threads, 1 to 16 domains, all or an eighth of them in memory, homes that settle or not. Some are killed, ended by
+TERM or by --time, or made to write a checkpoint at random moments, and typed again until they are done. Each gives the film of one rank
+and one thread with one domain. One that differs is kept with that film, its own, its messages and its commands, in VITRAIL_SOAK_KEEP
+(else /tmp/vitrail-differing-films). 14 jobs; VITRAIL_SOAK_JOBS says how many, with VITRAIL_LONG_TESTS 10,000. VITRAIL_SOAK_SEED begins
 elsewhere."""
 import collections
 import json
@@ -83,6 +83,8 @@ class Job:
             more += ["--checkpoint-every", dice.choice([.05, .2])]
         if self.fate == "time" and self.starts < 2:
             more += ["--time", round(self.seconds * dice.uniform(.5, 1.5), 2)]
+        if dice.random() < .3:
+            more += ["--settle-after", dice.choice([0, .1, .5])]
         words = render(self.folder, self.film, self.kind, self.domains, *more)
         return ["mpirun", "-np", "2"] + words if ranks == 2 else words
 
