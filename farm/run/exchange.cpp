@@ -137,13 +137,13 @@ void Exchange::give_items() {
   }
 }
 
-// Nothing but what ranks send each other.
+// Nothing but what ranks send each other. Rays may be on their way to a home that the domain had before.
 bool Exchange::may_come(RayBatch& batch) const {
   if (batch.kind() == RayKind::item)
     return std::ranges::all_of(batch.records<std::uint64_t>(),
                                [&](std::uint64_t item) { return item < phases_.items(); });
-  return (is_ray(batch.kind()) || state_.photons) &&
-         state_.scheduler.residency().homes().has(batch.domain(), transport_.rank());
+  return is_ray(batch.kind()) ||
+         (state_.photons && state_.scheduler.residency().homes().has(batch.domain(), transport_.rank()));
 }
 
 void Exchange::take_in(RayBatch batch) {
@@ -161,8 +161,8 @@ void Exchange::take_in(RayBatch batch) {
       return;
     case RayKind::path:
     case RayKind::shadow:
-      state_.scheduler.arrived(batch.domain(), batch.count());
-      state_.queues.push(std::move(batch));
+      (state_.scheduler.arrived(batch.domain(), batch.count()) ? state_.queues : state_.outgoing)
+          .push(std::move(batch));
       state_.work_available.notify_one();
       state_.load_wanted.notify_one();
   }

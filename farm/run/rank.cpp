@@ -152,20 +152,25 @@ Rank::Decision Rank::decide(const Round& round) {
     record(locked, sums.profiles > 0);
   }
   state_.work_available.notify_all();
+  if (sums.settles > 0) return Decision::settle;
   exchange_.give_items();
   if (quiet == Scheduler::Decision::go_on || phases_.begin_next(sums)) return Decision::go_on;
   return ending_of(sums) == Ending::none ? Decision::pause : Decision::end;
 }
 
 std::optional<Ending> Rank::act_on(Decision decision, const RoundSums& sums) {
+  if (decision == Decision::settle) {
+    settling_.is_over();
+    return Ending::none;
+  }
   if (decision == Decision::pause) {
-    if (sums.pause > 0) checkpointing_.write_checkpoint();
-    return settle(sums);
+    checkpointing_.write_checkpoint();
+    return std::nullopt;
   }
   Ending ending = ending_of(sums);
   if (ending == Ending::finished && goal_.in_rounds) {
     const std::optional<Ending> end = begin_next_round(stop_of(sums));
-    if (!end) return settle(sums);
+    if (!end) return std::nullopt;
     ending = *end;
   }
   if (options_.outputs.dry_run)
@@ -175,13 +180,6 @@ std::optional<Ending> Rank::act_on(Decision decision, const RoundSums& sums) {
     checkpointing_.write_last(/*as_film=*/writes_film(ending));
   progress_.finish();
   return ending;
-}
-
-// If that was asked for: no ray is alive.
-std::optional<Ending> Rank::settle(const RoundSums& sums) {
-  if (sums.settles == 0) return std::nullopt;
-  settling_.is_over();
-  return Ending::none;
 }
 
 Ending Rank::ending_of(const RoundSums& sums) const {

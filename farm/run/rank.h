@@ -19,22 +19,21 @@ class Rank {
   Rank(Transport& transport, RankState& state, const RenderOptions& options, Job& job, EarlierWork earlier);
 
   // Until the picture is whole, the time is up or the job is told to stop. Rank 0 has then written the film,
-  // or a checkpoint where a signal stopped it. Ending::none: the job is paused to settle its homes, after
-  // which `run` goes on (settle_homes.h). Throws what went wrong here, or OtherRankFailed, after all
-  // ranks have agreed to end.
+  // or a checkpoint where a signal stopped it. Ending::none: homes are to settle, which all ranks do
+  // together while no worker lives; after it `run` goes on (settle_homes.h). Throws what went wrong here, or
+  // OtherRankFailed, after all ranks have agreed to end.
   Ending run();
 
   void add_to(RenderStats& stats) const;
   int rounds() const { return phases_.rounds(); }  // begun here
 
  private:
-  enum class Decision { go_on, pause, end };
+  enum class Decision { go_on, settle, pause, end };
 
   void join_round();
   std::optional<Ending> after_round(const Round& round);
   Decision decide(const Round& round);
   std::optional<Ending> act_on(Decision decision, const RoundSums& sums);
-  std::optional<Ending> settle(const RoundSums& sums);
   std::optional<Ending> begin_next_round(Ending stop);
   void watch_settling(const RoundSums& sums);
   void record(const Locked& locked, bool wanted);

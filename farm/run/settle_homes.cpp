@@ -39,6 +39,18 @@ double busiest_over_mean(Transport& transport, const Profiling& mine) {
   return 1e-9 * static_cast<double>(busiest_ns[0]) * transport.size() / std::max(all_s[0], 1e-9);
 }
 
+// Those that are to be traced at other homes wait for being sent.
+void send_on(const Locked&, RankState& state, const Homes& homes) {
+  for (std::uint32_t d = 0; d < homes.domains(); ++d)
+    for (std::uint64_t left = state.scheduler.leaving(d, homes), rays = 0; left > 0;
+         left -= std::min(left, rays)) {
+      RayBatch batch = state.queues.pop(d);
+      rays = batch.count();
+      state.scheduler.leave(d, rays);
+      state.outgoing.push(std::move(batch));
+    }
+}
+
 }  // namespace
 
 void require_all_may_settle(Transport& transport, JobPlan& plan) {
@@ -72,10 +84,11 @@ void settle_homes(Transport& transport, RankState& state, Job& job, const Render
         state.elapsed_s(), moved, manifest.domains.size(), busiest, busiest_over_mean(homes, profile));
   const Locked locked(state);
   state.finished = false;
-  if (moved == 0) return state.scheduler.resume();
+  if (moved == 0) return;
   stats.settled = {state.elapsed_s(), moved, -state.work.trace_s};  // rest is added in the end
   plan.homes = std::move(homes);
   plan.memory.domains_bytes += std::exchange(plan.profile_bytes, 0);
+  send_on(locked, state, plan.homes);
   state.domains.begin(state.scheduler.settle(plan.homes, plan.memory.domains_bytes));
 }
 

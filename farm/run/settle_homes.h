@@ -12,8 +12,8 @@ namespace vitrail {
 void require_all_may_settle(Transport& transport, JobPlan& plan);
 
 // Gives the domains homes of equal work, as this job's profile saw it, and ends the profile. Where ranks had
-// about equal work the homes stay. All ranks together, while the job is paused and no worker lives. Adds to
-// `stats` what came of it, the same on every rank.
+// about equal work the homes stay. All ranks call it together, while no worker lives. Rays that wait are sent
+// to the new homes. It adds to `stats` what came of it, the same on every rank.
 void settle_homes(Transport& transport, RankState& state, Job& job, const RenderOptions& options,
                   RenderStats& stats);
 

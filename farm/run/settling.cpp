@@ -9,7 +9,7 @@ namespace vitrail {
 namespace {
 
 // The first seconds are of loading. The time left has to be worth the recording, which costs a few hundredths
-// of its time, and then a pause, in which the rays end that are alive.
+// of its time, and then the loading of domains at their new homes.
 constexpr double loading_s = 2, recording_s = 5, worth_profiling_s = 50, worth_settling_s = 40;
 // One in some 200 is recorded and timed. With fewer the shares of ranks are those of chance.
 constexpr std::int64_t rays_a_rank = 1 << 21;

@@ -21,7 +21,7 @@ class Settling {
   };
   void watch(const RoundSums& sums, const Moment& moment);
 
-  // They tell whether tasks are to be recorded, and whether the job is to pause and settle.
+  // They tell whether tasks are to be recorded, and whether homes are to settle.
   bool profiles() const { return stage_ == Stage::profiles || stage_ == Stage::settles; }
   bool settles() const { return stage_ == Stage::settles; }
   void is_over() { stage_ = Stage::over; }

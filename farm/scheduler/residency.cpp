@@ -47,13 +47,13 @@ Residency::Residency(const Manifest& manifest, std::uint64_t budget_bytes, Homes
   settle_in(rank);
 }
 
-// What is local: from the homes, when no ray waits and nothing is in absent_.
+// Decides by the homes what is local, when nothing is in absent_.
 void Residency::settle_in(int rank) {
   std::uint64_t at_home = 0;
   for (std::uint32_t d = 0; d < homes_.domains(); ++d) {
     const bool home = homes_.has(d, rank);
     local_[d] = everything_ || home;
-    if (local_[d] && state_[d] == State::absent) absent_.insert(d, 0);
+    if (local_[d] && state_[d] == State::absent) absent_.insert(d, waiting_[d]);
     if (home) at_home += bytes_loaded(manifest_, d) + mark_objects(manifest_, d, local_objects_);
   }
   places_ = distribution_ == Distribution::replicate

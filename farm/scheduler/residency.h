@@ -63,8 +63,8 @@ class Residency {
   // nothing else to do.
   LoadStep loader_is_free(std::uint64_t alive, bool starving);
   void loaded(std::uint32_t domain);
-  // The domains have other homes, while no ray waits and no load is under way. Those leave that have none
-  // here any more: rays that come by would else be traced here.
+  // The domains have other homes, while no load is under way and rays wait for no domain that has none here
+  // any more. Such domains leave the memory: rays that come by would else be traced here.
   LoadStep settle(Homes homes, std::uint64_t budget_bytes, int rank);
   // Workers let go of what was evicted.
   void released(std::uint64_t bytes) { held_ -= bytes; }

@@ -104,11 +104,6 @@ bool Scheduler::route(std::uint32_t domain, std::uint64_t rays) {
   return false;
 }
 
-void Scheduler::arrived(std::uint32_t domain, std::uint64_t rays) {
-  waiting_ += rays;
-  residency_.rays_wait(domain, rays);
-}
-
 // So many times its even share wait here: they are on the disk, and more would only come behind them.
 bool Scheduler::is_full() const {
   constexpr std::uint64_t shares = 8;
@@ -176,10 +171,20 @@ RankReport Scheduler::report() const {
           is_idle() ? -1 : static_cast<std::int64_t>(spare_items())};
 }
 
+std::uint64_t Scheduler::leaving(std::uint32_t domain, const Homes& homes) const {
+  const std::uint64_t waiting = residency_.waiting(domain);
+  if (!homes.has(domain, job_.rank)) return waiting;
+  return waiting - waiting / static_cast<std::uint64_t>(homes.last(domain) - homes.first(domain) + 1);
+}
+
+void Scheduler::leave(std::uint32_t domain, std::uint64_t rays) {
+  begin_batch(domain, rays);
+  goes_out(rays);
+}
+
 LoadStep Scheduler::settle(Homes homes, std::uint64_t domain_bytes) {
   LoadStep step = residency_.settle(std::move(homes), domain_bytes, job_.rank);
   homes_overlap_ = residency_.homes().places() > residency_.homes().domains();
-  resume();
   return step;
 }
 
@@ -193,7 +198,7 @@ Scheduler::Decision Scheduler::decide(const RoundSums& sums) {
   born_then_ = sums.born;
   alive_ = static_cast<std::uint64_t>(std::max<std::int64_t>(0, alive));
   idle_ranks_ = sums.idle;
-  paused_ = sums.pause + sums.interrupted + sums.terminated + sums.time_is_up + sums.settles > 0;
+  paused_ = sums.pause + sums.interrupted + sums.terminated + sums.time_is_up > 0;
   // What is free is shared by those that asked for some; who wants none gives back what it had.
   if (!wants_to_generate()) {
     allowance_ = 0;

@@ -60,9 +60,11 @@ class Scheduler {
   bool route(std::uint32_t domain, std::uint64_t rays);
   // What is no ray of a domain's, but is sent and counted as alive like one.
   void goes_out(std::uint64_t records) { outgoing_ += records, forwarded_ += records; }
-  void arrived(std::uint32_t domain, std::uint64_t rays);
+  // They came from another rank, which may have known homes of before.
+  bool arrived(std::uint32_t domain, std::uint64_t rays) { return route(domain, rays); }
   bool send_is_due(double now_s) const;
   // Where rays that are sent go: of two of the domain's homes the one where fewer wait, as far as is known.
+  // It may be this rank.
   int destination(std::uint32_t domain, std::uint64_t rays);
   void sent(std::uint64_t rays, double now_s);
   std::uint64_t rays_to_send() const { return outgoing_; }
@@ -84,8 +86,13 @@ class Scheduler {
   // `resume` where the job was paused.
   Decision decide(const RoundSums& sums);
   void resume() { calm_ = false; }
-  // While the job is paused and loads nothing: from now on the domains have these homes, and work goes on.
-  // `domain_bytes`: as at the start. As many rays as before may be alive. Returns what leaves the memory.
+  // While no worker lives the domains get other `homes`. First `leaving` counts the rays that wait here and
+  // are to be sent then: all where this rank is no home of the domain, else all but an even share. `leave`
+  // tells that they wait for being sent. When they do `settle` changes the homes; `domain_bytes` are as at
+  // the start, and as many rays as before may be alive. It returns the domains that leave the memory. Rays
+  // that were on their way to a home of before are sent on from there.
+  std::uint64_t leaving(std::uint32_t domain, const Homes& homes) const;
+  void leave(std::uint32_t domain, std::uint64_t rays);
   LoadStep settle(Homes homes, std::uint64_t domain_bytes);
 
   std::uint64_t items_dealt() const { return next_item_; }  // to the last ray

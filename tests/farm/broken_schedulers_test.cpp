@@ -41,7 +41,7 @@ struct NeverSends : Scheduler {
 
 struct ForgetsWhatArrived : Scheduler {
   using Scheduler::Scheduler;
-  void arrived(std::uint32_t, std::uint64_t) {}
+  bool arrived(std::uint32_t, std::uint64_t) { return true; }
 };
 
 struct ForgetsDeaths : Scheduler {
