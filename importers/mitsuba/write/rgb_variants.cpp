@@ -61,13 +61,16 @@ void report_rgb_variants(Context& context, const Spectrum& emission) {
 
 namespace {
 
-// The spectra in records that colour light.
+// Of more colours than this no products are looked at.
+constexpr std::size_t most_colours = 64;
+
+// The spectra in records that colour light; of too many one more than are looked at.
 struct Colours : FieldSearch<Colours> {
   using FieldSearch::in;
   std::vector<Spectrum> found;
 
   void in(const Spectrum& s) {
-    if (std::ranges::find(found, s) == found.end()) found.push_back(s);
+    if (found.size() <= most_colours && std::ranges::find(found, s) == found.end()) found.push_back(s);
   }
   void in(const SpectrumParameter& p) {
     if (const auto* s = std::get_if<Spectrum>(&p)) in(*s);
@@ -103,8 +106,7 @@ void report_products_in_rgb_variants(Context& context) {
   for (const AreaLight& light : scene.area_lights) lights.in(light.radiance);
   for (const Material& material : scene.materials)
     surfaces.in(static_cast<const MaterialVariant&>(material.model));
-  constexpr std::size_t most = 64;
-  if (lights.found.size() > most || surfaces.found.size() > most) return;
+  if (lights.found.size() > most_colours || surfaces.found.size() > most_colours) return;
   double worst = 1;
   for (const Spectrum& surface : surfaces.found) {
     if (is_constant(surface)) continue;
