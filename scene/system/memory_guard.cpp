@@ -118,6 +118,7 @@ void* block_of(std::size_t bytes, std::size_t alignment) {
 // Its caller does without, as std::stable_sort: nothing is refused.
 void* block_if_allowed(std::size_t bytes, std::size_t alignment) {
   if (bytes >= large && granted == 0 && !memory_allows(bytes)) return nullptr;
+  if (bytes < large && is_guarding()) taken += bytes;
   void* const block = block_or_null(bytes, alignment);
   if (block) watch(block, bytes);
   return block;

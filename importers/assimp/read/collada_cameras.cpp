@@ -8,6 +8,7 @@
 #include <string>
 
 #include "importers/bytes/input_bytes.h"
+#include "importers/reading/guarded_xml.h"
 #include "importers/reading/xml_nesting.h"
 
 namespace vitrail::assimp {
@@ -56,6 +57,7 @@ void collect(pugi::xml_node parent, const std::map<std::string, AssetCamera>& kn
 
 std::vector<AssetCamera> collada_cameras(const std::filesystem::path& file) {
   const InputBytes bytes(file);
+  guard_xml();
   pugi::xml_document document;
   if (!document.load_buffer(bytes.begin(), bytes.size()) || too_deep_element(document)) return {};
   const pugi::xml_node root = document.document_element();

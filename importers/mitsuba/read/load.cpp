@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <new>
 #include <optional>
 #include <pugixml.hpp>
 #include <set>
@@ -15,6 +14,7 @@
 #include "importers/mitsuba/read/references.h"
 #include "importers/mitsuba/read/value_elements.h"
 #include "importers/mitsuba/xml_text.h"
+#include "importers/reading/guarded_xml.h"
 #include "importers/reading/xml_nesting.h"
 
 namespace vitrail::mitsuba {
@@ -65,9 +65,7 @@ class Loader {
     const std::optional<std::string> converted = in_utf8({stored.begin(), stored.size()});
     const std::string_view bytes = converted ? *converted : std::string_view{stored.begin(), stored.size()};
     files_.push_back(file.string());
-    // What `new` refuses, the document is refused too (scene/system/memory_guard.h).
-    pugi::set_memory_management_functions([](std::size_t size) { return ::operator new(size, std::nothrow); },
-                                          [](void* block) { ::operator delete(block); });
+    guard_xml();
     Source source{static_cast<std::uint32_t>(files_.size() - 1),
                   Lines(bytes.data(), bytes.data() + bytes.size())};
     pugi::xml_document document;

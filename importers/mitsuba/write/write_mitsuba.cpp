@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/mitsuba/write/write_mitsuba.h"
 
-#include <span>
+#include <string_view>
 
 #include "importers/mitsuba/write/rgb_variants.h"
 #include "importers/mitsuba/write/write_camera.h"
@@ -9,17 +9,20 @@
 #include "importers/mitsuba/write/write_materials.h"
 #include "importers/mitsuba/write/write_media.h"
 #include "importers/mitsuba/write/write_shapes.h"
+#include "importers/reading/guarded_xml.h"
 #include "importers/writing/mapped_uvs.h"
+#include "importers/writing/text_sink.h"
 #include "scene/system/atomic_file.h"
 
 namespace vitrail {
 
 namespace {
 
-struct TextWriter : pugi::xml_writer {
-  std::string text;
+struct SinkWriter : pugi::xml_writer {
+  TextSink& sink;
+  explicit SinkWriter(TextSink& to) : sink(to) {}
   void write(const void* data, std::size_t size) override {
-    text.append(static_cast<const char*>(data), size);
+    sink.put(FMT_COMPILE("{}"), std::string_view(static_cast<const char*>(data), size));
   }
 };
 
@@ -32,6 +35,7 @@ Diagnostics write_mitsuba(const Scene& given, const std::filesystem::path& out) 
   const Scene& scene = mapped ? mapped->scene : given;
   Context context(scene, out);
   note(context, mapped);
+  guard_xml();
   pugi::xml_document document;
   document.append_child(pugi::node_comment)
       .set_value(fmt::format(" For Mitsuba 3, written by Vitrail {} ", VITRAIL_VERSION).c_str());
@@ -53,10 +57,11 @@ Diagnostics write_mitsuba(const Scene& given, const std::filesystem::path& out) 
   root.remove_child(integrator);
   root.remove_child(sensor);
 
-  TextWriter writer;
-  document.save(writer, "  ", pugi::format_indent, pugi::encoding_utf8);
   AtomicFile file(out);
-  file.write(std::as_bytes(std::span(writer.text)));
+  TextSink sink(&file);
+  SinkWriter writer(sink);
+  document.save(writer, "  ", pugi::format_indent, pugi::encoding_utf8);
+  sink.flush();
   file.commit();
   return context.take();
 }
