@@ -23,6 +23,7 @@
 #include "farm/transport/doing.h"
 #include "scene/system/resource_usage.h"
 #include "scene/system/say.h"
+#include "scene/system/within_memory.h"
 
 namespace vitrail {
 
@@ -31,6 +32,15 @@ namespace {
 bool has_light(const Manifest& m) {
   return !m.lights.empty() || !m.area_lights.empty() ||
          std::ranges::any_of(m.media, [](const Medium& medium) { return medium.emission.has_value(); });
+}
+
+// Only what is read tells how much memory the job needs. What would be killed before ends with a message.
+Job set_up_within(const RenderOptions& options, const Place& place) {
+  const JobResources& has = options.resources;
+  if (!has.memory_is_jobs) return set_up(options, place);
+  Job job;
+  within_memory(has.memory_bytes, {"reading the scene"}, [&] { return job = set_up(options, place), 0; });
+  return job;
 }
 
 // Returns the statistics of this rank.
@@ -71,7 +81,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   // Plan.
   now_doing("reading the scene");
   Job job;
-  agree(transport, [&] { job = set_up(options, {transport.rank(), transport.size()}); });
+  agree(transport, [&] { job = set_up_within(options, {transport.rank(), transport.size()}); });
   const Manifest& manifest = job.scene->manifest;
   expect_same_job(transport, manifest, job.plan.key, job.plan.goal, job.plan.homes, options);
   require_all_may_settle(transport, job.plan);

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "film/cryptomatte.h"
 #include "film/group_mix.h"
+#include "film/picture_extent.h"
 #include "film/picture_memory.h"
 #include "film/working_gamma.h"
 #include "scene/system/diagnostics.h"
@@ -79,26 +81,30 @@ Picture develop_colors(const Film& film) {
   return picture;
 }
 
+namespace {
+
+// As many rows at a time as a few megabytes have.
+template <class Visit>
+void each_rows(const FilmRows& film, bool with_sums, const Visit& visit) {
+  const int rows = rows_at_once(film.settings(), film.key());
+  for (int y = 0; y < film.height(); y += rows)
+    visit(film.rows(y, std::min(y + rows, film.height()), with_sums));
+}
+
+}  // namespace
+
 Picture develop_colors(const FilmRows& film) {
   Picture picture;
-  const int rows = rows_at_once(film.settings(), film.key());
-  for (int y = 0; y < film.height(); y += rows) {
-    Picture part = develop_colors(film.rows(y, std::min(y + rows, film.height())));
-    if (y == 0) {
-      picture = std::move(part);
-      picture.rgb.values.reserve(3 * film.pixels());
-      for (PictureChannel& layer : picture.layers) layer.values.reserve(film.pixels());
-      continue;
-    }
-    const auto append = [](std::vector<float>& to, const std::vector<float>& from) {
-      to.insert(to.end(), from.begin(), from.end());
-    };
-    append(picture.rgb.values, part.rgb.values);
-    for (std::size_t i = 0; i < part.layers.size(); ++i)
-      append(picture.layers[i].values, part.layers[i].values);
-  }
-  picture.rgb.height = film.height();
-  picture.window = film.settings().crop;
+  each_rows(film, true, [&](const Film& rows) { append_rows(picture, develop_colors(rows), film.height()); });
+  return picture;
+}
+
+Picture develop(const FilmRows& film) {
+  FilmSurvey whole;
+  each_rows(film, film.key().clamp > 0, [&](const Film& rows) { add_rows(whole, rows); });
+  whole.hash = hash_of(std::span(&film, 1));
+  Picture picture;
+  each_rows(film, true, [&](const Film& rows) { append_rows(picture, develop(rows, whole), film.height()); });
   return picture;
 }
 

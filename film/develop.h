@@ -57,6 +57,9 @@ struct Picture {
 // `samples_per_pixel` is the most that a pixel has. Throws Error if the film is saturated.
 Picture develop(const Film& film);
 
+// The same of a film that stays in its file, of which some rows at a time are in memory.
+Picture develop(const FilmRows& film);
+
 // The same of some rows of a film, of which `whole` is known.
 Picture develop(const Film& rows, const FilmSurvey& whole);
 

@@ -107,6 +107,30 @@ void cut_to(Picture& picture, const PixelRect& window) {
   picture.window = window;
 }
 
+void append_rows(Picture& picture, Picture rows, int height) {
+  const auto every_part = [](Picture& of, const auto& visit) {
+    for (Image* image : {&of.rgb, &of.variance, &of.spectrum}) visit(image->values);
+    for (PictureChannel& layer : of.layers) visit(layer.values), visit(layer.ids);
+  };
+  if (picture.rgb.pixels() == 0) {
+    const auto times = static_cast<std::size_t>(height), one = static_cast<std::size_t>(rows.rgb.height);
+    every_part(rows, [&](auto& values) { values.reserve(values.size() / one * times); });
+    picture = std::move(rows);
+    return;
+  }
+  // What stands at the same place in both.
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  for (const auto image : {&Picture::rgb, &Picture::variance, &Picture::spectrum}) {
+    append((picture.*image).values, (rows.*image).values);
+    (picture.*image).height += (rows.*image).height;
+  }
+  for (std::size_t i = 0; i < picture.layers.size(); ++i) {
+    append(picture.layers[i].values, rows.layers[i].values);
+    append(picture.layers[i].ids, rows.layers[i].ids);
+  }
+  picture.window.y1 = rows.window.y1;
+}
+
 void resize(Picture& picture, int width, int height) {
   for (const PictureMattes& mattes : picture.mattes)
     std::erase_if(picture.layers, [&](const auto& layer) { return layer.name.starts_with(mattes.layer); });

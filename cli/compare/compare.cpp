@@ -11,7 +11,6 @@
 #include "cli/common/memory_budget.h"
 #include "cli/common/own_output.h"
 #include "cli/common/rectangle.h"
-#include "cli/common/within_memory.h"
 #include "cli/compare/compare_arguments.h"
 #include "cli/compare/compare_maps.h"
 #include "cli/compare/compare_variances.h"
@@ -26,18 +25,19 @@
 #include "scene/system/input_files.h"
 #include "scene/system/output_place.h"
 #include "scene/system/say.h"
+#include "scene/system/within_memory.h"
 
 using namespace vitrail;
 
 namespace {
 
-// An image, or a film developed in memory.
+// An image, or a film that is developed.
 Picture load(const std::string& file, const CompareArguments& options) {
   if (std::filesystem::path(file).extension() != ".film") return read_picture(file);
   note_input(file);
   try {
     FilmProgress progress;
-    const Film film = read_film(file, &progress);
+    const FilmRows film(file, &progress);
     if (!progress.complete() && options.strict) throw Error("the film is not finished", {});
     if (!progress.complete() && !options.quiet) say("vitrail: {}: the film is not finished\n", file);
     Picture picture = develop(film);

@@ -13,7 +13,6 @@
 #include "cli/common/own_output.h"
 #include "cli/common/own_threads.h"
 #include "cli/common/quadric_counts.h"
-#include "cli/common/within_memory.h"
 #include "cli/convert/check_conversion.h"
 #include "cli/convert/conversion_report.h"
 #include "cli/convert/convert_many.h"
@@ -29,6 +28,7 @@
 #include "scene/system/machine_limits.h"
 #include "scene/system/output_place.h"
 #include "scene/system/say.h"
+#include "scene/system/within_memory.h"
 
 namespace vitrail {
 namespace {

@@ -13,7 +13,6 @@
 #include "cli/common/memory_budget.h"
 #include "cli/common/own_output.h"
 #include "cli/common/rectangle.h"
-#include "cli/common/within_memory.h"
 #include "cli/develop/chosen_layers.h"
 #include "cli/develop/develop_arguments.h"
 #include "cli/develop/exposed_films.h"
@@ -34,6 +33,7 @@
 #include "scene/system/diagnostics.h"
 #include "scene/system/output_place.h"
 #include "scene/system/say.h"
+#include "scene/system/within_memory.h"
 
 using namespace vitrail;
 
@@ -184,6 +184,19 @@ void say_what_is_written(const Picture& picture, int height, const DevelopArgume
   say("{}\n", words);
 }
 
+// Of films that stay in their files: some of their rows are in memory, and the picture.
+Picture picture_of(const Exposed& sum, const FilmSurvey& whole, const DevelopArguments& a) {
+  Picture picture;
+  const int height = sum.parts[0].height();
+  for (MergedRows all(sum, 0, height); const std::optional<Film> rows = all.next();) {
+    Picture part = measured_picture(sum, *rows, whole, a);
+    choose_parts(part, a);
+    append_rows(picture, std::move(part), height);
+  }
+  tell_origin(picture, sum);
+  return picture;
+}
+
 // Whether each pixel of what is written is made of that pixel alone.
 bool goes_by_rows(const DevelopArguments& a) {
   return a.writes(".exr") && !a.reads_picture() && !a.denoised && a.size.empty() && a.layer.empty() &&
@@ -222,18 +235,17 @@ int develop_all(const DevelopArguments& a) {
   Picture picture;
   if (a.reads_picture()) {
     picture = read_picture(a.films.front());
+    choose_parts(picture, a);
   } else {
-    sum = merge_all(a, goes_by_rows(a));
+    sum = merge_all(a, !a.writes(".csv") && !a.writes(".film"));
     const FilmSurvey whole = survey_of(*sum);
     require_samples(whole.samples, sum->file);
     if (a.writes(".csv")) return write_table(a.output, *sum), exit_done;
     if (a.writes(".film")) return write_merged(a.output, *sum), exit_done;
     if (!a.quiet) say_of_films(*sum, whole);
     if (goes_by_rows(a)) return develop_rows(*sum, whole, a), exit_done;
-    picture = measured_picture(*sum, sum->film, whole, a);
-    tell_origin(picture, *sum);
+    picture = picture_of(*sum, whole, a);
   }
-  choose_parts(picture, a);
   if (!a.layers.empty() && a.denoised) picture.variance = {};  // of what was measured
   if (denoiser) denoise_by_guides(picture, *denoiser, a.quiet);
   cut_to(picture, cut_of(picture.window, a));

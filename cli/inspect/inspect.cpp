@@ -10,9 +10,9 @@
 #include "cli/common/memory_budget.h"
 #include "cli/common/own_threads.h"
 #include "cli/common/sizes.h"
-#include "cli/common/within_memory.h"
 #include "scene/system/input_files.h"
 #include "scene/system/say.h"
+#include "scene/system/within_memory.h"
 
 namespace vitrail {
 namespace {

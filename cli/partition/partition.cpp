@@ -24,7 +24,6 @@
 #include "cli/common/own_threads.h"
 #include "cli/common/sizes.h"
 #include "cli/common/switching_glazing.h"
-#include "cli/common/within_memory.h"
 #include "cli/partition/partition_arguments.h"
 #include "cli/partition/partition_report.h"
 #include "importers/import.h"
@@ -42,6 +41,7 @@
 #include "scene/system/progress_line.h"
 #include "scene/system/resource_usage.h"
 #include "scene/system/say.h"
+#include "scene/system/within_memory.h"
 
 namespace vitrail {
 namespace {

@@ -67,6 +67,7 @@ struct PictureSettings {
 // time limits them.
 struct JobResources {
   std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
+  bool memory_is_jobs = false;     // memory_bytes is what the job has: with more it would be killed
   int threads = 0;                 // a rank; 0: one a processor allowed
   Distribution distribution = Distribution::automatic;
   Traversal traversal = Traversal::own;

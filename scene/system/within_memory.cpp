@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common/within_memory.h"
+#include "scene/system/within_memory.h"
 
 #include <fmt/format.h>
 
