@@ -31,6 +31,7 @@ struct Functions {
                                std::size_t height, std::size_t offset, std::size_t pixel_stride,
                                std::size_t row_stride);
   void (*SetFilterBool)(Filter, const char* name, bool value);
+  void (*SetFilterInt)(Filter, const char* name, int value);
   void (*CommitFilter)(Filter);
   void (*ExecuteFilter)(Filter);
   void (*ReleaseFilter)(Filter);

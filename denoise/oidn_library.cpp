@@ -93,6 +93,7 @@ Functions load() {
   find(library, "oidnNewFilter", f.NewFilter);
   find(library, "oidnSetSharedFilterImage", f.SetSharedFilterImage);
   find(library, "oidnSetFilterBool", f.SetFilterBool);
+  find(library, "oidnSetFilterInt", f.SetFilterInt);
   find(library, "oidnCommitFilter", f.CommitFilter);
   find(library, "oidnExecuteFilter", f.ExecuteFilter);
   find(library, "oidnReleaseFilter", f.ReleaseFilter);

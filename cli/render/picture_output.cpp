@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render/picture_output.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "cli/common/own_output.h"
 #include "cli/common/run_program.h"
 #include "farm/run/checkpoint.h"
@@ -15,6 +19,7 @@
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
 #include "scene/system/output_place.h"
+#include "scene/system/resource_usage.h"
 #include "scene/system/say.h"
 
 namespace vitrail {
@@ -24,6 +29,11 @@ namespace fs = std::filesystem;
 namespace {
 
 bool writes_itself(const fs::path& picture) { return written_by_render(picture_format(picture)); }
+
+// What another program may take of the memory of this rank.
+std::string left_of(std::uint64_t bytes) {
+  return fmt::format("{}K", (bytes - std::min(bytes, resident_bytes())) >> 10);
+}
 
 void develop_film(const RenderArguments& a, const fs::path& file, const fs::path& picture,
                   int spectral_bins) {
@@ -47,7 +57,8 @@ void develop_film(const RenderArguments& a, const fs::path& file, const fs::path
   std::vector<std::string> arguments{file.string(), "-o", picture.string(), "--quiet"};
   if (!holds_light(picture_format(picture))) arguments.insert(arguments.end(), {"--exposure", "fit"});
   if (spectral_bins > 0 && picture.extension() == ".exr") arguments.push_back("--spectral");
-  if (a.denoised) arguments.push_back("--denoise");
+  if (a.denoised)
+    arguments.insert(arguments.end(), {"--denoise", "--memory", left_of(a.options.resources.memory_bytes)});
   run_program("vitrail-develop", arguments);
 }
 

@@ -46,13 +46,16 @@ std::uint64_t base_bytes(const Manifest& m, const RenderOptions& options, const 
 constexpr std::uint64_t develop_bytes = 10 << 20;  // of vitrail-develop beside the film and the picture
 constexpr std::uint64_t image_library = 136 << 20;
 
-// Of vitrail-develop where it has all of the film in memory. A picture was measured to take five eighths of
-// the film beside it; denoising 950 bytes a pixel with the film's 168, at 64 × 48 to 2400 × 1600 pixels.
+// Of vitrail-develop, which reads the film by rows. A picture was measured to take five eighths of what the
+// film would; denoising 800 bytes a pixel, or from some size on 500 MiB and the network's own pictures.
 std::uint64_t developing_bytes(const std::filesystem::path& picture, const PixelRect& crop,
                                std::uint64_t film_bytes, bool denoises) {
-  constexpr std::uint64_t denoiser = 70 << 20, denoising_a_pixel = 800;
-  return develop_bytes + (needs_image_library(picture_format(picture)) ? image_library : 0) + film_bytes +
-         (denoises ? denoiser + denoising_a_pixel * pixels_of(crop) : film_bytes / 8 * 5);
+  constexpr std::uint64_t denoiser = 70 << 20, denoising_a_pixel = 800, tiles = 550 << 20, beside_tiles = 64;
+  const std::uint64_t pixels = pixels_of(crop);
+  const std::uint64_t denoising =
+      denoiser + std::min(denoising_a_pixel * pixels, tiles + beside_tiles * pixels);
+  return develop_bytes + (needs_image_library(picture_format(picture)) ? image_library : 0) +
+         film_bytes / 8 * 5 + (denoises ? denoising : 0);
 }
 
 // Of rank 0 while it makes the picture, for which it reads the film again, an .exr, a PNG, a JPEG or a TIFF
@@ -69,7 +72,8 @@ std::uint64_t picture_bytes(const Manifest& m, const RenderOptions& options, con
     if (written_by_render(format)) return plan.scene.resident + a_pixel * pixels_of(c) + encoder + by_rows;
     if (format == PictureFormat::exr) return plan.scene.resident + by_rows + develop_bytes;
   }
-  return plan.scene.resident + developing_bytes(picture, c, plan.film.bytes, options.outputs.denoises);
+  return plan.scene.resident + by_rows +
+         developing_bytes(picture, c, plan.film.bytes, options.outputs.denoises);
 }
 
 // Of rank 0 while it shows checkpoints and goes on rendering: of the preview's program, and of the colours
@@ -78,7 +82,8 @@ std::uint64_t showing_bytes(const Manifest& m, const RenderOptions& options, con
   if (options.outputs.dry_run) return 0;
   std::uint64_t bytes = 0;
   if (!options.outputs.preview.empty())
-    bytes += developing_bytes(options.outputs.preview, m.film.crop, plan.film.bytes, false);
+    bytes += exr_memory(m.film, plan.key) +
+             developing_bytes(options.outputs.preview, m.film.crop, plan.film.bytes, false);
   if (options.outputs.displays) {
     constexpr std::uint64_t a_pixel = 12, most_of_packet = std::uint64_t{1} << 20, copies = 2;
     const std::uint64_t pixels = pixels_of(m.film.crop);
