@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The binary records of a bundle: materials.bin (surfaces, materials, textures, media), lights.bin (area
-// lights, the triangles that emit, other lights) and domains.bin (the kd-tree, domains, objects). See
-// docs/reference/bundle-format.md.
+// These functions read and write the binary records of a bundle. materials.bin has surfaces, materials,
+// textures and media. lights.bin has area lights, the triangles that emit and other lights. domains.bin has
+// the kd-tree, domains and objects. See docs/reference/bundle-format.md.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,13 @@
 
 namespace vitrail {
 
-// The payload of each file.
+// Each function writes the payload of its file to `sink`.
 void encode_materials(const Manifest& manifest, const ByteSink& sink);
 void encode_lights(const Manifest& manifest, const ByteSink& sink);
 void encode_domains(const Manifest& manifest, const ByteSink& sink);
 
-// The inverse: fill the manifest's records from the payload of `file`. Whatever cannot be decoded throws
-// Error.
+// These functions do the inverse: they fill the manifest's records from the payload of `file`. They throw
+// Error for whatever cannot be decoded.
 void decode_materials(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest);
 void decode_lights(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest);
 void decode_domains(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest);
@@ -32,11 +32,11 @@ std::uint64_t checksum_of_records(const std::filesystem::path& file);
 // kd-tree a tree.
 void check_manifest(const Manifest& manifest, const std::filesystem::path& file);
 
-// What is wrong with a kd-tree of so many leaves, or null: every node and every leaf hangs in exactly one
-// place, children after their parents.
+// Returns what is wrong with a kd-tree of so many leaves, or null. In a right one every node and every leaf
+// hangs in exactly one place, and children follow their parents.
 const char* fault_of_kd_tree(std::span<const KdNode> nodes, std::size_t leaves);
 
-// Hash of all that decides the picture besides the triangles: records, camera and film.
+// Returns the hash of all that decides the picture besides the triangles: records, camera and film.
 std::uint64_t hash_of_records(const Manifest& manifest);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Little-endian bytes, one value after the other without gaps.
+// This file writes and reads little-endian bytes, one value after the other without gaps.
 #pragma once
 
 #include <bit>
@@ -22,10 +22,10 @@ static_assert(std::endian::native == std::endian::little);
 template <class T>
 concept Number = std::integral<T> || std::floating_point<T>;
 
-// Where bytes go, one part after the other.
+// A ByteSink takes bytes, one part after the other.
 using ByteSink = std::function<void(std::span<const std::byte>)>;
 
-// Holds a part of them at a time. What is left goes to the sink by `flush`.
+// A ByteWriter holds a part of the bytes at a time. `flush` sends what is left to the sink.
 class ByteWriter {
  public:
   explicit ByteWriter(const ByteSink& sink) : sink_(sink) { bytes_.reserve(part_bytes); }
@@ -46,7 +46,8 @@ class ByteWriter {
   std::vector<std::byte> bytes_;
 };
 
-// Reading past the end, or leaving something over, throws Error with the file's name.
+// A ByteReader throws Error with the file's name where a read goes past the end, or where something is left
+// over.
 class ByteReader {
  public:
   ByteReader(std::vector<std::byte> bytes, std::filesystem::path file)
@@ -60,7 +61,8 @@ class ByteReader {
     at_ += sizeof value;
     return value;
   }
-  // A number of records of at least `least_bytes` bytes each, checked against what is left of the file.
+  // Returns a number of records of at least `least_bytes` bytes each, checked against what is left of the
+  // file.
   std::size_t get_count(std::size_t least_bytes) {
     const auto count = get<std::uint64_t>();
     if (count > (bytes_.size() - at_) / least_bytes) fail("it counts more records than it holds");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts what a bundle's domains really hold: that every triangle is there once and every cut one is tiled.
+// This file counts what a bundle's domains really hold: that every triangle is there once and every cut one
+// is tiled.
 #pragma once
 
 #include <atomic>
@@ -18,7 +19,7 @@ struct IdRange {
   std::uint64_t first = 0, count = 0;
 };
 
-// More than rounding.
+// A greater error than this is more than rounding.
 inline constexpr double most_area_error = 1e-6;
 
 struct CensusResult {
@@ -27,29 +28,30 @@ struct CensusResult {
   std::uint64_t lost = 0;    // triangles that no domain holds
   std::uint64_t cut_triangles = 0;  // that are held as pieces
   std::uint64_t pieces = 0;
-  // Greatest |A − Σ area of its pieces| / max(A, 10⁻⁹Lm) of a cut triangle of area A, longest edge L and
-  // greatest |coordinate| m, or L if that is more. Below 10⁻⁹Lm the rounding of cut vertices to double,
-  // 10⁻¹⁶m each, begins to show.
+  // It is the greatest |A − Σ area of its pieces| / max(A, 10⁻⁹Lm) of a cut triangle of area A and longest
+  // edge L. m is its greatest |coordinate|, or L if that is more. Below 10⁻⁹Lm the rounding of cut vertices
+  // to double, 10⁻¹⁶m each, begins to show.
   double area_error = 0;
 
   bool ghost_free() const { return duplicates + strays + lost == 0 && area_error < most_area_error; }
 };
 
-// Area of a planar polygon, from its vector area.
+// Returns the area of a planar polygon, from its vector area.
 double polygon_area(std::span<const Point3d> polygon);
 
 class Census {
  public:
-  // For global ids [0, triangles), but for those of instances: `absent`, ascending and apart.
+  // The census is for global ids [0, triangles) without those of instances, `absent`, which ascend and do not
+  // overlap.
   explicit Census(std::uint64_t triangles, std::vector<IdRange> absent = {});
 
-  // Adds one domain; from any thread.
+  // Adds one domain; any thread may call it.
   void add(std::uint32_t domain, const DomainView& view, std::span<const Piece> pieces,
            std::span<const Point3d> piece_vertices);
 
-  // Of the cut triangles that came since the last call no more parts will come, but of these, ascending, and
-  // those of higher domains alone: what is known of the others takes no more memory, and one line each of
-  // these.
+  // Says that no more parts will come of the cut triangles so far, but of those that are `open`, ascending,
+  // and only in higher domains. Triangles that are settled take no more memory, and each open one takes one
+  // entry.
   void settle(std::span<const std::uint32_t> open);
 
   CensusResult result() const;
@@ -61,16 +63,16 @@ class Census {
   };
   static bool in_order(const CutPart& a, const CutPart& b);
 
-  // Adds what the parts, of any order, say of their triangles.
+  // Adds what the parts, in any order, say of their triangles.
   static void sum_up(std::vector<CutPart> parts, CensusResult& result);
-  // Where an id is marked; none for one that no domain should hold.
+  // Returns the place where an id is marked; none for an id that no domain should hold.
   std::optional<std::uint64_t> place_of(std::uint32_t id) const;
   std::uint32_t mark(std::uint64_t place, std::uint32_t bits);
 
   std::vector<IdRange> absent_;
   std::vector<std::uint64_t> absent_before_;  // each of them
   std::uint64_t ids_, triangles_;             // without the absent
-  // Sixteen triangles each; of a triangle bit 0: whole, bit 1: as a piece.
+  // Each word has sixteen triangles, of two bits each. Bit 0: it is held whole; bit 1: it is held as a piece.
   std::unique_ptr<std::atomic<std::uint32_t>[]> seen_;
   std::atomic<std::uint64_t> duplicates_{0}, strays_{0};
   std::mutex mutex_;

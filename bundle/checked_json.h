@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small JSON files whose first line is a checksum of the rest.
+// These functions handle small JSON files whose first line is a checksum of the rest.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,8 +16,8 @@
 
 namespace vitrail {
 
-// The number of a key or at a place, which is there and is one of T: whole where T is, and finite. Throws
-// Error that names it. (get<T>() takes any number, and makes of 1e300 what it likes.)
+// Returns the number of a key or at a place, which has to be there and to fit T: whole where T is, and
+// finite. Throws Error that names it. (get<T>() takes any number, and gives an arbitrary T for 1e300.)
 template <class T, class Key>
 T number(const nlohmann::ordered_json& json, const Key& key) {
   const nlohmann::ordered_json& j = json.at(key);
@@ -35,7 +35,7 @@ T number(const nlohmann::ordered_json& json, const Key& key) {
                   j.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).substr(0, 40)));
 }
 
-// An object with at least one member. Throws MachineError.
+// Writes an object with at least one member. Throws MachineError.
 void write_checked_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
 
 // Throws Error where the checksum is wrong, saying that `what` is damaged; MachineError where the file cannot

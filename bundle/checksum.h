@@ -8,10 +8,10 @@
 
 namespace vitrail {
 
-// 64-bit XXH3 with seed 0: the checksum of every file of a bundle.
+// Returns the 64-bit XXH3 with seed 0, which is the checksum of every file of a bundle.
 std::uint64_t checksum(std::span<const std::byte> bytes);
 
-// The same over bytes that come one part after the other.
+// A Hasher gives the same checksum of bytes that come one part after the other.
 class Hasher {
  public:
   Hasher();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes of a domain file: header, section table, sections. See docs/reference/bundle-format.md.
+// A domain file has these bytes: header, section table, sections. See docs/reference/bundle-format.md.
 #pragma once
 
 #include <array>
@@ -19,7 +19,8 @@ static_assert(std::endian::native == std::endian::little,
 inline constexpr std::array<char, 8> domain_magic{'V', 'I', 'T', 'R', 'D', 'O', 'M', '\n'};
 inline constexpr std::uint32_t domain_version = 5;
 inline constexpr std::uint64_t section_alignment = 64;
-// Zero bytes that follow each section at least: vector loads may read past the end of an array.
+// It is the least number of zero bytes after each section, since vector loads may read past the end of an
+// array.
 inline constexpr std::uint64_t section_tail = 16;
 
 enum SectionIndex : std::size_t {
@@ -54,8 +55,8 @@ struct Section {
 };
 static_assert(sizeof(Section) == 32);
 
-// The section table follows, and zeros up to a multiple of 64. Sections of kinds beyond those above belong to
-// optional features.
+// The section table follows the header, with zeros up to a multiple of 64. Sections of kinds beyond those
+// above belong to optional features.
 struct DomainHeader {
   std::array<char, 8> magic = domain_magic;
   std::uint32_t version = domain_version;
@@ -69,13 +70,13 @@ static_assert(sizeof(DomainHeader) == section_alignment);
 
 inline constexpr std::uint32_t most_sections = 256;
 
-// Of the header with its table.
+// Returns the size of the header with its table.
 constexpr std::uint64_t header_bytes(std::uint64_t sections) {
   return (sizeof(DomainHeader) + sections * sizeof(Section) + section_alignment - 1) / section_alignment *
          section_alignment;
 }
 
-// Bytes a section takes in the file, padding included.
+// Returns the bytes that a section takes in the file, padding included.
 constexpr std::uint64_t padded_bytes(std::uint64_t count, std::uint64_t element) {
   const std::uint64_t bytes = count * element;
   return count == 0 ? 0
@@ -84,7 +85,7 @@ constexpr std::uint64_t padded_bytes(std::uint64_t count, std::uint64_t element)
 
 std::uint64_t checksum_of(DomainHeader header, std::span<const std::byte> table);
 
-// Those that a file with these sections has.
+// Returns the features of a file with these sections.
 Features features_of(std::span<const Section> sections);
 
 }  // namespace vitrail::layout

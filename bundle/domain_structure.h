@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What has to be right in a domain file besides its bytes.
+// These functions check what has to be right in a domain file besides its checksums.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,11 @@
 
 namespace vitrail {
 
-// Throws Error: the file is damaged, and how.
+// Throws Error that says how the file is damaged.
 [[noreturn]] void reject_domain(const std::filesystem::path& file, const std::string& what);
 
-// Sections fit to each other, trees are trees that reach everything, instances stand somewhere.
+// Throws Error unless sections fit to each other, trees are trees that reach everything, and instances stand
+// somewhere.
 void check_structure(const DomainView& view, const std::filesystem::path& file);
 
 }  // namespace vitrail

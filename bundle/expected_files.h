@@ -6,10 +6,10 @@
 
 namespace vitrail {
 
-// The domains, objects and textures of a bundle whose manifest cannot be trusted, there or not: those that
-// are there and those that must be, since the numbers of files have no gaps, since instances refer to
-// objects, and since the manifest, where it is JSON still, lists textures, and domains.bin, where it is
-// whole, domains and objects and which of them have no file.
+// Returns the domain, object and texture files that there should be where the manifest cannot be trusted. It
+// has those that are present, and those that fill gaps in their numbers or that instances refer to. Where the
+// manifest is still JSON, it has the textures that are listed there. Where domains.bin is whole, it has the
+// domains and objects listed there, but for those without a file.
 std::set<std::filesystem::path> expected_files(const std::filesystem::path& bundle,
                                                const std::set<std::filesystem::path>& present);
 

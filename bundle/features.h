@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file has beyond what every file of its version has. New ones keep the version: an older program can
-// tell from the bits whether it may go on without them.
+// Features name what a file has beyond what every file of its version has. A new feature keeps the version:
+// an older program can tell from the bits whether it may go on without it.
 #pragma once
 
 #include <cstdint>
@@ -32,10 +32,10 @@ namespace optional_feature {
 inline constexpr std::uint32_t pieces = 1;
 }
 
-// Their names; of a bit without one, "feature N".
+// They return the names of the bits; a bit without a name gives "feature N".
 std::vector<std::string> required_names(std::uint32_t bits);
 std::vector<std::string> optional_names(std::uint32_t bits);
-// The bits of names: every one has to be known, or Error says which is not.
+// Returns the bits of names. Throws Error for a name that is not known.
 std::uint32_t required_bits(std::span<const std::string> names, const std::filesystem::path& file);
 
 // Throws Error unless all that is required is known.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that together hold every id once: the domains of a scene, or the parts of one prototype.
+// A HeldIds counts files that together hold every id once: the domains of a scene, or the parts of one
+// prototype.
 #pragma once
 
 #include <atomic>
@@ -21,21 +22,22 @@ struct HeldInstance {
 class HeldIds {
  public:
   HeldIds() = default;  // counts nothing
-  // Ids are [0, triangles), of which those of the `instances` stand in other files. Where there are more than
-  // numbers (triangle_number.h), they are the last, and of instances their sum is looked at.
+  // Ids are [0, triangles), of which those of the `instances` stand in other files. Where there are more ids
+  // than numbers (triangle_number.h), those of instances come last, and only their sum is looked at.
   HeldIds(std::string name, const Manifest& manifest, std::uint64_t triangles, std::uint64_t cut_triangles,
           std::vector<HeldInstance> instances);
 
   const std::string& name() const { return name_; }
-  // A file that is to be counted. Returns its number here.
+  // Adds a file that is to be counted, and returns its number here.
   std::uint32_t add_part() { return parts_++; }
-  // From any thread.
+  // Counts the triangles of a part. Any thread may call it.
   void count(std::uint32_t part, const MappedDomain& mapped);
-  // Every part has been counted.
+  // Returns whether every part has been counted.
   bool complete() const { return census_ && counted_ == parts_; }
 
   CensusResult census() const { return census_->result(); }
-  // What the census says is wrong; nothing where a part was not counted, which has been said already.
+  // Returns what the census finds wrong. It returns nothing where a part was not counted, which has been
+  // reported already.
   std::vector<std::string> problems() const;
 
  private:
@@ -47,8 +49,8 @@ class HeldIds {
   std::atomic<std::uint32_t> counted_ = 0;
 };
 
-// The parts of a prototype are objects that follow each other and have the same surfaces, or say that they
-// continue. Returns the end of those that begin with `first`.
+// Returns the end of the parts of a prototype that begin with `first`. They are objects that follow each
+// other and have the same surfaces, or that continue.
 std::uint32_t end_of_prototype(const Manifest& m, std::uint32_t first);
 
 // Throws Error where a domain does not hold what its line in the manifest says.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rays are inside of. Where interiors of dielectrics with priorities overlap, the one of the greatest
-// priority is there, and faces of the others within it are not (Schmidt and Budge, "Simple Nested Dielectrics
-// in Ray Traced Images", 2002). A state is one byte, so that it travels with a path: the medium around, and
-// how often it is inside of each such dielectric.
+// This file tracks which media and dielectrics a ray is inside of. Where interiors of dielectrics with
+// priorities overlap, only the one of the greatest priority counts. Faces of the others within it do not
+// (Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", 2002). A state is one byte, so that
+// it travels with a path. It holds the surrounding medium, and how often the ray is inside of each such
+// dielectric.
 #pragma once
 
 #include <array>
@@ -14,43 +15,46 @@
 
 namespace vitrail {
 
-// A face of a dielectric as it is met.
+// A DielectricFace is a face of a dielectric as a ray meets it.
 struct DielectricFace {
   const Spectrum* exterior_eta;  // index in front of it: of what it stands in
 };
 
 class Interiors {
  public:
-  // `manifest` outlives it. Throws Error where it has more media and priorities than a byte keeps apart:
-  // 255 media, or 7 dielectrics with priorities and one medium.
+  // `manifest` has to outlive it. Throws Error where a byte cannot keep its media and priorities apart. A
+  // byte can hold 255 media, or 7 dielectrics with priorities and one medium.
   explicit Interiors(const Manifest& manifest);
 
-  // The state in a medium (−1: vacuum) and in no dielectric that has a priority.
+  // Returns the state in a medium (−1: vacuum) and in no dielectric that has a priority.
   std::uint8_t state_in(std::int32_t medium) const { return static_cast<std::uint8_t>(medium + 1); }
-  // The medium there, −1: vacuum.
+  // Returns the medium of a state; −1: vacuum.
   std::int32_t medium(std::uint8_t state) const { return media_[state]; }
 
-  // Whether the surface bounds a dielectric that has a priority.
+  // Returns whether the surface bounds a dielectric that has a priority.
   bool has_priority(const Surface& surface) const { return volume_of(surface) >= 0; }
-  // The face of such a surface as a ray in `state` meets it; none where it lies in what goes before it.
+  // Returns the face of such a surface as a ray in `state` meets it. There is none where the surface lies in
+  // its own dielectric or in one that takes precedence.
   std::optional<DielectricFace> face(std::uint8_t state, const Surface& surface, bool from_front) const;
-  // On the front side or the back of a surface that was reached in `state`, with or without crossing it.
+  // Returns the state on the front side or the back of a surface that a ray reached in `state`, and crossed
+  // or not.
   std::uint8_t beside(std::uint8_t state, const Surface& surface, bool front_side, bool crossed) const;
 
-  // Whether any surface has two states beside it.
+  // Returns whether any surface has two states beside it.
   bool divide_space() const { return divide_space_; }
-  // What a ray that leaves a place tells of it by the surfaces that it crosses, on its way out of everything:
-  // the medium by the first one that bounds any, of dielectrics how often it leaves each more than it enters.
+  // A Told is what is known of a ray's starting state from the surfaces that it crosses on its way out of
+  // everything. The first surface that bounds a medium tells the medium. The dielectrics are told by how
+  // often the ray leaves each more than it enters it.
   struct Told {
     std::uint8_t state = 0;
     bool medium = false;  // is known; vacuum in `state` until it is
   };
   Told told_by(Told told, const Surface& surface, bool from_front) const;
-  // Whether no surface behind can tell more.
+  // Returns whether no further surface can tell more.
   bool tells_all(const Told& told) const { return told.medium && volumes_.empty(); }
 
  private:
-  // The inside of a dielectric with a priority, wherever surfaces bound it.
+  // A Volume is the inside of a dielectric with a priority, wherever surfaces bound it.
   struct Volume {
     std::uint32_t material;
     std::int32_t interior, exterior;  // as of its surfaces

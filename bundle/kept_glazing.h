@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The glazing systems of a bundle that switch, so that render can set them: BUNDLE/glazing.json
-// (docs/reference/bundle-format.md). A bundle without such glass has no such file.
+// This file keeps the glazing systems of a bundle that switch, so that render can set them. They are in
+// BUNDLE/glazing.json (docs/reference/bundle-format.md). A bundle without such glass has no such file.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace vitrail {
 struct Manifest;
 
 struct KeptGlazing {
-  // A surface of it: indices of two materials, both sheets. Before partitioning, of the scene's; in a bundle
-  // of the bundle's.
+  // The two sides of a surface are indices of two materials, both sheets. They index the scene's materials
+  // before partitioning, and the bundle's in a bundle.
   struct Sides {
     std::uint32_t front = 0, back = 0;
     bool operator==(const Sides&) const = default;
@@ -27,7 +27,7 @@ struct KeptGlazing {
   bool operator==(const KeptGlazing&) const = default;
 };
 
-// What a material becomes in another state.
+// A SetSheet is the sheet that a material becomes in another state.
 struct SetSheet {
   std::uint32_t material = 0;  // index; a measured sheet
   MeasuredSheet sheet;
@@ -35,12 +35,12 @@ struct SetSheet {
 
 std::filesystem::path glazing_path(const std::filesystem::path& bundle);
 
-// Writes nothing where there are none. Throws MachineError.
+// Writes the glazings, or nothing where there are none. Throws MachineError.
 void write_glazings(const std::filesystem::path& bundle, std::uint64_t scene_hash,
                     const std::vector<KeptGlazing>& glazings);
 
-// None where the bundle has no such glass. Throws Error where the file is lost, damaged, belongs to another
-// scene or refers to a material that is not there.
+// Returns the glazings; none where the bundle has no such glass. Throws Error where the file is lost,
+// damaged, belongs to another scene or refers to a material that is not there.
 std::vector<KeptGlazing> read_glazings(const std::filesystem::path& bundle, const Manifest& manifest);
 
 }  // namespace vitrail

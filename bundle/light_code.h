@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours of light in three codes of 16 bits: what a Radiance picture and a half float hold is kept exactly.
+// Colours of light are stored as three codes of 16 bits: the values of a Radiance picture and of a half float
+// are kept exactly.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +13,9 @@
 
 namespace vitrail {
 
-// Below 2¹⁵ a code is a half float that is not negative; its greatest exponent is of numbers too. From there
-// on it is 2¹⁵ and the upper half of a float that is not negative: 8 bits of exponent and 7 of fraction,
-// which hold every value of a Radiance picture.
+// A code below 2¹⁵ is a half float that is not negative, whose greatest exponent stands for numbers too. A
+// greater one is 2¹⁵ and the upper half of a float that is not negative: 8 bits of exponent, 7 of fraction.
+// These hold every value of a Radiance picture.
 constexpr float value_of_code(std::uint32_t code) {
   if (code >> 15 != 0) return std::bit_cast<float>(code << 17 >> 1);
   const std::uint32_t exponent = code >> 10, fraction = code & 0x3ff;
@@ -33,8 +34,8 @@ constexpr std::optional<std::uint32_t> exact_code(float value) {
   const auto whole = static_cast<std::uint32_t>(fraction);
   return static_cast<float>(whole) == fraction ? std::optional(whole) : std::nullopt;
 }
-// Returns the code of this value or of one near it: within 2⁻¹¹ of it where it lies between 2⁻¹⁴ and 65504,
-// else within 2⁻⁸.
+// Returns the code of this value or of one near it. The difference is within 2⁻¹¹ of the value between 2⁻¹⁴
+// and 65504, else within 2⁻⁸.
 constexpr std::uint32_t nearest_code(float value) {
   if (const auto exact = exact_code(value)) return *exact;
   const auto bits = std::bit_cast<std::uint32_t>(value);
@@ -48,10 +49,10 @@ constexpr std::uint32_t nearest_code(float value) {
 
 using LightCodes = std::array<std::uint32_t, 3>;  // of red, green, blue
 
-// A colour whose spectrum is still to be found is read as three words. The third has the greatest code, so
-// that the scale of the texel follows from it alone, and all but the highest bit of the next one; the second
-// has the rest. Both have their highest bit set, which those of a spectrum have not: a reader that finds the
-// second word of a spectrum beside the third of a code knows all that it needs.
+// A colour whose spectrum is still to be found is read as three words. The third has the greatest code, which
+// alone gives the scale of the texel, and all but the highest bit of the next code. The second has the rest.
+// Both have their highest bit set, which the words of a spectrum have not. A reader that finds the second
+// word of a spectrum beside the third of a code knows all that it needs.
 constexpr TexelWords words_of_codes(const LightCodes& codes) {
   std::uint32_t most = 0;
   for (std::uint32_t i = 1; i < 3; ++i)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people call the lights of a bundle: by the name that the scene's file gives, else by kind and number.
+// These functions name the lights of a bundle for people: by the name that the scene's file gives, else by
+// kind and number.
 #pragma once
 
 #include <string>
@@ -9,21 +10,21 @@
 
 namespace vitrail {
 
-// By the indices of the manifest's records. Several lights may have one name. A name has no control
-// character, blank, comma or equals sign, and at most 64 bytes.
+// It holds the names by the indices of the manifest's records. Several lights may have one name. A name has
+// no control character, blank, comma or equals sign, and at most 64 bytes.
 struct LightNames {
   std::vector<std::string> area_lights, lights;
   std::vector<std::string> media;  // that shine; "" of others
 };
 
-// "lamp", "area-3": numbers are those that `inspect` lists lights by, area lights first, from 1; of media,
-// "medium-2", those of the manifest.
+// Returns the names, such as "lamp" or "area-3". Numbers are those that `inspect` lists lights by: area
+// lights first, from 1. Media are numbered as in the manifest, "medium-2".
 LightNames light_names(const Manifest& manifest);
 
-// By kind and number alone, whatever names the file gives.
+// Returns names by kind and number alone, whatever names the file gives.
 LightNames numbered_light_names(const Manifest& manifest);
 
-// "Desk_lamp" of "Desk lamp": as names of lights are shown and typed.
+// Returns a name as names of lights are shown and typed: "Desk_lamp" for "Desk lamp".
 std::string typed_name(std::string name);
 
 }  // namespace vitrail

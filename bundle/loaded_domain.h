@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A domain with the objects that its instances need, ready to be traced.
+// A LoadedDomain is a domain with the objects that its instances need, ready to be traced.
 #pragma once
 
 #include <functional>
@@ -11,12 +11,13 @@
 
 namespace vitrail {
 
-// A mapped file; what else goes with it is the business of whoever shares it.
+// It is a mapped file; whoever shares it decides what else happens when it is released.
 using SharedDomain = std::shared_ptr<const MappedDomain>;
 
 class LoadedDomain {
  public:
-  // `object(n)` gives object n; it is asked once for each that the domain needs and that is in a file.
+  // `object(n)` gives object n. The constructor calls it once for each object that the domain needs and that
+  // is in a file.
   LoadedDomain(const Manifest& manifest, std::uint32_t domain, SharedDomain mapped,
                const std::function<SharedDomain(std::uint32_t)>& object);
   LoadedDomain(const LoadedDomain&) = delete;  // its view refers to itself
@@ -32,18 +33,18 @@ class LoadedDomain {
   DomainView view_;
 };
 
-// Of memory, when it is loaded: its file, and the tables of its objects, which have a place for every number
-// up to the greatest.
+// Returns the bytes of memory that a loaded domain takes: its file and the tables of its objects. A table has
+// a place for every number up to the greatest.
 std::uint64_t bytes_loaded(const Manifest& manifest, std::uint32_t domain);
 
-// Maps and checks a file of a bundle. Of one that was `loaded` before only the checksums are compared, which
-// say that it is the same. A domain in a pack is mapped from one that stays open in `packs`, if given.
+// Maps and checks a file of a bundle. A file that was `loaded` before has only its checksums compared, which
+// show that it is the same. A domain in a pack is mapped from a pack that stays open in `packs`, if given.
 SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain,
                         OpenPacks* packs = nullptr, bool loaded = false);
 SharedDomain map_object(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t object,
                         bool loaded = false);
 
-// A domain with objects of its own.
+// Maps a domain, with objects that it does not share with other domains.
 std::unique_ptr<const LoadedDomain> load_domain(const Manifest& manifest, const std::filesystem::path& bundle,
                                                 std::uint32_t domain);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every rank knows of a bundle without loading a domain: the kd-tree, the domains' tight bounds, the
-// surfaces, materials and lights, the camera. Coordinates are the bundle's: the world's minus `offset`.
+// The manifest is what every rank knows of a bundle without loading a domain. It has the kd-tree, the
+// domains' tight bounds, the surfaces, materials and lights, the camera. Coordinates are the bundle's: the
+// world's minus `offset`.
 #pragma once
 
 #include <array>
@@ -25,10 +26,10 @@ class TextureFile;
 // Node 0 is the root. A leaf is one domain.
 struct KdNode {
   static constexpr std::uint32_t leaf_bit = 0x80000000u;
-  // This stands in place of an axis where no plane parts the children, which share the cell. The first such
-  // node on a way has below it the domain with the scene's own triangles and the points of the cell, and its
-  // `split` is how many share the cell: they are numbered in a row from that one. Each may be a leaf in
-  // several places; a ray visits it once, where it comes to it first, for all of its way.
+  // This value stands in place of an axis where no plane parts the children, which share the cell. The first
+  // such node on a way has below it the domain with the scene's own triangles and the points of the cell. Its
+  // `split` is how many domains share the cell: they are numbered in a row from that one. Each may be a leaf
+  // in several places; a ray visits it once, at the first of them, for all of its way.
   static constexpr std::uint32_t no_axis = 3;
   float split = 0;                            // coordinate of the interface on `axis`, or as above
   std::uint32_t axis = 0;                     // 0, 1, 2, or no_axis
@@ -36,14 +37,14 @@ struct KdNode {
   bool operator==(const KdNode&) const = default;
 };
 
-// Where in the packs (packs.h) a domain is.
+// A PackPlace says where in the packs (packs.h) a domain is.
 struct PackPlace {
   std::uint32_t pack = 0;
   std::uint64_t offset = 0;  // bytes
   auto operator<=>(const PackPlace&) const = default;
 };
 
-// What the manifest knows of a domain's file.
+// It holds what the manifest knows of a domain's file.
 struct DomainInfo {
   std::uint64_t triangles = 0;  // whole triangles and pieces in it
   std::uint64_t pieces = 0;     // of which pieces
@@ -57,8 +58,9 @@ struct DomainInfo {
   bool operator==(const DomainInfo&) const = default;
 };
 
-// What instances are of: a prototype, a part of a large one, or a quadric, which has no file. Its ids count
-// its own triangles first, then those of its instances; parts of one prototype share them.
+// Instances refer to objects. An object is a prototype, a part of a large one, or a quadric, which has no
+// file. Its ids count its own triangles first, then those of its instances; parts of one prototype share the
+// ids.
 struct ObjectInfo {
   std::uint64_t triangles = 0;                         // ids are [0, triangles)
   std::uint64_t bytes = 0;                             // of its file
@@ -77,22 +79,23 @@ struct Surface {
   std::uint32_t first_triangle = 0;
   std::uint32_t material = 0;
   std::int32_t area_light = -1;  // index, or −1: no light
-  // Indices of the media behind and in front, −1: vacuum. Where the two are the same the surface stands in a
-  // medium and does not bound one.
+  // They are indices of the media behind and in front, −1: vacuum. Where the two are the same, the surface
+  // stands in a medium and does not bound one.
   std::int32_t interior = -1, exterior = -1;
   FloatParameter opacity = 1.0f;  // as a Shape's
-  // Of smooth glass under a distant light: how far its vertices may stand from where they were meant, as its
-  // file rounded them to decimals. In the coordinates of the scene, or of the object.
+  // It bounds how far the file's rounding to decimals may have moved the vertices of smooth glass under a
+  // distant light. It is in the coordinates of the scene, or of the object; 0 for other surfaces.
   float vertex_doubt = 0;
   bool operator==(const Surface&) const = default;
 };
 
-// Whether it is a light that connections go to.
+// Returns whether the surface is a light that connections go to.
 inline bool is_lamp(std::span<const AreaLight> lights, const Surface& surface) {
   return surface.area_light >= 0 && lights[static_cast<std::size_t>(surface.area_light)].sampled;
 }
 
-// One triangle that emits, replicated on every rank for light sampling. Wound so that its front emits.
+// It is one triangle that emits, replicated on every rank for light sampling. It is wound so that its front
+// emits.
 struct EmissiveTriangle {
   Point3f p[3];
   Point2f uv[3];
@@ -100,7 +103,7 @@ struct EmissiveTriangle {
   std::uint32_t area_light = 0;  // index
 };
 
-// One quadric that emits from its front, likewise.
+// It is one quadric that emits from its front, likewise replicated.
 struct EmissiveQuadric {
   OrientedQuadric quadric;
   Affine to_bundle{};
@@ -109,24 +112,24 @@ struct EmissiveQuadric {
   FloatParameter opacity = 1.0f;  // of its surface
 };
 
-// A mesh attribute at the corners of a triangle: [vertex][channel].
+// It holds a mesh attribute at the corners of a triangle: [vertex][channel].
 using CornerValues = std::array<std::array<float, 3>, 3>;
 
-// What the scene needs of a renderer; everything false costs nothing.
+// They say what the scene needs of a renderer; everything that is false costs nothing.
 struct Requirements {
   bool shading_normals = false;
   bool uv = false;          // some texture, tangent or light is looked up by (u,v)
   bool filtering = false;   // some image is filtered by the width of the ray's cone
   bool dispersion = false;  // some smooth surface refracts by an index that depends on λ
   bool refraction = false;  // some smooth surface refracts
-  // Some surface lets light straight through: interfaces, masks, thin sheets, opacities.
+  // It says that some surface lets light straight through: interfaces, masks, thin sheets, opacities.
   bool see_through = false;
   bool media = false;
   bool motion = false;  // the camera or an object moves
   bool operator==(const Requirements&) const = default;
 };
 
-// A file of textures/.
+// A TextureFileEntry describes a file of textures/.
 struct TextureFileEntry {
   std::string name;  // "textures/000003.tex"
   std::uint64_t bytes = 0, hash = 0;
@@ -135,10 +138,10 @@ struct TextureFileEntry {
   bool operator==(const TextureFileEntry&) const = default;
 };
 
-// Mesh attributes that the textures of a bundle read, at most.
+// It is the most mesh attributes that the textures of a bundle read.
 inline constexpr std::uint32_t max_attributes = 8;
 
-// All of a bundle but its domains, objects and textures.
+// A Manifest holds all of a bundle but its domains, objects and textures.
 struct Manifest {
   std::uint64_t triangles = 0;      // global ids are [0, triangles)
   std::uint64_t cut_triangles = 0;  // of which straddle an interface
@@ -149,17 +152,17 @@ struct Manifest {
   std::vector<KdNode> kd_nodes;     // empty when there is one domain
   std::vector<DomainInfo> domains;
   std::vector<ObjectInfo> objects;
-  // Ascending first_triangle: those of the scene's own triangles, then each object's, in its ids.
+  // They ascend by first_triangle: those of the scene's own triangles, then each object's, in its ids.
   std::vector<Surface> surfaces;
-  // The scene's own records, their spectra `resolved`, their transforms ending in the bundle's coordinates,
-  // their filenames naming texture files.
+  // They are the scene's own records. Their spectra are `resolved`, their transforms end in the bundle's
+  // coordinates, and their filenames name texture files.
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<ScatteringTable> tables;  // of tabulated materials; each once
   std::vector<Medium> media;
   std::vector<AreaLight> area_lights;
   std::vector<EmissiveTriangle> emissive_triangles;
-  // Their mesh attributes, [triangle][slot]; empty where no area light reads one.
+  // They hold the triangles' mesh attributes, [triangle][slot]; empty where no area light reads one.
   std::vector<CornerValues> emissive_attributes;
   std::vector<FloatParameter> emissive_opacities;  // their surfaces'; empty where all are 1
   std::vector<EmissiveQuadric> emissive_quadrics;
@@ -179,44 +182,45 @@ struct Manifest {
       0;  // of all triangles and records, whatever the cuts: equal scenes have equal hashes
 };
 
-// How large the scene is, whatever few triangles lie far away.
+// Returns the bounds of the scene without the few triangles that lie far away.
 inline Bounds3f core_of(const Manifest& m) { return m.core.value_or(m.bounds); }
 
-// The walk visits both sides of an interface within this: more than the padding of any triangle.
+// The walk visits both sides of an interface within this distance, which is more than the padding of any
+// triangle.
 inline double interface_epsilon(const Manifest& m) { return 2 * padding(double{m.scale}); }
-// The cells of domains are marked with this as a margin more. The way of a ray through them is as certain if
-// it starts within 128 scales.
+// The cells of domains are marked with this margin more. The way of a ray through them is as certain if it
+// starts within 128 scales.
 inline double cell_margin(const Manifest& m) { return 0x1p-40 * double{m.scale} + 1e-37; }
 
-// Most planes on the way from the root of a kd-tree to a domain.
+// It is the most planes on the way from the root of a kd-tree to a domain.
 inline constexpr int max_kd_depth = 62;
 
-// Domains begin at multiples of this in a pack.
+// Domains in a pack begin at multiples of this.
 inline constexpr std::uint64_t pack_page = 4096;
 
-// The file of a domain, of an object, of a pack of domains.
+// They return the file of a domain, of an object and of a pack of domains.
 std::filesystem::path domain_path(const std::filesystem::path& bundle, std::uint32_t domain);
 std::filesystem::path object_path(const std::filesystem::path& bundle, std::uint32_t object);
 std::filesystem::path pack_path(const std::filesystem::path& bundle, std::uint32_t pack);
 
-// Where a domain is: its file, or its part of a pack.
+// Returns where a domain is: its file, or its part of a pack.
 Stored stored_domain(const Manifest& m, const std::filesystem::path& bundle, std::uint32_t domain);
 
-// Whether a surface has one.
+// They return whether any surface has a vertex doubt, and whether any material casts no shadow.
 bool has_vertex_doubts(const Manifest& m);
 bool has_shadowless_materials(const Manifest& m);
 
-// The surfaces of triangles that no instance has, and those of an object's own triangles.
+// They return the surfaces of triangles that no instance has, and those of an object's own triangles.
 std::span<const Surface> scene_surfaces(const Manifest& m);
 std::span<const Surface> surfaces_of(const Manifest& m, const ObjectInfo& object);
 
-// Of a domain's file and those of all objects that it needs.
+// Returns the bytes of a domain's file and of those of all objects that it needs.
 std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain);
 
-// What the bundle has; its files have no more.
+// Returns the features of the bundle; its files have no others.
 Features features_of(const Manifest& m);
 
-// The files beside manifest.json that have its binary records.
+// These files beside manifest.json have its binary records.
 inline constexpr std::array records_file_names{"materials.bin", "lights.bin", "domains.bin"};
 
 // Writes manifest.json and the files of records. Throws MachineError.

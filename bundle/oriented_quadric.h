@@ -5,7 +5,7 @@
 
 namespace vitrail {
 
-// What an object is that is no mesh. Its front stays its front under transforms that mirror.
+// An OrientedQuadric is an object that is no mesh. Its front stays its front under transforms that mirror.
 struct OrientedQuadric {
   Quadric quadric;
   bool inside_out = false;  // the front is inside, of a disk −z

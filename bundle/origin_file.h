@@ -3,7 +3,7 @@
 
 namespace vitrail {
 
-// A file in a bundle that says where it came from: no part of the format, which no reader needs.
+// This file in a bundle says where the bundle came from. It is no part of the format, and no reader needs it.
 inline constexpr const char* bundle_origin_file = "origin.json";
 
 }  // namespace vitrail

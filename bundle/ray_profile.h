@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the rays of a render went and what that took. Written by `render --profile`; read by `partition
-// --profile`, which cuts the same scene anew, and by `plan`.
+// A RayProfile says where the rays of a render went and what that took. `render --profile` writes it.
+// `partition --profile`, which cuts the same scene anew, and `plan` read it.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,8 @@ struct RayProfile {
     bool operator==(const Domain&) const = default;
   };
 
-  // Rays that were traced in `from`, or left the camera, and went on, or sent others, to `to`.
+  // A Way counts rays that were traced in `from`, or left the camera, and went on to `to`, or sent others to
+  // it.
   struct Way {
     static constexpr std::uint32_t camera = 0xffffffff;
     std::uint32_t from = camera, to = 0;
@@ -43,18 +44,18 @@ struct RayProfile {
   Cost cost;
 
   RayProfile() = default;
-  // `rays` and `seconds` by domain.
+  // `rays` and `seconds` are by domain.
   RayProfile(const Manifest& manifest, const std::vector<std::uint64_t>& rays,
              const std::vector<double>& seconds, std::vector<Way> ways, Cost cost);
 
-  // Throws Error where it is of a bundle with other domains.
+  // Throws Error where the profile is of a bundle with other domains.
   void require_of(const Manifest& manifest) const;
 
-  // The domain that a point of the world lies in.
+  // Returns the domain that a point of the world lies in.
   std::uint32_t domain_at(Point3d world) const;
 };
 
-// JSON. Throws MachineError.
+// Writes the profile as JSON. Throws MachineError.
 void write_ray_profile(const std::filesystem::path& file, const RayProfile& profile);
 // Throws Error for what is not a profile.
 RayProfile read_ray_profile(const std::filesystem::path& file);

@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// A whole file, noted as an input. Throws MachineError, and Error where it is no regular file.
+// Reads a whole file, which is noted as an input. Throws MachineError, and Error where it is no regular file.
 std::vector<std::byte> read_file(const std::filesystem::path& file);
 
 }  // namespace vitrail

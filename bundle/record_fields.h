@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fields of the records of materials.bin, lights.bin and domains.bin for whoever goes through them: a
-// writer, a reader, a checker. They are those of scene/records/fields.h, but where bundles leave some out.
-// `io` is called with every number, and with every Id; its type is of this namespace, so that all overloads
-// are found. Names, origins and the colours that sigmoids were fitted to are for writing scenes: they stay
-// behind.
+// This file has the fields of the records of materials.bin, lights.bin and domains.bin for a writer, a reader
+// or a checker. They are those of scene/records/fields.h, but where bundles leave some out. `io` is called
+// with every number, and with every Id; its type is of this namespace, so that all overloads are found.
+// Names, origins and the colours that sigmoids were fitted to are left out: they serve to write scenes.
 #pragma once
 
 #include <optional>
@@ -48,7 +47,7 @@ void fields(auto& io, Is<bool> auto& value) {
   if constexpr (reads<decltype(io)>) value = byte != 0;
 }
 
-// The greatest value of each enumeration.
+// It is the greatest value of each enumeration.
 template <class E>
 inline constexpr E last_of = E{};
 template <>
@@ -115,7 +114,7 @@ void fields(auto& io, Is<std::string> auto& text) {
   for (auto& c : text) io(c);
 }
 
-// Points and vectors of two or three dimensions, colours.
+// These are points and vectors of two or three dimensions, and colours.
 template <class V>
 requires requires(V v) { v.x, v.y; }
 void fields(auto& io, V& v) {
@@ -176,7 +175,7 @@ void fields(auto& io, Unresolved auto&) {
 
 // ---- Records as they are listed
 
-// Those of which bundles have other fields.
+// Bundles have other fields of these records than scene/records/fields.h.
 template <class T>
 concept Reduced = IsOneOf<T, ImageTexture, PtexTexture, PatternTexture, Roughness, SubsurfaceMaterial,
                           MeasuredMaterial, TabulatedMaterial, AreaLight, PointLight, SpotLight,
@@ -190,11 +189,11 @@ requires(!Reduced<T>) void fields(auto& io, T& record) {
 
 inline constexpr std::size_t least_pattern_bytes = 256;
 
-// What its file holds is final: encoding, scale and inversion are applied.
+// The content of its file is final: encoding, scale and inversion are applied.
 void fields(auto& io, Is<ImageTexture> auto& t) {
   fields(io, t.filename), fields(io, t.mapping), fields(io, t.wrap), fields(io, t.filter);
 }
-// Its mean in a bundle.
+// A bundle has an image or a mean in place of it.
 void fields(auto& io, Is<PtexTexture> auto&) {
   if constexpr (reads<decltype(io)>) io.stream.fail("a texture is not baked");
   throw std::logic_error("a bundle takes baked textures");
@@ -307,7 +306,8 @@ void fields(auto& io, Is<Medium> auto& m) {
 
 // ---- Lights
 
-// The lowest bit of a byte, and the next one, which only those of the feature `glows` have.
+// The lowest bit of a byte is `directional`. The next one, `!sampled`, is set only in bundles of the feature
+// `glows`.
 void fields(auto& io, Is<AreaLight> auto& l) {
   fields(io, l.radiance), fields(io, l.scale), fields(io, l.two_sided);
   auto byte = static_cast<std::uint8_t>(l.directional | !l.sampled << 1);
@@ -319,7 +319,7 @@ void fields(auto& io, Is<SpotLight> auto& l) {
   fields(io, *l.light_to_world), fields(io, l.intensity), fields(io, l.beam_deg), fields(io, l.cutoff_deg);
   fields(io, l.falloff), fields(io, l.texture);
 }
-// What only lights of the feature `fadings` have, after the fields of their kind.
+// Returns whether the light has fields of the feature `fadings`, which follow the fields of its kind.
 bool fades(const auto& l) {
   if constexpr (requires { l.tightness; })
     return l.fading || l.tightness != 0;
@@ -341,7 +341,7 @@ void fields(auto& io, Is<EnvironmentLight> auto& l) {
   fields(io, l.illuminance), fields(io, *l.portal);
 }
 // A byte says whether the limb is dark (1), and what follows: a distribution (2), the ground (4), a
-// temperature (8). Those three are of the feature `skies`.
+// temperature (8). The latter three are of the feature `skies`.
 void fields(auto& io, Is<SkyLight> auto& l) {
   fields(io, *l.light_to_world), fields(io, l.to_sun), fields(io, l.turbidity), fields(io, *l.albedo);
   fields(io, l.sky_scale), fields(io, l.sun_scale), fields(io, l.sun_diameter_deg);
@@ -356,8 +356,8 @@ void fields(auto& io, Is<SkyLight> auto& l) {
   if (byte & 4) fields(io, l.ground);
   if (byte & 8) fields(io, l.color_temperature_k);
 }
-// The kind, in its highest bit whether something follows its fields, in the next one whether it casts no
-// shadows (the feature `shadowless`).
+// The byte is the kind. Its highest bit says whether something follows the fields; the next one says that the
+// light casts no shadows (the feature `shadowless`).
 void fields(auto& io, Is<Light> auto& l) {
   constexpr std::uint8_t fading = 0x80, shadowless = 0x40;
   auto kind = static_cast<std::uint8_t>(l.model.index());

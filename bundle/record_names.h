@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names that a scene's file gives its materials and lights. They are no part of the scene's hash:
-// a name changes no picture.
+// These functions store the names that a scene's file gives its materials and lights. Names are no part of
+// the scene's hash: a name changes no picture.
 #pragma once
 
 #include "bundle/manifest_json.h"
 
 namespace vitrail {
 
-// Lists by index, "" where the file gives none; without those that name nothing.
+// Returns lists by index, with "" where the file gives no name. It leaves out lists without any name.
 Json names_to_json(const Manifest& manifest);
-// Into the records, which are there. Throws nlohmann's exceptions for values of a wrong type, Error where a
-// list is of other records.
+// Copies the names into the records, which exist already. Throws nlohmann's exceptions for values of a wrong
+// type, and Error where a list has another length than its records.
 void take_names(const Json& json, Manifest& manifest);
 
 }  // namespace vitrail

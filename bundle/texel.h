@@ -23,13 +23,13 @@ enum class TexelFormat : std::uint32_t {
   reflectance,   // three Real21: x
   unbounded,     // the same, and a float: scale. Value: scale · S
   illuminant,    // the same times D65
-  // By Matrix-R (scene/spectra/matrix_r.h), q(λ) = clamp(Σ aₖ(λ)·xₖ, 0, 1): three Real21, x, and a float w;
-  // linear between bands of 5 nm.
+  // These follow Matrix-R (scene/spectra/matrix_r.h): q(λ) = clamp(Σ aₖ(λ)·xₖ, 0, 1), linear between bands of
+  // 5 nm. A texel has three Real21, x, and a float w.
   matrix_r_reflectance,  // 1 − w·(1 − q)
   matrix_r_unbounded,    // w·q; w where all of x are 0, a grey
   matrix_r_illuminant,   // the same times D65
-  // Codes, as an image file holds them. They are read as texels of another format (`read_format`). Of codes
-  // of 8 bits the file has the 256 values that they stand for.
+  // These are codes, as an image file holds them. They are read as texels of another format (`read_format`).
+  // The file has the 256 values that codes of 8 bits stand for.
   color_code,     // three of 8 bits, of linear sRGB; read as reflectance
   number_code,    // one of 8 bits; read as number
   light_code,     // three of 8 bits, of linear sRGB; read as illuminant
@@ -107,8 +107,8 @@ constexpr std::uint32_t bytes_per_texel(TexelFormat format) {
 
 using TexelWords = std::array<std::uint32_t, 3>;  // of which words_per_texel count
 
-// A colour of 8 bits whose spectrum is still to be found is read as a texel with this last word; the others
-// say nothing. The second word of a spectrum is less than 2³¹, and so is its third, a float that is not
+// A colour of 8 bits whose spectrum is still to be found is a texel with this last word; the other words are
+// unused. The second word of a spectrum is less than 2³¹. So is its third, which is a float that is not
 // negative.
 constexpr bool is_color_code(std::uint32_t last_word) { return last_word >> 31 != 0; }
 constexpr std::uint32_t color_code_word(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
@@ -120,10 +120,10 @@ inline constexpr std::size_t max_tile_words = 4096;
 constexpr std::uint32_t tile_width(TexelFormat format) { return words_per_texel(format) == 3 ? 32 : 64; }
 constexpr std::uint32_t tile_height(TexelFormat format) { return words_per_texel(format) == 1 ? 64 : 32; }
 
-// A real number in 21 bits: sign, 5 bits of exponent (bias 15), 15 of fraction, for magnitudes from 2⁻¹⁴ to
-// real21_max, with a relative error below 2⁻¹⁶; and 0.
+// A Real21 is a real number in 21 bits: sign, 5 bits of exponent (bias 15), 15 of fraction. It holds 0, and
+// magnitudes from 2⁻¹⁴ to real21_max with a relative error below 2⁻¹⁶.
 inline constexpr float real21_max = 131070;
-// To nearest even; what is larger, ±∞ too, becomes ±real21_max, NaN becomes 0.
+// Rounds to nearest even. Greater magnitudes, ±∞ too, become ±real21_max; NaN becomes 0.
 inline std::uint32_t encode_real21(float value) {
   if (!(value == value)) return 0;
   const std::uint32_t sign = std::signbit(value) ? 1u << 20 : 0;
@@ -140,7 +140,8 @@ inline float decode_real21(std::uint32_t code) {
   return std::bit_cast<float>(magnitude | sign) * 0x1p112f;
 }
 
-// x at 360, 595 and 830 nm of a sigmoid; ±∞ (the constants 1 and 0) becomes ±real21_max, off by 2e-11.
+// They are x at 360, 595 and 830 nm of a sigmoid; ±∞ (the constants 1 and 0) becomes ±real21_max, off by
+// 2e-11.
 using SigmoidNodes = std::array<float, 3>;
 SigmoidNodes nodes_of(const SigmoidSpectrum& sigmoid);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A baked image: its MIP levels, each in tiles that are read one by one. The byte layout and its reasons are
-// in docs/why/textures.md.
+// A texture file holds a baked image: its MIP levels, each in tiles that are read one by one.
+// docs/why/textures.md has the byte layout and its reasons.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ struct TextureFileInfo {
 inline constexpr std::uint32_t texture_version = 2;
 inline constexpr std::uint32_t max_texture_size = 1u << 20;
 
-// Where the tiles of one level are. Tiles stand row by row from the lower left corner; those at the right and
-// upper edge are cut to the level.
+// A TextureLevel says where the tiles of one level are. Tiles stand row by row from the lower left corner;
+// those at the right and upper edge are cut to the level.
 struct TextureLevel {
   std::uint32_t width = 1, height = 1;
   std::uint32_t tiles_x = 1, tiles_y = 1;
@@ -36,7 +36,7 @@ struct TextureLevel {
   std::uint64_t offset = 0;      // of its first byte in the file
 };
 
-// Of an image and its levels, all of it a function of the TextureFileInfo.
+// It holds the layout of an image and its levels, which is a function of the TextureFileInfo.
 struct TextureFileLayout {
   std::vector<TextureLevel> levels;
   std::uint64_t tiles = 0;
@@ -44,13 +44,13 @@ struct TextureFileLayout {
 };
 TextureFileLayout texture_file_layout(const TextureFileInfo& info);
 
-// Number of levels down to one texel: each is half of the one before it, rounded down.
+// Returns the number of levels down to one texel: each is half of the one before it, rounded down.
 std::uint32_t texture_level_count(std::uint32_t width, std::uint32_t height);
 
-// What codes stand for: 256 values; none where the format has no codes.
+// They are the 256 values that codes stand for; empty where the format has no codes.
 using CodeValues = std::vector<float>;
 
-// Writes the file; `texel(level, x, y)` gives the words of each texel, or the codes in the first bytes of a
+// Writes the file. `texel(level, x, y)` gives the words of each texel, or the codes in the first bytes of a
 // word: code i is worth i/255. Returns the hash of the file: that of its header, which holds the checksums of
 // the tiles. Throws MachineError.
 struct WrittenTextureFile {
@@ -61,7 +61,7 @@ using TexelSource = std::function<TexelWords(std::uint32_t level, std::uint32_t 
 WrittenTextureFile write_texture_file(const std::filesystem::path& file, const TextureFileInfo& info,
                                       const TexelSource& texel);
 
-// A texture file whose header has been verified; its tiles are when they are read.
+// A TextureFile has a header that has been verified; its tiles are verified when they are read.
 class TextureFile {
  public:
   // Throws Error with the file's name where anything is wrong, MachineError where it cannot be opened.
@@ -73,16 +73,16 @@ class TextureFile {
   const Features& features() const { return features_; }
   const CodeValues& values() const { return values_; }
 
-  // The words of a tile of `level`, row by row from the bottom; rows are `width` texels wide. Files that
-  // were read last stay open; a scene may have any number. Codes of numbers are read as the numbers, those of
-  // colours as is_color_code says. Throws Error. Safe from many threads.
+  // Reads the words of a tile of `level`, row by row from the bottom; rows are `width` texels wide. Files
+  // that were read last stay open; a scene may have any number. Codes of numbers are read as the numbers,
+  // those of colours as is_color_code says. Throws Error. It is safe from many threads.
   struct Tile {
     std::uint32_t width = 0, height = 0;
     std::size_t words = 0;
   };
   Tile read_tile(std::uint32_t level, std::uint32_t tile_x, std::uint32_t tile_y,
                  std::span<std::uint32_t, max_tile_words> words) const;
-  // Reads them all; throws Error that says how many are wrong, and names one.
+  // Reads all tiles. Throws Error that says how many are wrong, and names one.
   void check_tiles() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes of a texture file, for those who read and write it.
+// This file has the bytes of a texture file, for the code that reads and writes it.
 #pragma once
 
 #include <span>
@@ -23,11 +23,11 @@ struct TextureHeader {
 };
 static_assert(sizeof(TextureHeader) == 64);
 
-// `values` are those of codes, which follow the table; none where the format has no codes.
+// `values` are those of codes, which follow the table; they are empty where the format has no codes.
 std::uint64_t header_checksum(TextureHeader header, std::span<const std::uint64_t> table,
                               std::span<const float> values);
 
-// The part of a tile that its level has, and where it is.
+// A TilePlace is the part of a tile that its level has, and where it is.
 struct TilePlace {
   std::uint32_t width, height;
   std::uint64_t offset, bytes;

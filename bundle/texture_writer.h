@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a texture file row by row, so that no more than a row of tiles of each level is in memory.
+// A TextureWriter writes a texture file row by row, so that no more than a row of tiles of each level is in
+// memory.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +11,21 @@
 
 namespace vitrail {
 
-// Rows of a level come from the top down, of levels in any order. The file is gone again where the writer
-// ends before `finish`. Functions throw MachineError.
+// Rows of a level come from the top down, and levels in any order. The file is removed where the writer is
+// destroyed before `finish`. Functions throw MachineError.
 class TextureWriter {
  public:
-  // `values` of the codes, where the format has codes: 256.
+  // `values` are the 256 values of the codes, where the format has codes.
   TextureWriter(std::filesystem::path file, const TextureFileInfo& info, CodeValues values = {});
   ~TextureWriter();
   TextureWriter(const TextureWriter&) = delete;
   TextureWriter& operator=(const TextureWriter&) = delete;
 
-  // The next row of the level, as wide as it is: of each texel the words, or their first bytes where the file
-  // has fewer; or the bytes as they are in the file.
+  // Adds the next row of the level, which is as wide as the level. Each texel is given by its words, or by
+  // their first bytes where the file has fewer. The second function takes the bytes as they are in the file.
   void add_row(std::uint32_t level, std::span<const TexelWords> row);
   void add_row(std::uint32_t level, std::span<const std::byte> row);
-  // After the last row of the last level.
+  // Finishes the file, after the last row of the last level.
   WrittenTextureFile finish();
 
  private:

@@ -4,27 +4,26 @@
 // triangles has the ids themselves.
 //
 // In a larger scene several triangles have one number. It is the same wherever the scene is cut, so that
-// films do not depend on the cuts. It decides two things: which triangle a ray starts on and does not hit
-// again, and which of two triangles at one and the same distance counts. Of the first, one hit in 2³² is
-// passed wrongly. No two of the scene's own triangles have one number, nor two of an object's own, nor two
-// that emit.
+// films do not depend on the cuts. It decides which triangle a ray starts on and does not hit again, and
+// which of two triangles at the same distance counts. The first skips one hit in 2³² wrongly. No two of the
+// scene's own triangles have one number, nor two of an object's own, nor two that emit.
 #pragma once
 
 #include <cstdint>
 
 namespace vitrail {
 
-// The most triangles that a scene has, with all instances.
+// It is the most triangles that a scene has, with all instances.
 inline constexpr std::uint64_t most_triangles = std::uint64_t{1} << 62;
 
-// A prime: copies of an object of any size get numbers that differ.
+// It is a prime, so that copies of an object of any size get numbers that differ.
 inline constexpr std::uint32_t triangle_numbers = 4294967291u;
 
 constexpr std::uint32_t triangle_number(std::uint64_t id) {
   return static_cast<std::uint32_t>(id % triangle_numbers);
 }
 
-// The number of triangle `number` of an object whose triangle 0 has the number `first`.
+// Returns the number of triangle `number` of an object whose triangle 0 has the number `first`.
 [[gnu::always_inline]] constexpr std::uint32_t number_from(std::uint32_t first, std::uint32_t number) {
   const std::uint32_t left = triangle_numbers - first;
   return number < left ? first + number : number - left;

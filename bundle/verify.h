@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the whole of a bundle and says all that is wrong with it.
+// This file reads the whole of a bundle and reports all that is wrong with it.
 #pragma once
 
 #include <compare>
@@ -14,20 +14,20 @@
 
 namespace vitrail {
 
-// Something wrong in a bundle.
+// A VerifyFinding is something wrong in a bundle.
 struct VerifyFinding {
   std::string file;  // below the bundle's directory
   std::string what;
   auto operator<=>(const VerifyFinding&) const = default;
 };
 
-// How to check.
+// They say how to check.
 struct VerifyOptions {
   int threads = 0;                         // 0: one a processor allowed
   std::function<void(double)> progress{};  // told the fraction that is read, from any thread, one at a time
 };
 
-// What a check found.
+// It holds what a check found.
 struct VerifyResult {
   std::vector<VerifyFinding> problems;  // by file
   std::vector<VerifyFinding> warnings;  // what does no harm: files that do not belong to the bundle
@@ -37,8 +37,8 @@ struct VerifyResult {
 };
 
 // Checks checksums, sizes, offsets and references of every file, each against the manifest, and counts that
-// every triangle is stored once. A damaged file does not stop it: where the manifest is damaged, the other
-// files are still checked by themselves, and missed where they must be. Throws Error where there is no
+// every triangle is stored once. A damaged file does not stop it. Where the manifest is damaged, the other
+// files are still checked by themselves, and missing ones are reported. Throws Error where there is no
 // directory.
 VerifyResult verify_bundle(const std::filesystem::path& bundle, const VerifyOptions& options = {});
 

@@ -6,7 +6,7 @@
 
 namespace vitrail {
 
-// How a scene is seen, in the world of its file.
+// A View says how a scene is seen, in the world of its file.
 struct View {
   Camera camera;
   Motion motion;  // none: it stands still

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that stay mapped: what was verified once must not change while it is traced.
+// These functions watch files that stay mapped: what was verified once must not change while it is traced.
 #pragma once
 
 #include <sys/stat.h>
@@ -8,15 +8,16 @@
 
 namespace vitrail {
 
-// To be called before an open file is mapped, each time, with what fstat says of it. Any thread may.
+// Watches an open file. It has to be called each time before the file is mapped, with the result of fstat.
+// Any thread may call it.
 void watch(const std::filesystem::path& file, const struct stat& now);
 
-// A watched file that has another size or time of modification than when it was first mapped; null: none. A
-// signal handler may ask. One that is gone, or has another in its place, goes on to exist where it is mapped,
-// as it was verified; and what takes its place is verified when it is mapped.
+// Returns a watched file that has another size or time of modification than when it was first mapped; null:
+// none. A signal handler may call it. A file that is gone, or replaced by another, stays mapped as it was
+// verified. What takes its place is verified when it is mapped.
 const char* changed_file();
 
-// What there is to say of such a file.
+// It is the message about such a file.
 inline constexpr char file_changed[] =
     "this file changed during the render: the samples after the last checkpoint may be wrong, and are not "
     "written";

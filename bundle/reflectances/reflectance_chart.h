@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layout of the table behind reflectance_table.h, and how its cells interpolate: for what makes the table
-// and for what reads it.
+// This file has the layout of the table behind reflectance_table.h, and how its cells interpolate. The
+// program that makes the table and the code that reads it share it.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 
 namespace vitrail {
 
-// At three wavelengths: 360, 595 and 830 nm.
+// It holds values at three wavelengths: 360, 595 and 830 nm.
 using Float4 = float __attribute__((vector_size(16)));
 
-// Of √(α(1 − α))·x.
+// A vertex holds √(α(1 − α))·x.
 struct alignas(64) ReflectanceVertex {
   Float4 value{};                  // the last: 1 if the cell that begins here agrees with fits, else 0
   std::array<Float4, 3> slopes{};  // by the coordinates, over the width of a cell; the last is not used
 };
 
-// Three charts. The vertices of one are ordered by α, by the first ratio, and by the second.
+// There are three charts. The vertices of one are ordered by α, by the first ratio, and by the second.
 struct ReflectanceChart {
   static constexpr int count = 3, alpha_cells = 24, ratio_cells = 32;
   static constexpr int along_ratio = ratio_cells + 1, along_alpha = along_ratio * along_ratio;
@@ -28,7 +28,7 @@ struct ReflectanceChart {
 
   static constexpr double trusted_difference = 1e-4;  // of S, in cells that are used
 
-  // w of α.
+  // Returns w of α.
   static double warp(double alpha) {
     const double r = std::sqrt(alpha / (1 - alpha));
     return r / (1 + r);
@@ -37,14 +37,14 @@ struct ReflectanceChart {
   static inline const double cell_w = (warp(static_cast<double>(greatest_alpha)) - first_w) / alpha_cells;
 };
 
-// A place in a chart.
+// A ReflectancePlace is a place in a chart.
 struct ReflectancePlace {
   int chart = 0;
   std::array<int, 3> cell{};
   std::array<float, 3> part{};  // of the cell, within [0,1]
   float unscale = 0;            // 1/√(α(1 − α))
 
-  // Also of the cell's first vertex.
+  // Returns the index of the cell, which is also that of its first vertex.
   std::size_t index() const {
     using C = ReflectanceChart;
     return static_cast<std::size_t>(
@@ -52,8 +52,8 @@ struct ReflectancePlace {
   }
 };
 
-// x from the vertices of a cell, of which this is the first: by value, and by each slope. At the distance d
-// along an axis a cubic with given ends is u·(1 + d·(u − d))·value + u·d·u·slope, u = 1 − d.
+// Returns x from the vertices of a cell, of which `first` is the first: it sums values and slopes. At the
+// distance d along an axis a cubic with given ends is u·(1 + d·(u − d))·value + u·d·u·slope, u = 1 − d.
 inline Float4 interpolated(const ReflectanceVertex* first, const ReflectancePlace& place) {
   std::array<std::array<float, 2>, 3> weight, bend, lean;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -62,7 +62,7 @@ inline Float4 interpolated(const ReflectanceVertex* first, const ReflectancePlac
     bend[k] = {f * (g - f), g * (f - g)};
     lean[k] = {both, -both};
   }
-  // Of the four corners of a side.
+  // They give the factors of the four corners of a side.
   const auto along_b = [](const std::array<float, 2>& v) { return Float4{v[0], v[0], v[1], v[1]}; };
   const auto along_c = [](const std::array<float, 2>& v) { return Float4{v[0], v[1], v[0], v[1]}; };
   Float4 sum{};

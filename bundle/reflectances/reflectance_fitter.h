@@ -6,10 +6,10 @@
 
 namespace vitrail {
 
-// reflectance_from_rgb (scene/spectra/rgb_to_spectrum.h) for many colours, twenty times as fast: one or two
-// Newton steps on every fifth nanometre, from a start that is interpolated between fitted colours. S differs
-// by 1e-5 in the mean, by less than 2e-3 at the edges of the gamut. A pure function of the colour, the same
-// on every machine; safe to use from many threads.
+// It is reflectance_from_rgb (scene/spectra/rgb_to_spectrum.h) for many colours, twenty times as fast. It
+// takes one or two Newton steps on every fifth nanometre, from a start that is interpolated between fitted
+// colours. S differs by 1e-5 in the mean, by less than 2e-3 at the edges of the gamut. It is a pure function
+// of the colour, the same on every machine, and safe to use from many threads.
 class ReflectanceFitter {
  public:
   // Components are clamped to [0,1].

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Newton's method for the sigmoid of a colour, with x at 360, 595 and 830 nm as its unknowns.
+// This file has Newton's method for the sigmoid of a colour, with x at 360, 595 and 830 nm as its unknowns.
 #pragma once
 
 #include <array>
@@ -16,16 +16,17 @@ struct LinearisedColor {
   std::array<Column3, 3> jacobian{};  // ∂xyz[row]/∂x[column]
 };
 
-// The colour of the sigmoid through these x, summed over every nanometre.
+// Returns the colour of the sigmoid through these x, summed over every nanometre.
 LinearisedColor linearised_color(const Column3& x);
 
-// m·v = r by Cramer's rule; not finite where m is singular.
+// Solves m·v = r by Cramer's rule; the result is not finite where m is singular.
 Column3 solve(const std::array<Column3, 3>& m, const Column3& r);
 
-// The sigmoid of a colour (XYZ under D65) from a start that is near: on every fifth nanometre, or on every
-// one where it is steep. Nothing where the steps do not converge at once.
+// Returns the sigmoid of a colour (XYZ under D65) from a start that is near. It sums over every fifth
+// nanometre, or over every one where the sigmoid is steep. It returns nothing where the steps do not converge
+// at once.
 std::optional<SigmoidNodes> refined_sigmoid(const Column3& start, const Column3& xyz);
-// The same with a last step on every nanometre.
+// Does the same, with a last step on every nanometre.
 std::optional<SigmoidNodes> finely_refined_sigmoid(const Column3& start, const Column3& xyz);
 
 }  // namespace vitrail
