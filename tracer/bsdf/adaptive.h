@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflection by a table of measurements (Dupuy and Jakob 2018; scene/records/scattering_table.h). A place of
-// the unit square is warped twice, by the luminance and by the visible normals, to a microfacet's normal m,
-// which mirrors `out`: the table's spectra are by the place before the second warp.
+// This model reflects by a table of measurements (Dupuy and Jakob 2018; scene/records/scattering_table.h). A
+// place of the unit square is warped twice, by the luminance and by the visible normals, to a microfacet's
+// normal m, which mirrors `out`. The place before the second warp looks up the table's spectra.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// Of a table, made when it is loaded.
+// These warps belong to a table, and are made when it is loaded.
 struct AdaptiveWarps {
   Warp luminance, visible_normals;
 };

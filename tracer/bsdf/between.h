@@ -6,13 +6,13 @@
 
 namespace vitrail {
 
-// Of a position between the nodes `first` and `first + 1`, or at `first` where part = 0.
+// It is a position between the nodes `first` and `first + 1`, or at `first` where part = 0.
 struct Between {
   std::size_t first = 0;
   double part = 0;
 };
 
-// Among ascending nodes; the ends hold what lies beyond them.
+// Returns the position of x among ascending nodes. Beyond them it is that of the nearest end.
 inline Between locate(std::span<const float> nodes, double x) {
   const auto above = std::upper_bound(nodes.begin(), nodes.end(), x, [](double value, float node) {
     return value < static_cast<double>(node);

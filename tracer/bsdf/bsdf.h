@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What scattering at a point is asked for. Directions are unit and point away from the surface, in the local
-// frame whose +z is the shading normal and whose +x follows dp/du. A model that only reflects is asked with
-// `out` above (out.z > 0): who calls it turns the frame over on the back of a two-sided surface. One that
-// transmits is asked from either side: z > 0 is the front of the surface.
+// This file defines the interface of scattering at a point. Directions are unit and point away from the
+// surface, in the local frame whose +z is the shading normal and whose +x follows dp/du. A model that only
+// reflects is called with `out` above (out.z > 0). On the back of a two-sided surface the caller turns the
+// frame over. A model that transmits is called from either side: z > 0 is the front of the surface.
 //
 // Each model is a plain record of its parameters at one point and at the wavelengths of one path, with three
 // functions:
@@ -30,8 +30,8 @@ struct BsdfSample {
   bool specular = false;   // a delta: eval and pdf know nothing of it
 };
 
-// Σ throughput·s: by what a path carries at each wavelength. A choice with a probability in proportion to it
-// lets the sum of the throughput never grow, however many choices there are.
+// Returns Σ throughput·s: `s` weighted by what a path carries at each wavelength. A choice with a probability
+// in proportion to it lets the sum of the throughput never grow, however many choices there are.
 inline double carried(const SampledSpectrum& throughput, const SampledSpectrum& s) {
   double sum = 0;
   for (std::size_t i = 0; i < hero_count; ++i)

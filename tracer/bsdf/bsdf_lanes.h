@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What bsdf.h has, for any number of lanes. The text of a model that lanes know is in its *_lanes.h: its .cpp
-// takes one lane of it.
+// This file has what bsdf.h has, for any number of lanes. A model that lanes know has its text in its
+// *_lanes.h: its .cpp takes one lane of it.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@
 namespace vitrail::lanes {
 namespace {
 
-// vitrail::BsdfValue; both 0 where nothing is scattered.
+// It is vitrail::BsdfValue; both members are 0 where nothing is scattered.
 template <class D>
 struct BsdfValue {
   Four<FloatsLike<D>> value;
   D pdf;
 };
 
-// vitrail::BsdfSample, where `scatters`.
+// It is vitrail::BsdfSample, valid where `scatters`.
 template <class D>
 struct BsdfSample {
   Mask<D> scatters;
@@ -41,7 +41,7 @@ VITRAIL_LANES BsdfValue<D> where(Mask<D> mask, BsdfValue<D> f) {
 
 }  // namespace detail
 
-// Of a lane.
+// They return the value or sample of one lane.
 template <class D>
 VITRAIL_LANES vitrail::BsdfValue lane(const BsdfValue<D>& f, int j) {
   return {lane(f.value, j), lane(f.pdf, j)};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dielectric interface above a layer, met from either side, of one colour (Walter et al. 2007), for any
-// number of lanes. `out` and `in` lie on either side: z > 0 is above. The functions that are long are not
-// inlined: a walk calls each several times.
+// This file has the dielectric interface above a layer, met from either side, of one colour (Walter et al.
+// 2007), for any number of lanes. `out` and `in` may lie on either side: z > 0 is above. The long functions
+// are not inlined: a walk calls each several times.
 #pragma once
 
 #include "tracer/bsdf/local_lanes.h"
@@ -17,9 +17,9 @@ struct Coating {
   Mask<D> smooth;  // then its facets count for nothing
 };
 
-// A direction, where one is `found`; its weight f·|cos θ_in| / pdf, and its pdf in solid angle, 1 where the
-// coating is smooth. Weights are those of radiance from `in`; for light that goes from `out` instead, they
-// are η² (of the index across / on the side of `out`) times as large.
+// It is a direction, where one is `found`, with the weight f·|cos θ_in| / pdf. The pdf is in solid angle, and
+// 1 where the coating is smooth. Weights are those of radiance from `in`. For light that goes from `out`
+// instead, they are η² times as large, η the index across / the index on the side of `out`.
 template <class D>
 struct CoatingSample {
   Mask<D> found;
@@ -38,8 +38,8 @@ VITRAIL_LANES Vector<D> above(Vector<D> v) {
   return select<D>(v.z > 0, v, -v);
 }
 
-// Half vector of two directions on one side, or on both, h.z ≥ 0; the reflectance of a facet that `out`
-// meets, and whether both directions see it as they should.
+// It holds the half vector of two directions, on one side or on both, h.z ≥ 0. It also has the reflectance of
+// a facet that `out` meets, and whether both directions see the facet as they should.
 template <class D>
 struct CoatingHalf {
   Vector<D> h;
@@ -71,7 +71,7 @@ VITRAIL_LANES D visible_normal_pdf(const Microfacets<D>& mf, Vector<D> v, Vector
   return lanes::max(fill<D>(0), dot(v, m)) * normal_density(mf, m) / visible_area(mf, v);
 }
 
-// A facet as seen from `out`: its normal on that side, and its reflectance.
+// It is a facet as seen from `out`: its normal on that side, and its reflectance.
 template <class D>
 struct CoatingFacet {
   Vector<D> normal;
@@ -88,7 +88,8 @@ template <class D>
 
 }  // namespace detail
 
-// f without the cosine; 0 where smooth. Of radiance: 1/η² is in transmitted values.
+// They return f without the cosine, 0 where the coating is smooth. Values are of radiance: transmitted ones
+// have the factor 1/η².
 template <class D>
 [[gnu::noinline]] D coating_reflection(const Coating<D>& c, Vector<D> out, Vector<D> in) {
   if (all(c.smooth)) return fill<D>(0);
@@ -106,7 +107,8 @@ template <class D>
   return select<D>(half.valid & (sum != 0) & no(c.smooth), value, fill<D>(0));
 }
 
-// The density of a sample that is known to be reflected, or to be transmitted. It is 0 where smooth.
+// They return the density of a sample that is known to be reflected, or to be transmitted: 0 where the
+// coating is smooth.
 template <class D>
 [[gnu::noinline]] D coating_reflected_pdf(const Coating<D>& c, Vector<D> out, Vector<D> in) {
   if (all(c.smooth)) return fill<D>(0);
@@ -127,7 +129,7 @@ template <class D>
 
 namespace detail {
 
-// G₂/G₁ = G₂/(|out.z|·|in.z|)·|in.z|·σ(out).
+// Returns G₂/G₁ = G₂/(|out.z|·|in.z|)·|in.z|·σ(out).
 template <class D>
 VITRAIL_LANES D seen_share(const Coating<D>& c, Vector<D> out, Vector<D> in) {
   if (all(c.smooth)) return fill<D>(1);
@@ -178,7 +180,8 @@ template <class D>
   return s;
 }
 
-// Either, by the reflectance of the facet, which the weight is without; the pdf is that of the one chosen.
+// Samples either, chosen by the reflectance of the facet. The weight leaves this reflectance out, and the pdf
+// is that of the chosen one alone.
 template <class D>
 [[gnu::noinline]] CoatingSample<D> sample_coating(const Coating<D>& c, Vector<D> out, D u_lobe,
                                                   FloatsLike<D> u_x, FloatsLike<D> u_y) {

@@ -8,8 +8,9 @@
 
 namespace vitrail {
 
-// A metal: a mirror where its microfacets are smooth, else facets that are mirrors (Torrance & Sparrow 1967;
-// Walter et al. 2007, Eq. 20):  f = F(out·m)·D(m)·G₂(out, in)/(4·out.z·in.z), m halfway between the two.
+// A ConductorBsdf is a metal. It is a mirror where its microfacets are smooth, else it has facets that are
+// mirrors (Torrance & Sparrow 1967; Walter et al. 2007, Eq. 20):
+// f = F(out·m)·D(m)·G₂(out, in)/(4·out.z·in.z), m halfway between the two.
 // Light that facets scatter more than once is lost: all but 1 − ln 2 of it at α = 1 (GGX, seen from above).
 struct ConductorBsdf {
   Microfacets microfacets;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What conductor.h declares, for any number of lanes.
+// This file has what conductor.h declares, for any number of lanes.
 #pragma once
 
 #include "tracer/bsdf/bsdf_lanes.h"
@@ -9,7 +9,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// vitrail::ConductorBsdf that is rough, or, to sample_mirror, smooth.
+// It is a vitrail::ConductorBsdf that is rough, or, in sample_mirror, smooth.
 template <class D>
 struct Conductor {
   Microfacets<D> microfacets;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// DielectricBsdf of dielectric.h that is rough and no straight way, and what a thin sheet mirrors, for any
-// number of lanes.
+// This file has two parts of dielectric.h, for any number of lanes. One is the rough DielectricBsdf whose
+// index is not 1; the other is the reflectance of a thin sheet.
 #pragma once
 
 #include "tracer/bsdf/bsdf_lanes.h"
@@ -17,7 +17,7 @@ struct RoughDielectric {
   Four<FloatsLike<D>> reflectance_factor, transmittance_factor;
 };
 
-// What a sheet of ThinDielectricBsdf mirrors, of that index, of light of that Q/I.
+// Returns the share of light of that Q/I that a sheet of ThinDielectricBsdf of that index mirrors.
 template <class D>
 VITRAIL_LANES FloatsLike<D> sheet_reflectance(D cosine, D eta, D q) {
   const Polarized<D> r = fresnel_polarized<D>(lanes::min(cosine, fill<D>(1)), eta);
@@ -26,7 +26,7 @@ VITRAIL_LANES FloatsLike<D> sheet_reflectance(D cosine, D eta, D q) {
 
 namespace detail {
 
-// The interface as seen with `out` above it.
+// It is the interface as seen with `out` above it.
 template <class D>
 struct Sighting {
   D side;  // −1 where the picture is upside down
@@ -43,7 +43,7 @@ VITRAIL_LANES Sighting<D> sight(const RoughDielectric<D>& b, Vector<D> out) {
   return s;
 }
 
-// How likely `sample` is to reflect; nothing where both factors are black.
+// It says how likely `sample` is to reflect; `some` is false where both factors are black.
 template <class D>
 struct Reflecting {
   Mask<D> some;
@@ -60,7 +60,7 @@ VITRAIL_LANES Reflecting<D> reflecting(const RoughDielectric<D>& b, D cosine, D 
   return c;
 }
 
-// One pair of directions, out.z > 0, joined by a facet of normal m.
+// It is one pair of directions, out.z > 0, joined by a facet of normal m.
 template <class D>
 struct Facet {
   D out_m;
@@ -78,12 +78,12 @@ VITRAIL_LANES Facet<D> facet_of(Vector<D> out, Vector<D> in, Vector<D> m, D eta)
   return facet;
 }
 
-// area = σ(out).
+// Returns the density of `in` through this facet; area = σ(out).
 template <class D>
 VITRAIL_LANES D facet_pdf(const Microfacets<D>& mf, D area, Vector<D> m, const Facet<D>& facet) {
   return facet.out_m * normal_density(mf, m) / area * facet.jacobian;
 }
-// G₂/G₁(out): what part of the light from a visible facet is seen by `in` too.
+// Returns G₂/G₁(out), the part of the light from a visible facet that `in` sees too.
 template <class D>
 VITRAIL_LANES D seen(const Microfacets<D>& mf, Vector<D> out, D area, Vector<D> in) {
   return shadowing_over_cosines(mf, out, area, in) * abs(in.z) * area;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// LambertBsdf of diffuse.h, for any number of lanes.
+// This file has LambertBsdf of diffuse.h, for any number of lanes.
 #pragma once
 
 #include "tracer/bsdf/bsdf_lanes.h"

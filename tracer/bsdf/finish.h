@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// POV-Ray's finish (scene/records/material.h has the equation): its highlights are not normalised and not
-// reciprocal. Directions are sampled by half from a hemisphere of even density, as highlights have no cosine.
+// A FinishBsdf is POV-Ray's finish (scene/records/material.h has the equation): its highlights are not
+// normalised and not reciprocal. Half of the directions are sampled from a hemisphere of even density, since
+// highlights have no cosine.
 #pragma once
 
 #include <optional>

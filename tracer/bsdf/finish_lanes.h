@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// FinishBsdf of finish.h, for any number of lanes.
+// This file has FinishBsdf of finish.h, for any number of lanes.
 #pragma once
 
 #include "tracer/bsdf/bsdf_lanes.h"
@@ -49,7 +49,7 @@ template <class D>
 VITRAIL_LANES BsdfSample<D> sample(const Finish<D>& b, Vector<D> out, FloatsLike<D> u_lobe, FloatsLike<D> u_x,
                                    FloatsLike<D> u_y) {
   const Vector<D> cosine = sample_cosine_hemisphere(u_x, u_y);
-  // z² of the one is even, z of the other.
+  // z² is uniform over cosine-weighted directions, and z over even ones.
   const D z = cosine.z * cosine.z, across = safe_sqrt(1.0 - z * z),
           before = safe_sqrt(1.0 - cosine.z * cosine.z);
   const D scale = across / before;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scattering by a table of Fourier coefficients (scene/records/scattering_table.h), asked from either side.
-// Directions are sampled by the luminance Y of f·|cos θ_in|: first the cosine, by the integrals of a₀ along
-// it, then the azimuth, by its integral; both inverted numerically. So the pdf is Y/∫Y d in, where Y > 0.
+// A FourierBsdf scatters by a table of Fourier coefficients (scene/records/scattering_table.h), seen from
+// either side. Directions are sampled by the luminance Y of f·|cos θ_in|. First comes the cosine, by the
+// integrals of a₀ along it, then the azimuth, by its integral. Both are inverted numerically, so the pdf is
+// Y/∫Y d in, where Y > 0.
 #pragma once
 
 #include <array>
@@ -13,8 +14,8 @@
 
 namespace vitrail {
 
-// Of a table, made when it is loaded. [μₒ][μᵢ]: ∫ a₀ dμᵢ from the first node to that one, for light towards
-// that μₒ.
+// These integrals belong to a table, and are made when it is loaded. [μₒ][μᵢ] is ∫ a₀ dμᵢ from the first node
+// to that one, for light towards that μₒ.
 struct FourierIntegrals {
   std::vector<double> up_to;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fresnel.h declares, for any number of lanes.
+// This file has what fresnel.h declares, for any number of lanes.
 #pragma once
 
 #include "tracer/simd/lanes.h"
@@ -7,7 +7,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// At one wavelength.
+// Returns the reflectance at one wavelength.
 template <class D>
 VITRAIL_LANES D fresnel_conductor(D cosine, D eta, D k) {
   const D cos2 = cosine * cosine, sin2 = 1.0 - cos2;
@@ -18,10 +18,10 @@ VITRAIL_LANES D fresnel_conductor(D cosine, D eta, D k) {
   const D s_sum = modulus + cos2, s_difference = 2.0 * a * cosine;
   const D p_sum = modulus * cos2 + sin2 * sin2, p_difference = s_difference * sin2;
   const D s = (s_sum - s_difference) / (s_sum + s_difference);
-  // At normal incidence both polarisations agree, and p_sum may vanish only with cosine.
+  // The two polarisations agree at normal incidence, and p_sum may vanish only with cosine.
   const D p_over_s =
       select<D>(p_sum + p_difference > 0, (p_sum - p_difference) / (p_sum + p_difference), fill<D>(1));
-  // Their sum is 0 where cosine is and the indices match.
+  // The sum is 0 where the cosine is 0 and the indices match.
   return select<D>(s_sum + s_difference > 0, lanes::clamp<D>(s * (1.0 + p_over_s) / 2.0, 0.0, 1.0),
                    fill<D>(1));
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// POV-Ray's finish of what also mirrors, or lets light through (scene/records/material.h has the equations).
-// The lit part is known to `eval`; the mirror and what is behind are deltas. Asked from either side, which
-// are alike but for the bending. Beyond the critical angle what lets light through mirrors all of it.
+// A GlazedBsdf is POV-Ray's finish of a material that also mirrors, or lets light through
+// (scene/records/material.h has the equations). `eval` knows the lit part; the mirror and the transmitted
+// light are deltas. It is seen from either side, and the sides are alike but for the bending. Beyond the
+// critical angle a material that lets light through mirrors all of it.
 #pragma once
 
 #include <optional>

@@ -5,8 +5,9 @@
 
 namespace vitrail {
 
-// Where an integral from `low` on reaches `target`: Newton's steps, halving where they leave the bracket.
-// There it is below the target at `low` and above it at `high`; value(x) gives {integral, density}.
+// Returns where an integral from `low` on reaches `target`, by Newton's steps, or by halving where they leave
+// the bracket. The integral is below the target at `low` and above it at `high`; value(x) gives {integral,
+// density}.
 template <class Value>
 double invert(const Value& value, double low, double high, double target) {
   double x = 0.5 * (low + high);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers, free flights and phase functions of walks within a layer, for any number of lanes.
+// This file has random numbers, free flights and phase functions of walks within a layer, for any number of
+// lanes.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,8 @@
 namespace vitrail::lanes {
 namespace {
 
-// SplitMix64 (Steele, Lea and Flood 2014), seeded by what a walk is about. Lanes that are not in `on` keep
-// their state.
+// It is SplitMix64 (Steele, Lea and Flood 2014), seeded by what a walk depends on. Lanes that are not in `on`
+// keep their state.
 template <class D>
 class WalkRandom {
  public:
@@ -49,21 +50,21 @@ class WalkRandom {
   LongsLike<D> state_;
 };
 
-// Transmittance of a slab of so many mean free paths along w.
+// Returns the transmittance along w of a slab of so many mean free paths.
 template <class D>
 VITRAIL_LANES D slab_transmittance(D depth, Vector<D> w) {
   const D through = select<D>(w.z != 0, portable_exp(-abs(depth / w.z)), fill<D>(0));
   return select<D>(depth == 0, fill<D>(1), through);
 }
 
-// Henyey and Greenstein's (1941) phase function, sr⁻¹; cosine 1 is straight on, |g| < 1.
+// Returns Henyey and Greenstein's (1941) phase function, sr⁻¹; cosine 1 is straight on, |g| < 1.
 template <class D>
 VITRAIL_LANES D henyey_greenstein(D g, D cosine) {
   const D d = 1.0 + g * g - 2.0 * g * cosine;  // ≥ (1 − |g|)²
   return (1.0 - g * g) / (4 * pi * d * lanes::sqrt(d));
 }
 
-// portable_math.h's, of 0 ≤ x < 4.
+// It is portable_math.h's sin_pi for 0 ≤ x < 4.
 template <class D>
 VITRAIL_LANES D sin_pi(D x) {
   constexpr double round = 0x1.8p52;  // adding it leaves no bits for a fraction
@@ -74,7 +75,7 @@ VITRAIL_LANES D sin_pi(D x) {
   return select<D>(turn >= 2, -value, value);
 }
 
-// Direction in which light that travels along w goes on; its pdf is the phase function.
+// Returns a direction in which light that travels along w goes on; its pdf is the phase function.
 template <class D>
 VITRAIL_LANES Vector<D> sample_henyey_greenstein(D g, Vector<D> w, FloatsLike<D> u_x, FloatsLike<D> u_y) {
   const D x = to_doubles(u_x);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A base under a dielectric coating, as pbrt-v4 has it (after Guo, Hašan and Zhao 2018): light refracts into
-// a slab of `thickness` mean free paths, walks at random between its interface and the base, and leaves.
-// Values are estimates of the mean over such walks, whose random numbers are a hash of `event` and of both
-// directions: they are functions of these, bit for bit. What is sampled is of one walk, too: its weight
-// agrees with eval and pdf in the mean only. pdf is near that of sample, not exactly it: it serves to weigh
-// strategies against each other. Both models only reflect. Reciprocal and conserving energy in the mean.
+// This file has a base under a dielectric coating, as in pbrt-v4 (after Guo, Hašan and Zhao 2018). Light
+// refracts into a slab of `thickness` mean free paths, walks at random between its interface and the base,
+// and leaves. Values are estimates of the mean over such walks. The walks' random numbers are a hash of
+// `event` and of both directions: values are functions of these, bit for bit. A sample is of one walk, too:
+// its weight agrees with eval and pdf in the mean only. pdf is near the density of sample, not exactly it: it
+// serves to weigh strategies against each other. Both models only reflect. In the mean they are reciprocal
+// and conserve energy.
 //
 // As in pbrt, eval does not find paths that collide in the layer and then meet a smooth metal under a smooth
 // interface; sample does. pbrt weighs the ways out through a rough interface by densities of different
@@ -20,7 +21,7 @@
 
 namespace vitrail {
 
-// Between interface and base, of extinction 1: it absorbs where the albedo is 0.
+// It is the layer between interface and base, of extinction 1: it only absorbs where the albedo is 0.
 struct LayerVolume {
   double thickness = 0.01;
   double g = 0;  // of Henyey and Greenstein, in (−1, 1)
@@ -29,7 +30,7 @@ struct LayerVolume {
   int samples = 1;       // walks an eval
   bool balanced = true;  // false: ways out are weighed as pbrt-v4 weighs them
 };
-// The same with numbers that a walk can use: thickness > 0, |g| < 1, samples ≥ 1.
+// Returns the same with numbers that a walk can use: thickness > 0, |g| < 1, samples ≥ 1.
 LayerVolume bounded(LayerVolume volume);
 
 struct CoatedDiffuseBsdf {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may lie under a coating, for any number of lanes. Directions are above it: z > 0.
+// This file has the bases that may lie under a coating, for any number of lanes. Directions are above it:
+// z > 0.
 #pragma once
 
 #include "tracer/bsdf/fresnel_lanes.h"
@@ -9,8 +10,8 @@
 namespace vitrail::lanes {
 namespace {
 
-// A direction, where one is `found`; its weight f·|cos θ_in| / pdf, and its pdf in solid angle, 1 where the
-// base is smooth.
+// It is a direction, where one is `found`, with the weight f·|cos θ_in| / pdf. The pdf is in solid angle, and
+// 1 where the base is smooth.
 template <class D>
 struct BaseSample {
   Mask<D> found;
@@ -70,7 +71,7 @@ VITRAIL_LANES D shadowing(const ConductorBase<D>& b, Vector<D> out, Vector<D> in
 
 }  // namespace detail
 
-// f without the cosine; 0 where smooth.
+// It returns f without the cosine, 0 where the base is smooth.
 template <class D>
 VITRAIL_LANES Four<FloatsLike<D>> base_value(const LambertBase<D>& b, Vector<D> out, Vector<D> in) {
   return detail::black_unless<D>(detail::are_above(out, in),

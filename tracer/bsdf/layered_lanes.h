@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What layered.h declares, for any number of lanes: walks of light within a coated layer. z runs from 0, the
-// base, to the thickness, the interface; w is the direction of travel as seen from `out`. Lanes walk in step,
-// until the last of them is done.
+// This file has what layered.h declares, for any number of lanes: walks of light within a coated layer. z
+// runs from 0, the base, to the thickness, the interface; w is the direction of travel as seen from `out`.
+// Lanes walk in step, until the last of them is done.
 #pragma once
 
 #include "tracer/bsdf/bsdf_lanes.h"
@@ -13,7 +13,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// vitrail::LayerVolume; thickness > 0, |g| < 1, samples ≥ 1.
+// It is vitrail::LayerVolume; thickness > 0, |g| < 1, samples ≥ 1.
 template <class D>
 struct LayerVolume {
   D thickness, g;
@@ -50,7 +50,7 @@ VITRAIL_LANES Four<FloatsLike<D>> either(Mask<D> mask, Four<FloatsLike<D>> a, co
   return a;
 }
 
-// Walks that are neither at an interface nor done, where `on`.
+// It holds walks that are neither at an interface nor done, where `on`.
 template <class D>
 struct WalkState {
   D z;
@@ -66,8 +66,8 @@ struct WalkState {
   }
 };
 
-// Flies to the next collision, whose weight is still without the albedo, or to the interface or the base, and
-// returns the lanes that collide. Those that go along the layer are stuck, and done.
+// Flies to the next collision, or to the interface or the base, and returns the lanes that collide. The
+// weight of a collision is still without the albedo. Walks along the layer are stuck, and end.
 template <class D, class Base>
 VITRAIL_LANES Mask<D> fly(const Layer<D, Base>& layer, WalkState<D>& s, WalkRandom<D>& random) {
   const D thickness = layer.volume.thickness;
@@ -87,7 +87,7 @@ VITRAIL_LANES Mask<D> fly(const Layer<D, Base>& layer, WalkState<D>& s, WalkRand
   return collides;
 }
 
-// Russian roulette from the fourth step on.
+// Plays Russian roulette from the fourth step on.
 template <class D>
 VITRAIL_LANES void play_roulette(int depth, WalkState<D>& s, WalkRandom<D>& random) {
   if (depth <= 3) return;
@@ -99,9 +99,9 @@ VITRAIL_LANES void play_roulette(int depth, WalkState<D>& s, WalkRandom<D>& rand
   s.on = s.on & (no(played) | lives);
 }
 
-// Adds to `sum` what a walk gathers of light from `in`, f·cosθ: at each step the way out is linked to,
-// through a direction `wis` that refracts to `in`, and, where interfaces are rough, by the directions that
-// the walk takes.
+// Adds to `sum` what a walk gathers of light from `in`, f·cosθ. Each step links to the way out through a
+// direction `wis` that refracts to `in`. Where interfaces are rough, it also links by the directions that the
+// walk takes.
 template <class D, class Base>
 VITRAIL_LANES void add_walk(const Layer<D, Base>& layer, Vector<D> out, Vector<D> in, Mask<D> on,
                             WalkRandom<D>& random, Four<FloatsLike<D>>& sum) {
@@ -175,7 +175,7 @@ VITRAIL_LANES void add_walk(const Layer<D, Base>& layer, Vector<D> out, Vector<D
   }
 }
 
-// A walk from `out` to where it leaves through the interface.
+// Samples a walk from `out` to where it leaves through the interface.
 template <class D, class Base>
 VITRAIL_LANES BsdfSample<D> sample_walk(const Layer<D, Base>& layer, Vector<D> out, FloatsLike<D> u_lobe,
                                         FloatsLike<D> u_x, FloatsLike<D> u_y) {
@@ -222,15 +222,15 @@ VITRAIL_LANES BsdfSample<D> sample_walk(const Layer<D, Base>& layer, Vector<D> o
   return {leaves, s.w, s.weight, fill<D>(0), specular};
 }
 
-// Density, about, of what leaves after it was reflected by the base, of that which does.
+// Returns about the density of light that leaves after the base reflected it, among all such light.
 template <class D>
 VITRAIL_LANES D base_lobe(const CoatedDiffuse<D>&, Vector<D>, Vector<D> in, WalkRandom<D>&) {
   return in.z / pi;
 }
 
-// A rough metal seen through the interface: one estimate of the density over the directions that rough
-// interfaces refract to, by either side of the base's reflection; and whether what the base reflects gets
-// out.
+// It describes a rough metal seen through the interface. `density` is one estimate of the density over the
+// directions that rough interfaces refract to, by either side of the base's reflection. `leaves` says whether
+// light that the base reflects gets out.
 template <class D>
 struct MetalLobe {
   D density;

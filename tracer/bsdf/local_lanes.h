@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What local.h declares, for any number of lanes.
+// This file has what local.h declares, for any number of lanes.
 #pragma once
 
 #include "scene/geometry/portable_math.h"
@@ -10,7 +10,7 @@ namespace {
 
 namespace detail {
 
-// portable_math.h's.
+// They are portable_math.h's sin_small and cos_small.
 template <class D>
 VITRAIL_LANES D sin_small(D x) {
   const D x2 = x * x;
@@ -50,24 +50,25 @@ VITRAIL_LANES D attainable(D p) {
   return select<D>(p > 0, select<D>(p < 1, inside, fill<D>(1)), fill<D>(0));
 }
 
-// It holds a value of light whose field is across the plane of incidence, and one of light whose field is in
+// It holds two values: s of light whose field is across the plane of incidence, p of light whose field is in
 // it.
 template <class D>
 struct Polarized {
   D s, p;
 };
-// Returns what light of that Q/I = (s − p)/(s + p), in [−1,1], keeps where s and p keep these parts.
+// Returns the share that light of that Q/I = (s − p)/(s + p), in [−1,1], keeps where its components keep
+// `parts`.
 template <class D>
 VITRAIL_LANES D part_of(D q, Polarized<D> parts) {
   return ((1.0 + q) * parts.s + (1.0 - q) * parts.p) / 2.0;
 }
-// Returns the Q of that, for an I of 1 before.
+// Returns the Q that remains then, for an I of 1 before.
 template <class D>
 VITRAIL_LANES D polarized_part_of(D q, Polarized<D> parts) {
   return ((1.0 + q) * parts.s - (1.0 - q) * parts.p) / 2.0;
 }
 
-// Returns Q/I of light of these, each rounded by itself.
+// Returns Q/I of light with this Q and I, each rounded by itself.
 template <class D>
 VITRAIL_LANES D q_of(D polarized, D all) {
   return select<D>(all > 0, lanes::clamp<D>(polarized / all, -1.0, 1.0), fill<D>(0));
@@ -80,7 +81,7 @@ VITRAIL_LANES Polarized<D> fresnel_polarized(D cosine, D eta) {
   const D s = (cosine - eta * transmitted) / (cosine + eta * transmitted);
   const D p = (eta * cosine - transmitted) / (eta * cosine + transmitted);
   const Mask<D> total = sin2_transmitted >= 1;
-  // Nothing also at grazing incidence, where both cosines vanish.
+  // An index of 1 reflects nothing, also at grazing incidence, where both cosines vanish.
   const auto reflected = [&](D amplitude) {
     return select<D>(eta == 1, fill<D>(0), select<D>(total, fill<D>(1), amplitude * amplitude));
   };
@@ -93,7 +94,8 @@ VITRAIL_LANES D fresnel_dielectric(D cosine, D eta) {
   return (r.s + r.p) / 2.0;
 }
 
-// Where false, under total internal reflection, `refracted` means nothing.
+// Returns where light is refracted. Under total internal reflection it is false, and `refracted` is
+// meaningless.
 template <class D>
 VITRAIL_LANES Mask<D> refract(Vector<D> out, Vector<D> normal, D eta, Vector<D>& refracted) {
   const D cosine = dot(out, normal);

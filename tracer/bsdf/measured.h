@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sheet of glass by its measured reflectance and transmittance (docs/why/measured-glass.md): deltas only.
+// A MeasuredSheetBsdf is a sheet of glass by its measured reflectance and transmittance
+// (docs/why/measured-glass.md): it has deltas only.
 #pragma once
 
 #include <optional>
@@ -9,7 +10,7 @@
 
 namespace vitrail {
 
-// Both from either side.
+// Light from either side meets the same reflectance and transmittance.
 struct MeasuredSheetBsdf {
   const MeasuredSheet* table = nullptr;  // outlives it
   SampledWavelengths wavelengths;
@@ -20,7 +21,7 @@ struct SheetFractions {
   SampledSpectrum reflected, transmitted;
 };
 
-// Bilinear in the wavelength and in the cosine of the angle of incidence, in [0, 1].
+// Interpolates bilinearly in the wavelength and in the cosine of the angle of incidence, in [0, 1].
 SheetFractions sheet_fractions(const MeasuredSheet& table, const SampledWavelengths& wavelengths,
                                double cosine);
 

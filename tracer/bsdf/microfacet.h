@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distributions of microfacet normals over a height field without correlation of heights and slopes (Smith
-// 1967): GGX (Trowbridge & Reitz 1975; Walter et al. 2007) and Beckmann (1963), of width α_u along +x, α_v
-// along +y. A normal m has m.z > 0. Directions v are unit; those of the masking functions may lie on either
-// side of the surface, those that are sampled from have v.z > 0.
+// This file has distributions of microfacet normals over a height field without correlation of heights and
+// slopes (Smith 1967). They are GGX (Trowbridge & Reitz 1975; Walter et al. 2007) and Beckmann (1963), of
+// width α_u along +x, α_v along +y. A normal m has m.z > 0. Directions v are unit. Those of the masking
+// functions may lie on either side of the surface; those that normals are sampled for have v.z > 0.
 #pragma once
 
 #include "scene/geometry/vec.h"
@@ -19,36 +19,37 @@ struct Microfacets {
 
 inline constexpr double least_alpha = 1e-4;  // of what is not smooth along both tangents
 
-// Widths as a file or a texture gives them, brought into the range that Microfacets allows.
+// Brings widths that a file or a texture gives into the range that Microfacets allows.
 Microfacets make_microfacets(double alpha_u, double alpha_v,
                              Roughness::Distribution distribution = Roughness::Distribution::ggx,
                              Masking masking = Masking::correlated);
 
-// D(m), in sr⁻¹: ∫ D(m) m.z dm = 1 (Walter et al. 2007, Eqs. 25 and 33, anisotropic as in Heitz 2014,
+// Returns D(m), in sr⁻¹: ∫ D(m) m.z dm = 1 (Walter et al. 2007, Eqs. 25 and 33, anisotropic as in Heitz 2014,
 // Eqs. 82 and 85).
 double normal_density(const Microfacets& microfacets, Vector3d m);
 
-// Area of microfacets seen from v a unit of surface: σ(v) = ∫ D(m) max(0, v·m) dm = v.z·(1 + Λ(v)) for
-// v.z ≥ 0 (Heitz 2014, Eqs. 54, 68 and 72). Positive wherever v.z ≥ 0.
+// Returns the area of microfacets seen from v a unit of surface: σ(v) = ∫ D(m) max(0, v·m)
+// dm = v.z·(1 + Λ(v)) for v.z ≥ 0 (Heitz 2014, Eqs. 54, 68 and 72). It is positive wherever v.z ≥ 0.
 double visible_area(const Microfacets& microfacets, Vector3d v);
 
-// G₁ = v.z/σ(v) where v and m see each other's front, else 0 (Heitz 2014, Eq. 43).
+// Returns G₁ = v.z/σ(v) where v and m see each other's front, else 0 (Heitz 2014, Eq. 43).
 double masking(const Microfacets& microfacets, Vector3d v, Vector3d m);
 
-// G₂(a, b)/(|a.z|·|b.z|): finite at grazing directions. That a and b see the sides of m that they should is
-// for the caller to know. area_a = σ(a), a.z ≥ 0.
+// Returns G₂(a, b)/(|a.z|·|b.z|), which is finite at grazing directions. The caller has to know that a and b
+// see the sides of m that they should. area_a = σ(a), a.z ≥ 0.
 double shadowing_over_cosines(const Microfacets& microfacets, Vector3d a, double area_a, Vector3d b);
 inline double shadowing_over_cosines(const Microfacets& microfacets, Vector3d a, Vector3d b) {
   if (a.z < 0) a = -a;
   return shadowing_over_cosines(microfacets, a, visible_area(microfacets, a), b);
 }
 
-// Normals as seen from v, v.z > 0: pdf D(m)·max(0, v·m)/σ(v), in solid angle of m (Heitz & d'Eon 2014). The
-// GGX ones by caps of spheres (Dupuy & Benyoub 2023), Beckmann's by inverting the distribution of slopes.
+// Samples a normal as seen from v, v.z > 0, with the pdf D(m)·max(0, v·m)/σ(v) in solid angle of m (Heitz &
+// d'Eon 2014). GGX is sampled by caps of spheres (Dupuy & Benyoub 2023), Beckmann by inverting the
+// distribution of slopes.
 Vector3d sample_visible_normal(const Microfacets& microfacets, Vector3d v, Point2f u);
 double visible_normal_pdf(const Microfacets& microfacets, Vector3d v, Vector3d m);
 
-// `out` mirrored by a facet of normal m.
+// Returns `out` mirrored by a facet of normal m.
 inline Vector3d mirror(Vector3d out, Vector3d m) { return m * (2 * dot(out, m)) - out; }
 
 }  // namespace vitrail

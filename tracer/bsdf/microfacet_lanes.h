@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What microfacet.h declares, for any number of lanes. Distributions and maskings may differ from lane to
-// lane.
+// This file has what microfacet.h declares, for any number of lanes. Distributions and maskings may differ
+// from lane to lane.
 #pragma once
 
 #include "scene/geometry/portable_math.h"
@@ -11,14 +11,14 @@
 namespace vitrail::lanes {
 namespace {
 
-// Not smooth: alpha_u, alpha_v ≥ least_alpha.
+// The facets are not smooth: alpha_u, alpha_v ≥ least_alpha.
 template <class D>
 struct Microfacets {
   D alpha_u, alpha_v;
   Mask<D> beckmann;   // else GGX
   Mask<D> separable;  // else correlated
 };
-// get(j): the vitrail::Microfacets of lane j.
+// get(j) gives the vitrail::Microfacets of lane j.
 template <class D, class Get>
 VITRAIL_LANES Microfacets<D> gather_microfacets(const Get& get) {
   return {gather<D>([&](int j) __attribute__((always_inline)) { return get(j).alpha_u; }),
@@ -31,7 +31,7 @@ VITRAIL_LANES Microfacets<D> gather_microfacets(const Get& get) {
           })};
 }
 
-// In one lane.
+// Returns them in one lane.
 VITRAIL_LANES Microfacets<double> fill(const vitrail::Microfacets& mf) {
   return gather_microfacets<double>([&](int) -> const vitrail::Microfacets& { return mf; });
 }
@@ -40,8 +40,8 @@ namespace detail {
 
 inline constexpr double sqrt_pi = 1.77245385090551602730;
 
-// Beckmann's σ from v.z = z and the length s of v's horizontal part stretched by α (Walter et al. 2007,
-// Eq. 26's exact form; Heitz 2014, Eq. 66).
+// Returns Beckmann's σ from v.z = z and the length s of v's horizontal part stretched by α (Walter et al.
+// 2007, Eq. 26's exact form; Heitz 2014, Eq. 66).
 template <class D>
 VITRAIL_LANES D beckmann_area(D z, D s) {
   const D a = abs(z) / s, gauss = quick_exp<D>(-a * a), erf = quick_erf(a, gauss);
@@ -61,14 +61,14 @@ VITRAIL_LANES Vector<D> sample_ggx(const Microfacets<D>& mf, Vector<D> v, D u_x,
   const Circle<D> circle = quick_circle(u_x);
   const D z = (1.0 - u_y) * (1.0 + w.z) - w.z;
   const D s = safe_sqrt(1.0 - z * z);
-  // Its z is (1 − u_y)·(1 + w.z) > 0.
+  // The z of h is (1 − u_y)·(1 + w.z) > 0.
   const Vector<D> h = w + Vector<D>{s * circle.cosine, s * circle.sine, z};
   return normalize(Vector<D>{mf.alpha_u * h.x, mf.alpha_v * h.y, h.z});
 }
 
-// Slope towards the viewer at polar angle θ on a surface of unit width: its density is in proportion to
-// max(0, cosθ + x·sinθ)·exp(−x²). Solved for t = erf(−x), in which the cumulative distribution
-// cosθ·(1 + t)/2 + sinθ·exp(−x²)/(2√π) is concave, by Halley's method kept within a bracket.
+// Samples the slope towards the viewer at polar angle θ on a surface of unit width. Its density is in
+// proportion to max(0, cosθ + x·sinθ)·exp(−x²). The function solves for t = erf(−x), in which the cumulative
+// distribution cosθ·(1 + t)/2 + sinθ·exp(−x²)/(2√π) is concave, by Halley's method kept within a bracket.
 template <class D>
 VITRAIL_LANES D sample_beckmann_slope(D cosine, D sine, D u) {
   const D cotangent = select<D>(cosine < 6.0 * sine, cosine / sine, fill<D>(6));
@@ -109,7 +109,7 @@ VITRAIL_LANES Vector<D> sample_beckmann(const Microfacets<D>& mf, Vector<D> v, D
       Vector<D>{mf.alpha_u * (c * along - s * across), mf.alpha_v * (s * along + c * across), fill<D>(1)});
 }
 
-// What of_ggx() and of_beckmann() give, for the lanes that are of either.
+// Returns of_ggx() or of_beckmann(), each for the lanes that have that distribution.
 template <class D, class OfGgx, class OfBeckmann>
 VITRAIL_LANES auto by_distribution(Mask<D> beckmann, const OfGgx& of_ggx, const OfBeckmann& of_beckmann) {
   if (!any(beckmann)) return of_ggx();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What plastic.h declares, for any number of lanes.
+// This file has what plastic.h declares, for any number of lanes.
 #pragma once
 
 #include "tracer/bsdf/bsdf_lanes.h"
@@ -10,7 +10,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// What vitrail::PlasticBsdf and RoughPlasticBsdf share.
+// It has what vitrail::PlasticBsdf and RoughPlasticBsdf share.
 template <class D>
 struct Plastic {
   Four<FloatsLike<D>> diffuse, specular;  // reflectances
@@ -18,7 +18,7 @@ struct Plastic {
   D internal_reflectance;
   Mask<D> nonlinear;
 };
-// table(j): RoughPlasticTables::external_transmittance of lane j.
+// table(j) is the RoughPlasticTables::external_transmittance of lane j.
 template <class D, class TableOf>
 struct RoughPlastic {
   Plastic<D> plastic;
@@ -40,7 +40,7 @@ VITRAIL_LANES D transmittance(const Plastic<D>& bsdf, D cosine) {
 template <class D, class TableOf>
 VITRAIL_LANES D transmittance(const RoughPlastic<D, TableOf>& bsdf, D cosine) {
   constexpr int last = RoughPlasticTables::count - 1;
-  // In this order NaN, of an idle lane, is 0.
+  // This order makes the NaN of an idle lane 0.
   const D x = lanes::min(fill<D>(1), lanes::max(fill<D>(0), cosine)) * static_cast<double>(last);
   const auto i = lanes::min(convert<std::int32_t>(x), fill<IntsLike<D>>(last - 1));
   const auto value = [&](int more) __attribute__((always_inline)) {
@@ -52,14 +52,15 @@ VITRAIL_LANES D transmittance(const RoughPlastic<D, TableOf>& bsdf, D cosine) {
   return here + (x - to_doubles(i)) * (value(1) - here);
 }
 
-// Of sampling the coat's reflection rather than the base, where it reflects `reflectance` (Mitsuba's choice).
+// Returns the probability of sampling the coat's reflection rather than the base, where the coat reflects
+// `reflectance` (Mitsuba's choice).
 template <class D>
 VITRAIL_LANES D specular_probability(const Plastic<D>& bsdf, D reflectance) {
   const D s = reflectance * mean<D>(bsdf.specular), d = (1.0 - reflectance) * mean<D>(bsdf.diffuse);
   return select<D>(s + d > 0, attainable(s / (s + d)), fill<D>(1));
 }
 
-// f/(T(out)·T(in)) of the base, times π.
+// Returns f/(T(out)·T(in)) of the base, times π.
 template <class D>
 VITRAIL_LANES Four<FloatsLike<D>> base(const Plastic<D>& bsdf) {
   using F = FloatsLike<D>;
@@ -73,7 +74,7 @@ VITRAIL_LANES Four<FloatsLike<D>> base(const Plastic<D>& bsdf) {
 
 }  // namespace detail
 
-// With a smooth coat; the coat's reflection is not in it.
+// They are for a smooth coat; `eval` leaves out the coat's reflection.
 template <class D>
 VITRAIL_LANES BsdfValue<D> eval(const Plastic<D>& bsdf, Vector<D> out, Vector<D> in) {
   const D t_out = detail::transmittance(bsdf, out.z), t_in = detail::transmittance(bsdf, in.z);

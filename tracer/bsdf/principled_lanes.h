@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// vitrail::PrincipledBsdf of principled.h, for any number of lanes.
+// This file has vitrail::PrincipledBsdf of principled.h, for any number of lanes.
 #pragma once
 
 #include "tracer/bsdf/bsdf_lanes.h"
@@ -8,7 +8,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// Of lanes without a lobe its amount is 0.
+// A lane without a lobe has 0 for the lobe's amount.
 template <class D>
 struct Principled {
   Four<FloatsLike<D>> base_color;
@@ -20,7 +20,7 @@ struct Principled {
 
 namespace principled {
 
-// The models that metallic leaves.
+// They return the parts that metallic leaves to the diffuse and the refracting model.
 template <class D>
 VITRAIL_LANES D diffuse_part(const Principled<D>& b) {
   return (1.0 - b.metallic) * (1.0 - b.spec_trans);
@@ -40,7 +40,7 @@ VITRAIL_LANES D clearcoat_alpha(const Principled<D>& b) {
   return 0.1 + (0.001 - 0.1) * b.clearcoat_gloss;
 }
 
-// Of sampling each lobe; their sum is 1.
+// They are the probabilities of sampling each lobe; their sum is 1.
 template <class D>
 struct LobeWeights {
   D diffuse, clearcoat, specular;
@@ -62,7 +62,7 @@ VITRAIL_LANES LobeWeights<D> lobe_weights(const Principled<D>& b, D cosine) {
           select<D>(front, by_specular * scale, fill<D>(1))};
 }
 
-// What of a pair of directions is needed more than once.
+// It holds what is needed of a pair of directions more than once.
 template <class D>
 struct Pair {
   D eta;  // index across / index on the side of `out`
@@ -74,7 +74,7 @@ struct Pair {
   D density, area;  // of normals h; of facets that `out` sees
 };
 
-// By the side of `out`; not the half vector and what belongs to it.
+// Returns what depends on the side of `out` alone, without the half vector and the members that depend on it.
 template <class D>
 VITRAIL_LANES Pair<D> pair_at(const Principled<D>& b, Vector<D> out) {
   Pair<D> p;
@@ -99,7 +99,7 @@ VITRAIL_LANES Pair<D> pair_of(const Principled<D>& b, Vector<D> out, Vector<D> i
   return p;
 }
 
-// Of the specular lobe's samples, the part that reflects.
+// Returns the part of the specular lobe's samples that reflects.
 template <class D>
 VITRAIL_LANES D reflected_part(const Principled<D>& b, const Pair<D>& p) {
   return select<D>(p.front, 1.0 - refracted_part(b) * (1.0 - p.fresnel), p.fresnel);
@@ -130,7 +130,7 @@ VITRAIL_LANES Four<FloatsLike<D>> specular_factor(const Principled<D>& b, const 
   return f;
 }
 
-// GGX's G₁ of width 1/4 times 1/cosθ, as 2/(c + √(c² + α²(1 − c²))).
+// Returns GGX's G₁ of width 1/4 times 1/cosθ, as 2/(c + √(c² + α²(1 − c²))).
 template <class D>
 VITRAIL_LANES D clearcoat_masking_over_cosine(D c) {
   return 2.0 / (c + lanes::sqrt(c * c + (1.0 - c * c) / 16.0));
@@ -144,7 +144,7 @@ VITRAIL_LANES D clearcoat(const Principled<D>& b, const Pair<D>& p, D out_z, D i
          in_z;
 }
 
-// facets = D·G₂/(|out.z|·|in.z|)·|in.z|.
+// `facets` is D·G₂/(|out.z|·|in.z|)·|in.z|.
 template <class D>
 VITRAIL_LANES Four<FloatsLike<D>> reflected(const Principled<D>& b, const Pair<D>& p, D facets, D out_z,
                                             D in_z) {

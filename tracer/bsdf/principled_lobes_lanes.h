@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What principled_lobes.h declares, for any number of lanes.
+// This file has what principled_lobes.h declares, for any number of lanes.
 #pragma once
 
 #include "tracer/bsdf/local_lanes.h"
@@ -61,10 +61,10 @@ VITRAIL_LANES D diffuse(D roughness, D flatness, D out, D in, D half) {
   return select<D>(flattened, round * (1.0 - flatness) + flat * flatness, round);
 }
 
-// Returns π·f/base of a base below microfacets of that roughness, behind which the index is eta ≥ 1: of all
-// light from a direction it gets what the facets do not reflect, 1 − E (Kulla and Conty 2017).
+// Returns π·f/base of a base below microfacets of that roughness, behind which the index is eta ≥ 1. It gets
+// the share of all light from a direction that the facets do not reflect, 1 − E (Kulla and Conty 2017).
 // E = f₀·a + (1 − f₀)·b·y·(m + (1 − m)·y), y = (1 − cosine)^p, is a fit to GGX with separable masking: up to
-// 75° within .009 for indices of 1.5 to 1.8. Of an index of 1 it is 0.
+// 75° within .009 for indices of 1.5 to 1.8. For an index of 1 it is 0.
 template <class D>
 VITRAIL_LANES D below(D roughness, D eta, D out, D in) {
   const D r2 = roughness * roughness, r3 = r2 * roughness, f0 = normal_reflectance<D>(eta);
@@ -75,12 +75,12 @@ VITRAIL_LANES D below(D roughness, D eta, D out, D in) {
     const D y = quick_exp<D>(p * quick_log(lanes::max(1.0 - cosine, fill<D>(1e-9))));
     return 1.0 - facing - grazing * y * (m + (1.0 - m) * y);
   };
-  // Means over the cosines of y and of y².
+  // They are the means over the cosines of y and of y².
   const D one = 2.0 / ((p + 1.0) * (p + 2.0)), two = 1.0 / ((2.0 * p + 1.0) * (p + 1.0));
   return kept(out) * kept(in) / (1.0 - facing - grazing * (m * one + (1.0 - m) * two));
 }
 
-// GTR₁ (Burley 2012, Eq. 4): D(m) in sr⁻¹, and its sampling with pdf D(m)·m.z. 0 < alpha < 1.
+// They return GTR₁ (Burley 2012, Eq. 4), D(m) in sr⁻¹, and a sample of it with pdf D(m)·m.z. 0 < alpha < 1.
 template <class D>
 VITRAIL_LANES D gtr1(D alpha, Vector<D> m) {
   const D a2 = alpha * alpha;  // log α² < 0, the rest ≥ α²

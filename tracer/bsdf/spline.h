@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Splines through values at nodes that need not be evenly spaced: cubic Hermite, the slope at a node being
-// that of the chord between its neighbours (Catmull and Rom 1974), at either end that of the last interval.
-// Two nodes at one place are a step: an end for either side. (pbrt takes the slope across it, and so
-// overshoots beside it.)
+// These are splines through values at nodes that need not be evenly spaced. They are cubic Hermite. The slope
+// at a node is that of the chord between its neighbours (Catmull and Rom 1974). At either end it is that of
+// the last interval. Two nodes at one place are a step: an end for either side. (pbrt takes the slope across
+// it, and so overshoots beside it.)
 #pragma once
 
 #include <array>
@@ -12,13 +12,14 @@
 
 namespace vitrail {
 
-// Of values at the nodes first … first + 3: those beyond the ends have the weight 0.
+// They are the weights of values at the nodes first … first + 3: those beyond the ends have the weight 0.
 struct SplineWeights {
   std::ptrdiff_t first = 0;
   std::array<double, 4> weight{};
 };
 
-// The cubic between nodes i and i + 1, in t ∈ [0, 1]: what it is there, and its slopes by t.
+// It is the cubic between nodes i and i + 1, t ∈ [0, 1]. It has the values and the slopes by t at the two
+// ends.
 struct SplineSegment {
   double value0 = 0, value1 = 0, slope0 = 0, slope1 = 0, width = 0;
 
@@ -26,17 +27,18 @@ struct SplineSegment {
     const double rise = value1 - value0, curve = slope0 + slope1 - 2 * rise;
     return value0 + t * (slope0 + t * (rise - slope0 - curve + t * curve));
   }
-  // ∫ from the node to t, by the nodes' own unit.
+  // Returns ∫ from the node to t, by the nodes' own unit.
   double integral(double t) const {
     const double rise = value1 - value0, curve = slope0 + slope1 - 2 * rise;
     return width * t * (value0 + t * (slope0 / 2 + t * ((rise - slope0 - curve) / 3 + t * curve / 4)));
   }
 };
 
-// The interval i with nodes[i] ≤ x < nodes[i + 1]; the last holds its end. Nothing outside of the nodes.
+// Returns the interval i with nodes[i] ≤ x < nodes[i + 1]; the last interval holds its end. It returns
+// nothing outside of the nodes.
 std::optional<std::size_t> interval_of(std::span<const float> nodes, double x);
 
-// How the slopes of the interval's ends, by t, follow from four values.
+// They weigh four values to give the slopes, by t, at the interval's two ends.
 struct SlopeWeights {
   std::array<double, 4> at0{}, at1{};
 };
@@ -44,7 +46,7 @@ SlopeWeights slope_weights(std::span<const float> nodes, std::size_t interval);
 
 std::optional<SplineWeights> spline_weights(std::span<const float> nodes, double x);
 
-// value(i) is that of node i.
+// value(i) is the value of node i.
 template <class Value>
 SplineSegment spline_segment(std::span<const float> nodes, std::size_t interval, const Value& value) {
   const SlopeWeights slopes = slope_weights(nodes, interval);

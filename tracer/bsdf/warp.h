@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Densities over the unit square that a table holds for each incidence, bilinear between its nodes and
-// between incidences: sampled exactly, by the row first, and back.
+// A Warp has densities over the unit square that a table holds for each incidence, bilinear between its nodes
+// and between incidences. It samples them exactly, by the row first, and inverts the sampling.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 
 namespace vitrail {
 
-// Between which squares of a table a place lies, and how much of each: linear in each of the coordinates.
+// It says between which squares of a table a place lies, and how much of each counts: linear in each of the
+// coordinates.
 struct Slices {
   std::array<std::size_t, 4> index{};
   std::array<double, 4> weight{};
@@ -21,7 +22,7 @@ struct Slices {
   }
 };
 
-// Of a table, made when it is loaded: every square a density of integral 1, and its integrals.
+// A Warp is made when its table is loaded: every square is a density of integral 1, with its integrals.
 struct Warp {
   std::size_t rows = 0, columns = 0;
   std::vector<float> density;  // [slice][row][column], by the unit of one cell
@@ -36,11 +37,11 @@ struct WarpPoint {
 };
 
 WarpPoint sample(const Warp& warp, const Slices& slices, Point2d u);
-// The u that `sample` takes to p.
+// Returns the u that `sample` takes to p.
 WarpPoint inverse(const Warp& warp, const Slices& slices, Point2d p);
 double density(const Warp& warp, const Slices& slices, Point2d p);
 
-// Of a square of values that is no density.
+// Returns the value at p of a square that is no density.
 double bilinear(const SquareTable& table, std::size_t slice, Point2d p);
 
 }  // namespace vitrail

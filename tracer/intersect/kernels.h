@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernels' files define. Each is kernel.inl compiled over eight lanes of another instruction set.
+// The kernels' files define these. Each is kernel.inl compiled over eight lanes of another instruction set.
 #pragma once
 
 #include "tracer/intersect/intersector.h"

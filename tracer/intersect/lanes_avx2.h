@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Eight floats in one AVX register. For kernel.inl; the including file puts it into a namespace of its own.
+// These lanes are eight floats in one AVX register, for kernel.inl. The including file puts them into a
+// namespace of its own.
 
 using Floats = __m256;
 using Lanes = __m256;  // all bits of a lane set or none
@@ -22,9 +23,9 @@ inline Lanes less_equal(Floats a, Floats b) { return _mm256_cmp_ps(a, b, _CMP_LE
 inline Lanes both(Lanes a, Lanes b) { return _mm256_and_ps(a, b); }
 inline Lanes either(Lanes a, Lanes b) { return _mm256_or_ps(a, b); }
 inline unsigned bits(Lanes a) { return static_cast<unsigned>(_mm256_movemask_ps(a)); }
-// row[i] of the lowest set bit i.
+// Returns row[i] of the lowest set bit i.
 inline std::uint32_t first_of(const std::uint32_t* row, unsigned bits) { return row[__builtin_ctz(bits)]; }
-// Not below 1/a, and hardly above it. a in [1e-30, 1e30].
+// Returns at least 1/a, and hardly more, for a in [1e-30, 1e30].
 inline Floats reciprocal_above(Floats a) { return mul(_mm256_rcp_ps(a), fill(1.0005f)); }
 inline Floats choose(Lanes lanes, Floats a, Floats b) {
   return _mm256_blendv_ps(b, a, lanes);
@@ -34,7 +35,7 @@ inline float least(Floats a) {
   const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
   return _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)));
 }
-// Lanes whose number in the row is another.
+// Returns the lanes whose number in the row differs from `number`.
 inline Lanes unlike(const std::uint32_t* row, std::uint32_t number) {
   const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(row));
   const __m256i same = _mm256_cmpeq_epi32(all, _mm256_set1_epi32(static_cast<int>(number)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Eight floats in one AVX register, comparisons in mask registers (AVX-512VL). For kernel.inl; the including
-// file puts it into a namespace of its own.
+// These lanes are eight floats in one AVX register, with comparisons in mask registers (AVX-512VL), for
+// kernel.inl. The including file puts them into a namespace of its own.
 
 using Floats = __m256;
 using Lanes = __mmask8;
@@ -23,13 +23,13 @@ inline Lanes less_equal(Floats a, Floats b) { return _mm256_cmp_ps_mask(a, b, _C
 inline Lanes both(Lanes a, Lanes b) { return static_cast<Lanes>(a & b); }
 inline Lanes either(Lanes a, Lanes b) { return static_cast<Lanes>(a | b); }
 inline unsigned bits(Lanes a) { return a; }
-// row[i] of the lowest set bit i.
+// Returns row[i] of the lowest set bit i.
 inline std::uint32_t first_of(const std::uint32_t* row, unsigned bits) {
   const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(row));
   const __m256i chosen = _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), all);
   return static_cast<std::uint32_t>(_mm256_cvtsi256_si32(chosen));
 }
-// Not below 1/a, and hardly above it. a in [1e-30, 1e30].
+// Returns at least 1/a, and hardly more, for a in [1e-30, 1e30].
 inline Floats reciprocal_above(Floats a) { return mul(_mm256_rcp_ps(a), fill(1.0005f)); }
 inline Floats choose(Lanes lanes, Floats a, Floats b) {
   return _mm256_mask_blend_ps(lanes, b, a);
@@ -39,7 +39,7 @@ inline float least(Floats a) {
   const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
   return _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)));
 }
-// Lanes whose number in the row is another.
+// Returns the lanes whose number in the row differs from `number`.
 inline Lanes unlike(const std::uint32_t* row, std::uint32_t number) {
   const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(row));
   return _mm256_cmpneq_epi32_mask(all, _mm256_set1_epi32(static_cast<int>(number)));

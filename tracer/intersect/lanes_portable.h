@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Eight floats as two vectors of four, which every SIMD instruction set has. For kernel.inl; the including
-// file puts it into a namespace of its own.
+// These lanes are eight floats as two vectors of four, which every SIMD instruction set has, for kernel.inl.
+// The including file puts them into a namespace of its own.
 
 typedef float Quad __attribute__((vector_size(16), may_alias));
 typedef std::int32_t QuadBits __attribute__((vector_size(16), may_alias));
@@ -54,9 +54,9 @@ inline Lanes less_equal(Floats a, Floats b) { return {a.low <= b.low, a.high <= 
 inline Lanes both(Lanes a, Lanes b) { return {a.low & b.low, a.high & b.high}; }
 inline Lanes either(Lanes a, Lanes b) { return {a.low | b.low, a.high | b.high}; }
 inline unsigned bits(Lanes a) { return bits(a.low) | bits(a.high) << 4; }
-// row[i] of the lowest set bit i.
+// Returns row[i] of the lowest set bit i.
 inline std::uint32_t first_of(const std::uint32_t* row, unsigned bits) { return row[__builtin_ctz(bits)]; }
-// Not below 1/a, and hardly above it. a in [1e-30, 1e30].
+// Returns at least 1/a, and hardly more, for a in [1e-30, 1e30].
 inline Floats reciprocal_above(Floats a) {
   constexpr float above = 1.000001f;
   return {Quad{above, above, above, above} / a.low, Quad{above, above, above, above} / a.high};
@@ -72,7 +72,7 @@ inline float least(Floats a) {
   const float low = four[0] < four[1] ? four[0] : four[1], high = four[2] < four[3] ? four[2] : four[3];
   return low < high ? low : high;
 }
-// Lanes whose number in the row is another.
+// Returns the lanes whose number in the row differs from `number`.
 inline Lanes unlike(const std::uint32_t* row, std::uint32_t number) {
   const auto n = static_cast<std::int32_t>(number);
   const QuadBits all = {n, n, n, n};

@@ -5,7 +5,8 @@
 
 namespace vitrail {
 
-// Whose trees rays go through: the bundle's, or Embree's (embree_domain.h). Every hit has the same bits.
+// It says whose trees rays go through: the bundle's, or Embree's (embree_domain.h). Every hit has the same
+// bits.
 enum class Traversal : std::uint8_t { own, embree };
 
 }  // namespace vitrail

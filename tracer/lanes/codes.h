@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What values are rounded to on a path (tracer/rays/ray_records.h), in lanes.
+// These functions round values as records on a path do (tracer/rays/ray_records.h), in lanes.
 #pragma once
 
 #include "tracer/simd/lanes.h"
@@ -7,7 +7,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// pdf_value(pdf_code(pdf)): to bfloat16.
+// Returns pdf_value(pdf_code(pdf)), which is rounded to bfloat16.
 template <class F>
 VITRAIL_LANES F rounded_pdf(F pdf) {
   const auto code = cast_bits<std::uint32_t>(pdf);
@@ -24,14 +24,14 @@ VITRAIL_LANES F rounded_radiance(F value) {
   return cast_bits<float>((code & ~0xffu) >> 1);
 }
 
-// `random`: lowest 10 bits.
+// The function uses the lowest 10 bits of `random`.
 template <class F>
 VITRAIL_LANES F rounded_by_chance(F value, std::type_identity_t<WordsLike<F>> random) {
   const auto code = (cast_bits<std::uint32_t>(value) << 1) + (random & 0x3ffu);
   return cast_bits<float>((code & ~0x3ffu) >> 1);
 }
 
-// Not above x ≥ 0.
+// Returns a float that is not above x ≥ 0.
 template <class D>
 VITRAIL_LANES FloatsLike<D> float_below(D x) {
   using F = FloatsLike<D>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes of directions (tracer/rays/direction.h) and of normals (bundle/domain_file.h) in lanes.
+// This file has codes of directions (tracer/rays/direction.h) and of normals (bundle/domain_file.h) in lanes.
 #pragma once
 
 #include "tracer/rays/direction.h"
@@ -8,7 +8,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// The two numbers of a DirectionCode.
+// They are the two numbers of a DirectionCode.
 template <class U>
 struct Code {
   U first, second;

@@ -5,7 +5,7 @@
 
 namespace vitrail::lanes {
 
-// Of a DomainView. Where a table is empty, null.
+// It holds the tables of a DomainView; an empty table is null.
 struct DomainTables {
   const Cluster* clusters = nullptr;
   const ClusterNormals* normals = nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hits of a domain's own triangles made ready for shading, as make_interaction does: those of instances, with
-// a cone's width or with attributes are for that.
+// This file makes hits of a domain's own triangles ready for shading, as make_interaction does. Hits of
+// instances, hits with a cone's width and hits with attributes are left to make_interaction.
 #pragma once
 
 #include "tracer/lanes/directions.h"
@@ -11,7 +11,7 @@ namespace vitrail::lanes {
 
 namespace {
 
-// vitrail::Interaction.
+// It is vitrail::Interaction.
 template <class D>
 struct Interaction {
   Vector<D> p, out, geometric, shading;
@@ -56,7 +56,7 @@ VITRAIL_LANES void find_shading_normal(const DomainOf& domain, const HitOf& hit,
   if (!any(has)) return;
   const auto decoded = [](U c) __attribute__((always_inline)) { return to_doubles(decode_normal(c)); };
   const Vector<D> n0 = decoded(first);
-  // Those of a flat face are one.
+  // The three normals of a flat face are one.
   const bool flat = all((second == first) & (third == first));
   Vector<D> n = normalize(interpolated(u, v, n0, flat ? n0 : decoded(second), flat ? n0 : decoded(third)));
   n = select<D>(dot(n, at.geometric) < 0, -n, n);
@@ -85,7 +85,7 @@ VITRAIL_LANES void find_uv(const DomainOf& domain, const HitOf& hit, D hit_u, D 
 
 }  // namespace detail
 
-// hit(j): the vitrail::Hit of lane j, of depth 0, in domain(j). `direction` of the rays, decoded.
+// hit(j) is the vitrail::Hit of lane j, of depth 0, in domain(j). `direction` is that of the rays, decoded.
 template <class D, class DomainOf, class HitOf>
 VITRAIL_LANES Interaction<D> triangle_interaction(const DomainOf& domain, const HitOf& hit,
                                                   Vector<FloatsLike<D>> direction) {

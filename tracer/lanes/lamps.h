@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points on triangles that emit, in lanes: draw_triangle of those whose light shines to all directions, alike
-// all over the triangle or by a texture that no TriangleParts are made of. What they radiate is for the
-// caller. Directional lights, parts and quadrics are left to sample_light.
+// This file draws points on triangles that emit, in lanes. It has draw_triangle for lights that shine to all
+// directions, alike all over the triangle or by a texture without TriangleParts. The caller finds what the
+// points radiate. Directional lights, parts and quadrics are left to sample_light.
 #pragma once
 
 #include "tracer/lights/light_sampler.h"
@@ -14,7 +14,7 @@ template <class D>
 struct Place {
   D b1, b2;
 };
-// Uniform on a triangle: vitrail::uniform_place.
+// Returns a uniform place on a triangle, as vitrail::uniform_place.
 template <class F>
 VITRAIL_LANES Place<DoublesLike<F>> uniform_place(F u, F v) {
   using D = DoublesLike<F>;
@@ -31,7 +31,7 @@ struct LampSample {
   Place<D> place;
 };
 
-// slot(j) and face(j): the triangle of lane j; two_sided(j): its light.
+// slot(j) and face(j) are of the triangle of lane j, and two_sided(j) of its light.
 template <class D, class SlotOf, class FaceOf, class TwoSided>
 VITRAIL_LANES LampSample<D> draw_triangle(Vector<D> p, FloatsLike<D> u, FloatsLike<D> v, const SlotOf& slot,
                                           const FaceOf& face, const TwoSided& two_sided) {

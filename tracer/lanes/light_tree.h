@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// LightTree::choose for W points at once, level by level: the weights of a node's eight children stand side
-// by side, and no branch lies between the points.
+// This file has LightTree::choose for W points at once, level by level. The weights of a node's eight
+// children stand side by side, and no branch lies between the points.
 #pragma once
 
 #include "tracer/lights/light_power_lanes.h"
@@ -10,7 +10,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// Of each lane that chose a light: LightTree::Chosen.
+// It holds LightTree::Chosen for each lane that chose a light.
 template <int W>
 struct ChosenLights {
   std::uint32_t slot[W];
@@ -18,7 +18,8 @@ struct ChosenLights {
   bool any[W];
 };
 
-// By power of slots[j] for the lanes of `of`, where one of them is chosen with chosen.probability[j].
+// Chooses by power among slots[j] for the lanes of `of`; one of slots[j] is chosen with the probability
+// chosen.probability[j].
 template <class D>
 VITRAIL_LANES void choose_alike(const LightTree& tree, const LightTree::Slots (&slots)[width<D>], unsigned of,
                                 const double (&rest)[width<D>], ChosenLights<width<D>>& chosen) {
@@ -33,8 +34,8 @@ VITRAIL_LANES void choose_alike(const LightTree& tree, const LightTree::Slots (&
   }
 }
 
-// For the lanes that are `wanted`. `root` keeps what the root's children weigh for the points: `root_known`
-// where a call for the same points has left it there.
+// Chooses for the lanes that are `wanted`. `root` keeps the weights of the root's children for the points;
+// `root_known` says that a call for the same points has left them there.
 template <class D>
 VITRAIL_LANES void choose_lights(const LightTree& tree, Vector<D> p, D u, Mask<D> wanted,
                                  LightWeights (&root)[width<D>], bool root_known,
@@ -53,7 +54,7 @@ VITRAIL_LANES void choose_lights(const LightTree& tree, Vector<D> p, D u, Mask<D
     node[j] = nodes;
   }
   if (open == 0) return;
-  // Of lanes that go on by power: what they choose of, once all have come to that.
+  // These lanes go on by power. They wait for all lanes, and `alike` has the slots that each chooses among.
   unsigned powered = 0;
   LightTree::Slots alike[W]{};
   if (tree.choice() == LightChoice::power) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that leave a surface, in lanes: tracer/rays/departing.h and tracer/transport/aim.h.
+// This file has rays that leave a surface, in lanes: tracer/rays/departing.h and tracer/transport/aim.h.
 #pragma once
 
 #include "tracer/lanes/codes.h"
@@ -31,7 +31,7 @@ VITRAIL_LANES L hash_of_ray(L seed, Vector<FloatsLike<L>> origin, Code<WordsLike
                          convert<std::uint64_t>(direction.second));
 }
 
-// A ray that goes on from a surface, and what it carries, rounded.
+// It is a ray that goes on from a surface, and what it carries, rounded.
 template <class D>
 struct Departed {
   Vector<FloatsLike<D>> origin, direction;
@@ -40,8 +40,8 @@ struct Departed {
   Four<FloatsLike<D>> throughput;
 };
 
-// What depart (transport/traveller.h) does to a path with that sample_seed, whose depth is counted already;
-// `stream` is stream_offset(depth, RayRandom::throughput).
+// Does what depart (transport/traveller.h) does to a path with that sample_seed, whose depth is counted
+// already. `stream` is stream_offset(depth, RayRandom::throughput).
 template <class D>
 VITRAIL_LANES Departed<D> depart(LongsLike<D> seed, std::type_identity_t<LongsLike<D>> stream,
                                  Vector<FloatsLike<D>> origin, Vector<D> direction,
@@ -59,7 +59,7 @@ VITRAIL_LANES Departed<D> depart(LongsLike<D> seed, std::type_identity_t<LongsLi
   return result;
 }
 
-// What connects a surface to a light.
+// It connects a surface to a light.
 template <class D>
 struct Connected {
   Vector<D> to_light;  // unit
@@ -68,7 +68,7 @@ struct Connected {
   D tilt_rad;
 };
 
-// A connection's ray: vitrail::Aimed, but on quadrics.
+// It is a connection's ray: vitrail::Aimed, but for quadrics.
 template <class D>
 struct Aimed {
   Code<WordsLike<D>> code;
@@ -77,7 +77,7 @@ struct Aimed {
   D cosine;
 };
 
-// From `origin` beside p. `sphere`: whose end end_on_sphere finds.
+// Aims from `origin` beside p. `sphere` marks lanes whose end end_on_sphere finds.
 template <class D>
 VITRAIL_LANES Aimed<D> aim(Vector<D> p, Vector<FloatsLike<D>> origin, const Connected<D>& light,
                            Mask<D> sphere = Mask<D>()) {
@@ -103,8 +103,9 @@ VITRAIL_LANES Aimed<D> aim(Vector<D> p, Vector<FloatsLike<D>> origin, const Conn
   return aimed;
 }
 
-// What `end` of that is where it leads to a whole sphere, sphere(j) the PlacedQuadric of lane j: where it
-// meets that, nearest to where it ended. Near its limb it may pass by. `starts_there`: as of quadric_hits.
+// Returns the `end` of a ray that leads to a whole sphere; sphere(j) is the PlacedQuadric of lane j. The ray
+// ends where it meets the sphere, nearest to its end so far. Near the limb it may miss the sphere, and keeps
+// its end. `starts_there` is that of quadric_hits.
 template <class D, class SphereOf>
 VITRAIL_LANES D end_on_sphere(Vector<FloatsLike<D>> origin, const Aimed<D>& aimed, const SphereOf& sphere,
                               Mask<D> starts_there) {
@@ -115,7 +116,7 @@ VITRAIL_LANES D end_on_sphere(Vector<FloatsLike<D>> origin, const Aimed<D>& aime
   return select<D>(first.is_hit | second.is_hit, t * (1 - 1e-12), aimed.end);
 }
 
-// Shadow::tmax and Shadow::radiance.
+// They return Shadow::tmax and Shadow::radiance.
 template <class D>
 VITRAIL_LANES FloatsLike<D> shadow_end(D end) {
   using F = FloatsLike<D>;

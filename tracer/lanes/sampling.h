@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The random numbers of tracer/sampling/sampler.h in lanes.
+// This file has the random numbers of tracer/sampling/sampler.h in lanes.
 #pragma once
 
 #include "film/sample_groups.h"
@@ -29,7 +29,7 @@ VITRAIL_LANES LongsLike<U> sample_seed(std::uint64_t seed, U pixel, U sample) {
   const L place = convert<std::uint64_t>(pixel) << 32 | convert<std::uint64_t>(sample);
   return mix(place ^ mix(seed + golden));
 }
-// The first bits of RandomStream(state).
+// Returns the first bits of RandomStream(state).
 template <class L>
 VITRAIL_LANES L random_bits(L state) {
   return mix(state + golden);
@@ -55,7 +55,7 @@ VITRAIL_LANES U scramble_reversed(U x, U seed) {
   return x;
 }
 
-// Integers below 2³¹ that are given as words: the conversion is one instruction.
+// Converts integers below 2³¹ that are given as words: the conversion is one instruction.
 template <class U>
 VITRAIL_LANES FloatsLike<U> small_to_floats(U x) {
   return convert<float>(cast_bits<std::int32_t>(x));
@@ -71,8 +71,8 @@ VITRAIL_LANES U sobol_number(const std::uint32_t* table, U index) {
          at(table + 512, index >> 16 & 0xffu) ^ at<U>(table + 768, index >> 24);
 }
 
-// The second dimension, without its table: the sum of (1 + x)ᵏ over the bits k of the index, as polynomials
-// over GF(2), which is five steps of Pascal's triangle.
+// Returns the second dimension, without its table. It is the sum of (1 + x)ᵏ over the bits k of the index, as
+// polynomials over GF(2): five steps of Pascal's triangle.
 template <class U>
 VITRAIL_LANES U second_number(U index) {
   index ^= index >> 1 & 0x55555555u;
@@ -92,7 +92,7 @@ inline constexpr const std::uint32_t *third_table = sobol::tables[1][0].data(),
 
 }  // namespace detail
 
-// vitrail::sample_4d. Numbers that are not wanted are 0.
+// It is vitrail::sample_4d. Numbers that are not wanted are 0.
 template <Wanted wanted = Wanted::four, class U>
 VITRAIL_LANES Four<FloatsLike<U>> sample_4d(const PictureSeed& picture, U pixel, U sample,
                                             std::type_identity_t<U> set) {
@@ -118,7 +118,7 @@ VITRAIL_LANES Four<FloatsLike<U>> sample_4d(const PictureSeed& picture, U pixel,
   return u;
 }
 
-// vitrail::numbers_of_candidate, k the same for all.
+// It is vitrail::numbers_of_candidate, with the same k in all lanes.
 template <class F>
 VITRAIL_LANES Four<F> numbers_of_candidate(Four<F> u, std::uint32_t k) {
   const CandidateDigits digits = candidate_digits[k];

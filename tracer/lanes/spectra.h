@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tracer/sampling/wavelengths.h in lanes: each path has its four wavelengths.
+// This file has tracer/sampling/wavelengths.h in lanes: each path has its four wavelengths.
 #pragma once
 
 #include "tracer/lanes/sampling.h"
@@ -19,7 +19,7 @@ struct SensorXyz {
   Four<F> x, y, z;
 };
 
-// Of the camera's numbers, as vitrail::camera_numbers has it.
+// Places the hero among the camera's numbers, as vitrail::camera_numbers does.
 template <class F>
 VITRAIL_LANES void place_hero(Four<F>& u) {
   const F quarter = convert<float>(convert<std::int32_t>(4.0f * u[3]));
@@ -27,7 +27,7 @@ VITRAIL_LANES void place_hero(Four<F>& u) {
   u[3] = 4.0f * u[3] - quarter;
 }
 
-// vitrail::sample_wavelengths by its tables (wavelength_tables()).
+// It is vitrail::sample_wavelengths by its tables (wavelength_tables()).
 template <class F>
 VITRAIL_LANES Wavelengths<F> sample_wavelengths(const WavelengthTables& tables, F u) {
   using D = DoublesLike<F>;
@@ -53,7 +53,7 @@ VITRAIL_LANES Wavelengths<F> sample_wavelengths(const WavelengthTables& tables, 
   return result;
 }
 
-// The x, y and z of vitrail::sensor_weights. `observer`: &cie_1931()[0][0].
+// Returns the x, y and z of vitrail::sensor_weights. `observer` is &cie_1931()[0][0].
 template <class F>
 VITRAIL_LANES SensorXyz<F> sensor_weights(const float* observer, const Wavelengths<F>& wavelengths,
                                           DoublesLike<F> scale) {

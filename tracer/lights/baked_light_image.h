@@ -5,7 +5,7 @@
 
 namespace vitrail {
 
-// An image of a bundle. Throws Error with the file's name where it is damaged.
+// Opens an image of a bundle. Throws Error with the file's name where it is damaged.
 std::shared_ptr<const LightImage> open_light_image(const std::filesystem::path& file,
                                                    std::shared_ptr<TileCache> tiles);
 

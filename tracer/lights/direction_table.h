@@ -9,11 +9,13 @@
 
 namespace vitrail {
 
-// A density of directions that is constant per solid angle in each cell of a grid over a sphere's picture.
+// It is a density of directions that is constant per solid angle in each cell of a grid over a sphere's
+// picture.
 class DirectionTable {
  public:
   DirectionTable() = default;
-  // density(x, y) ≥ 0 of the cells, per solid angle; any unit. All 0 is as all 1.
+  // density(x, y) ≥ 0 is that of a cell, per solid angle, in any unit. A table of zeros counts as one of
+  // ones.
   DirectionTable(SphereProjection projection, int width, int height,
                  const std::function<double(int, int)>& density);
 
@@ -27,7 +29,7 @@ class DirectionTable {
     return pdf(sphere_point(projection_, direction));
   }  // `direction` unit
 
-  // What direction_table_lanes.h reads.
+  // direction_table_lanes.h reads these.
   struct Data {
     SphereProjection projection;
     int width, height;
@@ -46,7 +48,8 @@ class DirectionTable {
       row_z_;  // of latitude_longitude: the z of the rows' upper edges, and of the last lower one
   std::vector<double> rows_;     // cumulative, 0 … 1, height + 1
   std::vector<double> columns_;  // of each row: cumulative, 0 … 1, width + 1
-  // GuideTable::first of the rows, and of the columns of each row: as many cells as these are.
+  // It is GuideTable::first of the rows, and of the columns of each row, with as many cells as there are of
+  // these.
   std::vector<std::uint32_t> row_guide_, column_guides_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples and densities of a DirectionTable, for any number of lanes.
+// This file has samples and densities of a DirectionTable, for any number of lanes.
 #pragma once
 
 #include "tracer/lights/direction_table.h"
@@ -10,15 +10,15 @@ namespace {
 
 namespace detail {
 
-// Steps of a cumulative sum.
+// They are steps of a cumulative sum.
 template <class D>
 struct Steps {
   IntsLike<D> index;
   D fraction;
 };
 
-// The steps that hold u in [0,1), of sums from 0 to 1 in `count` steps; never one of height 0. sums(j) and
-// first(j), which is GuideTable::first of `count` cells, are those of lane j.
+// Returns the steps that hold u in [0,1), of sums from 0 to 1 in `count` steps; a step never has the height
+// 0. sums(j) and first(j), which is GuideTable::first of `count` cells, are those of lane j.
 template <class D, class SumsOf, class FirstOf>
 VITRAIL_LANES Steps<D> find_steps(const SumsOf& sums, const FirstOf& first, int count, D u) {
   const IntsLike<D> cell = convert<std::int32_t>(u * static_cast<double>(count));
@@ -39,14 +39,14 @@ VITRAIL_LANES Steps<D> find_steps(const SumsOf& sums, const FirstOf& first, int 
 
 }  // namespace detail
 
-// Where a table puts a direction: its z is known already by latitude and longitude.
+// It is the place where a table puts a direction. A table by latitude and longitude gives its z at once.
 template <class D>
 struct TablePlace {
   PicturePoint<D> at;  // y of an equal-area table
   D z;                 // of the other
 };
 
-// u, v in [0,1)
+// u and v are in [0,1).
 template <class D>
 VITRAIL_LANES TablePlace<D> place_in_table(const DirectionTable& table, D u, D v) {
   const auto data = table.data();
@@ -72,7 +72,7 @@ VITRAIL_LANES TablePlace<D> place_in_table(const DirectionTable& table, D u, D v
   return place;
 }
 
-// Unit. u, v in [0,1)
+// Returns a unit direction; u and v are in [0,1).
 template <class D>
 VITRAIL_LANES Vector<D> sample(const DirectionTable& table, D u, D v) {
   const TablePlace<D> place = place_in_table(table, u, v);
@@ -81,7 +81,7 @@ VITRAIL_LANES Vector<D> sample(const DirectionTable& table, D u, D v) {
   return {across * portable_cos(turn), across * portable_sin(turn), place.z};
 }
 
-// Per solid angle.
+// Returns the density per solid angle.
 template <class D>
 VITRAIL_LANES D pdf(const DirectionTable& table, PicturePoint<D> at) {
   using I = IntsLike<D>;

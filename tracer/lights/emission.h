@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where light sets out: photons of all lights of a scene, chosen by the flux that each sends.
+// This file starts photons of all lights of a scene. Lights are chosen by the flux that each sends.
 #pragma once
 
 #include <array>
@@ -24,26 +24,26 @@ struct EmittedPhoton {
 
 class Emission {
  public:
-  // `lights` outlives it. Distant lights and environments reach what lies in `bounds`, through the disc that
-  // covers the sphere around it, and, where `eye` lies within, through smaller and smaller ones around that,
-  // alike many through each: light that enters near the eye counts most, how near nobody knows. Lights whose
-  // flux is 0 have no photons.
+  // `lights` has to outlive it. Distant lights and environments reach what lies in `bounds`, through the disc
+  // that covers the sphere around it. Where `eye` lies within `bounds`, as many photons go through each of
+  // some smaller and smaller discs around the eye. Light that enters near the eye counts most, and nobody
+  // knows how near. Lights whose flux is 0 have no photons.
   Emission(const LightSampler& lights, const Bounds3f& bounds, Point3d eye);
 
-  // Luminous flux of all lights over 683 lm/W (∫ Φ ȳ dλ / ∫ ȳ dλ), through the least disc: about the power of
-  // what is sampled. 0: no light.
+  // Returns the luminous flux of all lights over 683 lm/W (∫ Φ ȳ dλ / ∫ ȳ dλ), through the least disc. It is
+  // about the power that is sampled. 0: there is no light.
   double flux() const { return flux_; }
-  // place: u, v of the point, which light (two numbers, the second refines); way: u, v of the direction,
-  // side.
+  // `place` has u, v of the point, and two numbers that choose the light, of which the second refines the
+  // first. `way` has u, v of the direction, and the side.
   EmittedPhoton sample(const std::array<float, 4>& place, const std::array<float, 4>& way,
                        const SampledWavelengths& wavelengths) const;
 
  private:
-  // `choice`: in [0,1), what is left of the number that chose the light. The power is that of all its
-  // photons.
+  // `choice`, in [0,1), is what is left of the number that chose the light. The power is that of all photons
+  // of the light.
   EmittedPhoton of_light(LightRef light, double choice, const std::array<float, 4>& place,
                          const std::array<float, 4>& way, const SampledWavelengths& wavelengths) const;
-  // Where photons leave a surface.
+  // It is the place where a photon leaves a surface.
   struct Exit {
     Point3d p;
     Vector3d front;                    // normal, unit
@@ -52,7 +52,7 @@ class Emission {
     std::uint32_t triangle = 0;        // global id
     SampledSpectrum radiance;
   };
-  // `choice`: of one of its parts.
+  // `choice` chooses one of the triangle's parts.
   Exit on_triangle(std::uint32_t triangle, double choice, const std::array<float, 4>& place,
                    const SampledWavelengths& wavelengths) const;
   Exit on_quadric(std::uint32_t quadric, const std::array<float, 4>& place,
@@ -60,7 +60,7 @@ class Emission {
   static EmittedPhoton leave_surface(const Exit& exit, const std::array<float, 4>& way);
   EmittedPhoton of_emitter(std::uint32_t emitter, const std::array<float, 4>& way,
                            const SampledWavelengths& wavelengths) const;
-  // Of irradiance across a direction, through one of the discs.
+  // Returns a photon of that irradiance across a direction, through one of the discs.
   EmittedPhoton through_disc(Vector3d direction, const SampledSpectrum& irradiance, float u, float v,
                              float choice) const;
 
@@ -73,7 +73,7 @@ class Emission {
   std::vector<std::uint32_t> directions_of_;   // of each emitter, which
   std::vector<Sphere> spheres_;                // that discs cover, the scene's first
   double flux_ = 0;
-  // Of all lights by LightSampler's numbers: sums of their shares, from 0 to 1.
+  // They are sums, from 0 to 1, of the shares of all lights by LightSampler's numbers.
   std::vector<double> cumulative_;
   GuideTable guide_;
 };

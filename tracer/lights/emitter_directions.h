@@ -10,8 +10,8 @@
 
 namespace vitrail {
 
-// The directions of photons that leave a point: about as the light's image has it, and with a density above 0
-// wherever that may shine.
+// It samples the directions of photons that leave a point. They are about as the light's image has it, with a
+// density above 0 wherever that may shine.
 class EmitterDirections {
  public:
   EmitterDirections(const EmitterShape& shape, const LightScene& scene);
@@ -20,16 +20,16 @@ class EmitterDirections {
     Vector3d direction;  // unit, of the world
     double pdf = 0;      // solid angle; 0: nothing shines
   };
-  // All in [0,1).
+  // All numbers are in [0,1).
   Way sample(float u, float v, float choice) const;
 
  private:
-  // Uniform in the cone of directions, of the world, with a cosine of at least that.
+  // It is uniform in the cone of world directions with at least that cosine to the axis.
   struct Cone {
     Vector3d axis;
     double least_z;
   };
-  // By the cells of a projection's frame, `side` along each of its edges.
+  // It chooses by the cells of a projection's frame, `side` along each of its edges.
   struct Cells {
     static constexpr int side = 128;
     Point2d half;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images of radiance around the scene.
+// Environments are images of radiance around the scene.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,8 @@
 
 namespace vitrail {
 
-// A rotation, perhaps with a mirror, of directions: the transform's, made orthonormal from its z axis on.
+// A DirectionFrame rotates directions, perhaps with a mirror. It is the transform's frame, made orthonormal
+// from its z axis on.
 struct DirectionFrame {
   Vector3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // of the light, in the world
   explicit DirectionFrame(const Transform& light_to_world);
@@ -20,7 +21,7 @@ struct DirectionFrame {
   Vector3d to_world(Vector3d d) const { return x * d.x + y * d.y + z * d.z; }
 };
 
-// An image, or a sky with its sun.
+// An Environment is an image, or a sky with its sun.
 struct Environment {
   std::shared_ptr<const LightImage> image;
   std::shared_ptr<const SkyModel> sky;  // where there is no image
@@ -36,44 +37,46 @@ struct Environment {
 };
 
 Environment make_environment(const EnvironmentLight& light, std::shared_ptr<const LightImage> image);
-// `sun`: whether the disc is seen; the ground has its light anyhow.
+// `sun` says whether the disc is seen; the ground has its light in either case.
 Environment make_environment(const SkyLight& light, bool sun = true);
 
 struct EnvironmentValue {
   SampledSpectrum radiance;
   double pdf = 0;  // of sample_direction, solid angle
 };
-// `direction` unit, of the world.
+// `direction` is unit, in the world.
 EnvironmentValue value_towards(const Environment& environment, Vector3d direction,
                                const SampledWavelengths& wavelengths);
-// Of a sky's own frame: over the sun's disc, uniform per solid angle. u, v in [0,1)
+// Samples a direction over the sun's disc, uniform per solid angle, in the sky's own frame. u and v are in
+// [0,1).
 Vector3d sample_sun(const SkyModel& sky, double u, double v);
-// u, v in [0,1)
+// u and v are in [0,1).
 Vector3d sample_direction(const Environment& environment, double u, double v);
 
-// The image at a point of the sphere's picture: the nearest texel of an equal-area map, as pbrt-v4 looks it
-// up; by latitude and longitude bilinear as in Mitsuba, where the first and the last row lie on the poles.
+// Looks up the image at a point of the sphere's picture. An equal-area map gives the nearest texel, as in
+// pbrt-v4. A map by latitude and longitude is bilinear as in Mitsuba: its first and last row lie on the
+// poles.
 SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Point2d at,
                         const SampledWavelengths& wavelengths);
 
-// Of an environment's image, all factors included.
+// Returns the radiance of an environment's image, all factors included.
 SampledSpectrum radiance_of_image(const Environment& environment, Point2d at,
                                   const SampledWavelengths& wavelengths);
 SampledSpectrum scale_of(const Environment& environment, const SampledWavelengths& wavelengths);
-// The scale where it is a constant, else null; the image where it is a baked one, else null.
+// They return the scale where it is a constant, else null, and the image where it is a baked one, else null.
 const float* constant_scale_of(const Environment& environment);
 const BakedImage* baked_image_of(const Environment& environment);
 
-// A density for sampling that image, with a floor: about its luminance, or `beside_bsdf` about what it has
-// above its mean, since samples of the BSDF find the rest as well (Karlík et al., "MIS Compensation", 2019).
-// `flux`: ∫ Y dω within about 1 %.
+// It is a density for sampling that image, with a floor. It is about the image's luminance. With
+// `beside_bsdf` it is about the luminance above the mean: samples of the BSDF find the rest (Karlík et al.,
+// "MIS Compensation", 2019). `flux` is ∫ Y dω within about 1 %.
 struct ImageTable {
   DirectionTable table;
   double flux = 0;
 };
 ImageTable tabulate_image(const LightImage& image, SphereProjection projection, bool beside_bsdf);
 
-// ∫ Y dω, of max(0,z)·Y where `upward`, by all texels.
+// Returns ∫ Y dω, or with `upward` that of max(0,z)·Y, over all texels.
 double flux_of(const LightImage& image, SphereProjection projection, bool upward);
 
 }  // namespace vitrail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions to environments and what is seen there, for any number of lanes. The sun's disc and the ground
-// are seen lane by lane.
+// This file has directions to environments and the radiance from there, for any number of lanes. It finds the
+// sun's disc and the ground lane by lane.
 #pragma once
 
 #include "tracer/lights/direction_table_lanes.h"
@@ -15,7 +15,7 @@ namespace {
 
 namespace detail {
 
-// Where on the sun's disc: the cosine of the angle from its middle is 1 − below.
+// It is a place on the sun's disc: the cosine of the angle from its middle is 1 − below.
 template <class D>
 struct SunPlace {
   D below, sine;
@@ -25,7 +25,7 @@ VITRAIL_LANES SunPlace<D> place_on_sun(const SkyModel& sky, D u) {
   const D below = u * (1.0 - sky.sun_cosine());
   return {below, safe_sqrt(below * (2.0 - below))};
 }
-// `cosine`, `sine`: of the turn about its middle.
+// `cosine` and `sine` are of the turn about the disc's middle.
 template <class D>
 VITRAIL_LANES Vector<D> direction_on_sun(const SkyModel& sky, SunPlace<D> place, D cosine, D sine) {
   const Vector<D> n = fill<D>(sky.to_sun());
@@ -44,7 +44,7 @@ VITRAIL_LANES Vector<D> to_world(const DirectionFrame& frame, Vector<D> d) {
   return fill<D>(frame.x) * d.x + fill<D>(frame.y) * d.y + fill<D>(frame.z) * d.z;
 }
 
-// Where an image of so many texels is looked up for a point of the sphere's picture.
+// It is the place where an image of so many texels is looked up for a point of the sphere's picture.
 template <class D>
 struct ImagePlace {
   D s, t;            // by latitude and longitude, bilinear
@@ -60,7 +60,7 @@ VITRAIL_LANES ImagePlace<D> place_in_image(PicturePoint<D> at, int width, int he
           nearest(at.x, width), height - 1 - nearest(at.y, height)};
 }
 
-// vitrail::radiance_of_image, of the lanes that are `on`.
+// It is vitrail::radiance_of_image, in the lanes that are `on`.
 template <class D, class WavelengthsOf>
 VITRAIL_LANES Four<FloatsLike<D>> radiance_of_image(const Environment& e, PicturePoint<D> at, Mask<D> on,
                                                     const WavelengthsOf& wavelengths) {
@@ -89,19 +89,20 @@ VITRAIL_LANES Four<FloatsLike<D>> radiance_of_image(const Environment& e, Pictur
 
 }  // namespace detail
 
-// Of a sky's own frame: over the sun's disc, uniform per solid angle. u, v in [0,1)
+// Samples a direction over the sun's disc, uniform per solid angle, in the sky's own frame. u and v are in
+// [0,1).
 template <class D>
 VITRAIL_LANES Vector<D> sample_sun(const SkyModel& sky, D u, D v) {
   const D turn = 2 * pi * v;
   return detail::direction_on_sun(sky, detail::place_on_sun(sky, u), portable_cos(turn), portable_sin(turn));
 }
 
-// u, v in [0,1)
+// u and v are in [0,1).
 template <class D>
 VITRAIL_LANES Vector<D> sample_direction(const Environment& e, D u, D v) {
   if (!(e.sun_share > 0)) return detail::to_world(e.frame, sample(e.table, u, v));
   const Mask<D> of_sun = u < e.sun_share;
-  // Both are about an axis, by one turn.
+  // Both samples turn about an axis, by one angle.
   D turn = v, across = fill<D>(0), z = fill<D>(0);
   if (!all(of_sun)) {
     const D of_sky = select<D>(of_sun, fill<D>(0), (u - e.sun_share) / (1.0 - e.sun_share));
@@ -119,14 +120,15 @@ VITRAIL_LANES Vector<D> sample_direction(const Environment& e, D u, D v) {
   return detail::to_world(e.frame, direction);
 }
 
-// Radiance at the wavelengths of a path, and the density with which the direction is chosen, per solid angle.
+// It holds the radiance at the wavelengths of a path, and the density per solid angle with which the
+// direction is chosen.
 template <class D>
 struct Seen {
   Four<FloatsLike<D>> radiance;
   D pdf;
 };
 
-// vitrail::value_towards, of the lanes that are `on`; wavelengths(j) are those of lane j.
+// It is vitrail::value_towards, in the lanes that are `on`; wavelengths(j) are those of lane j.
 template <class D, class WavelengthsOf>
 VITRAIL_LANES Seen<D> value_towards(const Environment& e, Vector<D> direction, Mask<D> on,
                                     const WavelengthsOf& wavelengths) {
@@ -184,7 +186,7 @@ VITRAIL_LANES Four<FloatsLike<D>> constant_radiance(const FlatSpectrum& light,
 
 }  // namespace detail
 
-// vitrail::background, likewise.
+// It is vitrail::background, in the lanes that are `on`.
 template <class D, class WavelengthsOf>
 VITRAIL_LANES Seen<D> background(const LightSampler& lights, Vector<D> direction, Mask<D> on,
                                  const WavelengthsOf& wavelengths) {

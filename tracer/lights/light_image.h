@@ -11,8 +11,8 @@ namespace vitrail {
 class BakedImage;
 class TileCache;
 
-// What lights ask of an image. Texel (0,0) is the lower left one; level 0 is the finest, each next one has
-// half the width and height, rounded down.
+// Lights read an image by this interface. Texel (0,0) is the lower left one. Level 0 is the finest; each next
+// one has half the width and height, rounded down.
 class LightImage {
  public:
   virtual ~LightImage() = default;
@@ -20,11 +20,12 @@ class LightImage {
   virtual int height(int level) const = 0;
   virtual int levels() const = 0;
   virtual SampledSpectrum texel(int x, int y, const SampledWavelengths& wavelengths) const = 0;
-  // Between the centres of four texels of level 0: repeats in s, t within the outermost centres.
+  // Interpolates between the centres of four texels of level 0: it repeats in s, and keeps t within the
+  // outermost centres.
   virtual SampledSpectrum bilinear(double s, double t, const SampledWavelengths& wavelengths) const = 0;
-  // About the Y of a texel.
+  // Returns about the Y of a texel.
   virtual double luminance(int x, int y, int level) const = 0;
-  // Itself, where lanes may read it; else null.
+  // Returns the image itself where lanes may read it, else null.
   virtual const BakedImage* baked() const { return nullptr; }
 };
 

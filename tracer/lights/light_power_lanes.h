@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// LightTree::choose_by_power, for any number of lanes.
+// This file has LightTree::choose_by_power, for any number of lanes.
 #pragma once
 
 #include "tracer/lights/light_tree.h"
@@ -15,7 +15,8 @@ struct ChosenByPower {
   D probability, rest;
 };
 
-// slots(j): those of lane j, of a tree that has lights. A lamp of two triangles is the commonest.
+// slots(j) are those of lane j, of a tree that has lights. The case of two slots comes first: a lamp of two
+// triangles is the commonest.
 template <class D, class SlotsOf>
 VITRAIL_LANES ChosenByPower<D> choose_by_power(const LightTree& tree, const SlotsOf& slots, D u) {
   constexpr double below_one = 0x1.fffffffffffffp-1;

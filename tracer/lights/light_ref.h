@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which light: its kind, and its place among those of its kind.
+// A LightRef names a light by its kind, and by its place among those of its kind.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 
 namespace vitrail {
 
-// Surfaces, what shines from one point, what is infinitely far. The last has its light from everywhere alike.
+// The kinds are surfaces, lights that shine from one point, and infinitely far lights. The last kind shines
+// alike from everywhere.
 enum class LightKind : std::uint8_t { triangle, quadric, emitter, distant, environment, infinite };
 inline constexpr std::size_t light_kinds = static_cast<std::size_t>(LightKind::infinite) + 1;
 
@@ -20,18 +21,18 @@ struct LightRef {
   friend bool operator==(const LightRef&, const LightRef&) = default;
 };
 
-// How the lights of a scene are numbered: from 0, kind by kind in the order of LightKind. LightTree, whose
-// lights are the first three kinds, and Emission, whose lights are all, number them so.
+// The lights of a scene are numbered from 0, kind by kind in the order of LightKind. LightTree, whose lights
+// are the first three kinds, and Emission, whose lights are all, use these numbers.
 class LightNumbers {
  public:
   LightNumbers() = default;
-  // How many lights there are of each kind.
+  // `counts` says how many lights there are of each kind.
   explicit LightNumbers(const std::array<std::size_t, light_kinds>& counts) {
     for (std::size_t kind = 0; kind < light_kinds; ++kind) first_[kind + 1] = first_[kind] + counts[kind];
   }
 
   std::size_t size() const { return first_[light_kinds]; }
-  // number < size()
+  // number < size().
   LightRef light(std::size_t number) const {
     assert(number < size());
     std::size_t kind = 0;
@@ -40,14 +41,14 @@ class LightNumbers {
   }
   std::size_t number(LightRef light) const { return first_[place(light.kind)] + light.index; }
 
-  // The choices of LightSampler: the first is of all lights of the tree together, each further one of a
-  // single distant light or environment.
+  // They are the choices of LightSampler. The first is of all lights of the tree together, each further one
+  // of a single distant light or environment.
   static constexpr std::size_t choice_of_tree = 0;
   std::size_t choice(LightRef light) const {
     if (light.kind < LightKind::distant) return choice_of_tree;
     return 1 + number(light) - first_[place(LightKind::distant)];
   }
-  // choice > 0
+  // choice > 0.
   LightRef single_light(std::size_t choice) const {
     return light(first_[place(LightKind::distant)] + choice - 1);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Choosing a light and a point on it to connect to, and what lights emit where a ray finds them.
+// A LightSampler chooses a light and a point on it to connect to. It also gives what lights emit where a ray
+// finds them.
 #pragma once
 
 #include <algorithm>
@@ -28,8 +29,9 @@
 
 namespace vitrail {
 
-// All of what a scene's light comes from. Spectra are resolved, positions and transforms end in the bundle's
-// coordinates, filenames are baked files of the bundle. What the spans show outlives the sampler.
+// It holds all that a scene's light comes from. Spectra are resolved, positions and transforms end in the
+// bundle's coordinates, and filenames are baked files of the bundle. The data that the spans show outlive the
+// sampler.
 struct LightScene {
   std::span<const AreaLight> area_lights;
   std::span<const EmissiveTriangle> triangles;
@@ -43,21 +45,21 @@ struct LightScene {
   bool refracts = false;                     // some smooth surface of it does
 };
 
-// A point of an emissive triangle or quadric with what its textures read.
+// It is a point of an emissive triangle or quadric with what its textures read.
 struct EmissivePoint {
   TexturePoint at;
   std::array<AttributeValue, max_attributes> attributes;
   std::uint32_t attribute_count = 0;  // quadrics have none
   EmissivePoint(const LightScene& scene, std::size_t triangle, double b1, double b2);
   EmissivePoint(const QuadricLight& quadric, Point3d local);
-  // Refers to this.
+  // Returns a point that refers to this.
   TexturePoint point() const;
 };
 
-// Whether an emissive surface is a light that nothing meets.
+// Returns whether an emissive surface is a light that nothing meets.
 inline bool is_invisible(const FloatParameter& opacity) { return opacity == FloatParameter{0.0f}; }
 
-// Of an area light that its surfaces have: luminances, what nothing meets counts as whole.
+// It has luminances of an area light on its surfaces. A surface that nothing meets counts as whole.
 struct Glow {
   double mean = 0;  // over the surfaces
   double most = 0;  // of what is seen of any point, about; 0: certainly nothing shines
@@ -70,7 +72,8 @@ struct LightSampler {
   LightScene scene;
   LightNumbers numbers;  // of all its lights
   LightTree tree;        // of the triangles, the quadrics, the emitters
-  // What sampling reads of a triangle, in one cache line; the last three of a quadric, too.
+  // It holds what sampling reads of a triangle, in one cache line. The last three members are those of a
+  // quadric, too.
   struct alignas(64) Slot {
     std::array<Point3f, 3> p;
     LightRef light;
@@ -80,8 +83,8 @@ struct LightSampler {
   static_assert(sizeof(Slot) == 64);
   std::vector<Slot> slots;  // in the tree's order; empty where there are no surfaces in it
   LightRef light_of(std::size_t slot) const { return numbers.light(tree.order()[slot]); }
-  // What follows from the corners of a triangle, of each; empty where they are so many that reading it would
-  // take longer than making it anew.
+  // It holds what follows from the corners of a triangle. There is one for each triangle, but none where
+  // there are so many that reading one would take longer than making it anew.
   struct Face {
     Vector3d normal;  // unit; 0 of one without area
     double area = 0;
@@ -94,7 +97,8 @@ struct LightSampler {
   Face face(std::size_t triangle) const {
     return faces.empty() ? Face(scene.triangles[triangle].p) : faces[triangle];
   }
-  // Of triangles with a texture that shines in places: which of `parts`, or `whole`; empty where all are.
+  // Triangles with a texture that shines in places have one of `parts`, others `whole`; empty where all are
+  // whole.
   static constexpr std::uint32_t whole = ~0u;
   std::vector<TriangleParts> parts;
   std::vector<std::uint32_t> parts_of;
@@ -105,24 +109,25 @@ struct LightSampler {
   std::vector<Glow> glows;  // of the area lights
   std::vector<PointEmitter> emitters;
   LightBounds bounds_of_emitter(const PointEmitter& emitter) const;  // power: luminous flux
-  // Light of one direction. The sun of a sky is one where something refracts: no sample of a BSDF would find
-  // its disc through glass, and of a disc a connection could not tell where behind the glass it ends. So each
-  // path and each photon sees one point of the disc.
+  // It is a light of one direction. The sun of a sky is one where some surface refracts. No sample of a BSDF
+  // would find its disc through glass. A connection to a disc could not tell where behind the glass it ends.
+  // So each path and each photon sees one point of the disc.
   struct Distant {
     Vector3d direction;       // unit, the way the light travels; of a sun, of its middle
     std::uint32_t light = 0;  // index into scene.lights
     Spectrum irradiance{};    // across its direction; of a sun, of all its disc
     std::shared_ptr<const SkyModel> sun{};
     DirectionFrame frame{};
-    // Towards each of the suns that it is for the rows of a film (tracer/prepared/daylight_rows.h); the first
-    // number then says which. Empty: it is one light.
+    // They are the directions towards each of the suns that it stands for in the rows of a film
+    // (tracer/prepared/daylight_rows.h). The first number then chooses the sun. Empty: it is one light.
     std::span<const Vector3d> rows{};
-    // Unit, for two numbers in [0,1).
+    // Returns a unit direction for two numbers in [0,1).
     Vector3d to_light(float u, float v) const;
-    // For one of those directions.
+    // Returns the irradiance from one of those directions.
     SampledSpectrum irradiance_from(Vector3d to_light, const SampledWavelengths& wavelengths) const;
   };
-  // The first number of Distant::to_light for a point of a row's disc, which another number in [0,1) tells.
+  // Returns the first number of Distant::to_light for a point of a row's disc, which u, another number in
+  // [0,1), chooses.
   static float number_of_row(std::size_t row, std::size_t rows, float u);
   std::vector<Distant> distant;     // ascending by their lights
   std::vector<std::uint32_t> suns;  // those of them that are suns
@@ -134,34 +139,37 @@ struct LightSampler {
   GuideTable share_guide;               // of the sums
   std::size_t choice_of(double u) const { return share_guide.bin(share_sums, u); }  // u in [0,1)
 
-  // The global ids [first, first + count) are triangles and quadrics that emit, numbered from `number` on.
+  // It says that the global ids [first, first + count) are triangles and quadrics that emit, numbered from
+  // `number` on.
   struct Run {
     std::uint32_t first = 0, count = 0, number = 0;
   };
   std::vector<Run> runs;  // ascending
 
-  // sample_light has no use for u[3]: there is nothing but the tree, and it is small enough for 24 bits.
+  // It says that sample_light does not need u[3]: there is nothing but the tree, and it is small enough for
+  // 24 bits.
   bool three_numbers = false;
-  // There is one light, and one direction to it; or some are all around. A sun, the sky about it or what
-  // shines into a room brings most wherever nothing is in its way, and most shadows are where something is.
+  // It says that one candidate is enough: there is one light with one direction to it, or some are all
+  // around. A sun, its sky or what shines into a room brings most wherever nothing is in its way, and most
+  // shadows are where something is.
   bool one_is_enough = false;
   bool tree_chooses = false;  // among several lamps of one radiance each
   Point3d lamp_center;        // where there is one lamp, of one or two surfaces and one radiance,
   double lamp_radius2 = 0;    // a sphere around it; else 0
 
-  // The first choice (LightNumbers) that is an environment.
+  // Returns the first choice (LightNumbers) that is an environment.
   std::size_t first_environment() const { return LightNumbers::choice_of_tree + 1 + distant.size(); }
-  // Whether sample_light may ever give something.
+  // Returns whether sample_light may ever give something.
   bool can_sample() const { return !share.empty(); }
-  // A scattered ray finds no light that connections go to as well.
+  // It says that a scattered ray finds no light that connections also go to.
   bool has_only_glows = false;
   bool fades = false;  // some emitter does, as POV-Ray's
-  // Whether background's radiance may be other than 0, or that of discs.
+  // They return whether background's radiance may be other than 0, and that of discs.
   bool has_background() const { return !infinite.empty() || !environments.empty() || has_discs(); }
   bool has_discs() const { return !suns.empty(); }
 };
 
-// Opens an image by its name in the records.
+// An ImageSource opens an image by its name in the records.
 using ImageSource = std::function<std::shared_ptr<const LightImage>(const std::string& filename)>;
 
 // Throws Error where an image is damaged.
@@ -182,7 +190,7 @@ struct LightSample {
   LightRef light;
 };
 
-// The radiance, at the wavelengths of one path, of the lamp without a texture that was met last.
+// It keeps the radiance, at the wavelengths of one path, of the lamp without a texture that was met last.
 struct LastLamp {
   static constexpr std::uint32_t none = ~0u;
   std::uint32_t area_light = none;
@@ -191,15 +199,15 @@ struct LastLamp {
 
 struct LightQuery;
 
-// Connections from p, of several candidates one after the other: what is the same for all is found once. It
-// refers to all its arguments. `far`: what distant lights take for the point, one pair for all of a path.
-// `last`: what a path keeps from one connection to the next.
+// It makes connections from p, of several candidates one after the other: what is the same for all is found
+// once. It refers to all its arguments. `far` has the numbers for distant lights at the point, one pair for
+// all of a path. `last` is what a path keeps from one connection to the next.
 class LightChooser {
  public:
   LightChooser(const LightSampler& sampler, Point3d p, const std::array<float, 2>& far,
                const SampledWavelengths& wavelengths, LastLamp& last)
       : sampler_(sampler), p_(p), far_(far), wavelengths_(wavelengths), last_(last), tree_(sampler.tree, p) {}
-  // u[0], u[1] are for the point, u[2], u[3] for the light. Empty where nothing arrives.
+  // u[0], u[1] are for the point, u[2], u[3] for the light. It returns nothing where nothing arrives.
   std::optional<LightSample> sample(const std::array<float, 4>& u);
 
  private:
@@ -213,47 +221,48 @@ class LightChooser {
   LightTree::Point tree_;
 };
 
-// One connection, as of LightChooser.
+// Returns one connection, as LightChooser does.
 std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, const std::array<float, 4>& u,
                                         const std::array<float, 2>& far,
                                         const SampledWavelengths& wavelengths, LastLamp& last);
-// `far` is u[0], u[1].
+// Here `far` is u[0], u[1].
 std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, const std::array<float, 4>& u,
                                         const SampledWavelengths& wavelengths);
 
-// How much samples of the lights differ by what they bring to a diffuse point: not at all; little, one lamp
-// that is small from there, or lamps that the tree chooses from by what they send there; or much.
+// It says how much samples of the lights differ by what they bring to a diffuse point. `none`: not at all.
+// `little`: there is one lamp that is small from there, or the tree chooses from lamps by what they send
+// there. `much`: all else.
 enum class Variety : std::uint8_t { none, little, much };
 Variety variety(const LightSampler& sampler, Point3d p);
 
-// The density, per solid angle and with the choice included, with which sample_light(from) gives the point
-// `at` of the triangle or quadric (global id), at that distance, seen at `cosine` from its normal (> 0: its
-// front).
+// Returns the density, per solid angle and with the choice included, with which sample_light(from) gives the
+// point `at` of the triangle or quadric (global id). The point is at that distance, seen at `cosine` from its
+// normal (> 0: its front).
 double triangle_pdf(const LightSampler& sampler, Point3d from, std::uint32_t triangle, Point3d at,
                     double distance, double cosine);
-// Radiance of an emitter's surface where a ray meets it, seen at `cosine` from its normal. 0 of directional
-// ones.
+// Returns the radiance of an emitter's surface where a ray meets it, seen at `cosine` from its normal. It is
+// 0 for directional lights.
 SampledSpectrum emitted(const LightSampler& sampler, std::uint32_t area_light, const TexturePoint& at,
                         double cosine, const SampledWavelengths& wavelengths, LastLamp& last);
 SampledSpectrum emitted(const LightSampler& sampler, std::uint32_t area_light, const TexturePoint& at,
                         double cosine, const SampledWavelengths& wavelengths);
-// Radiance that leaves a triangle or quadric at a point of it: of what is there of the surface, and of one
-// that nothing meets as if it was whole.
+// Returns the radiance that leaves a triangle or quadric at a point. It counts the part of the surface that
+// is there, and a surface that nothing meets as whole.
 SampledSpectrum leaving(const LightSampler& sampler, LightRef light, const EmissivePoint& point,
                         const SampledWavelengths& wavelengths);
-// What a ray finds that leaves the scene: the sum of constant and image environments, and the density, as of
-// triangle_pdf, with which sample_light gives the direction.
+// It holds what a ray finds that leaves the scene: the sum of constant and image environments. Its pdf is the
+// density, as of triangle_pdf, with which sample_light gives the direction.
 struct Background {
   SampledSpectrum radiance;
   double pdf = 0;
 };
-// `direction` unit, outwards.
+// `direction` is unit, outwards.
 Background background(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);
 
-// Radiance of the suns among the distant lights where a ray leaves the scene through their discs.
+// Returns the radiance of the suns among the distant lights where a ray leaves the scene through their discs.
 SampledSpectrum discs(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);
 
-// The lights of `background` and `discs`, one by one: see(index into scene.lights, radiance).
+// Visits the lights of `background` and `discs`, one by one: see(index into scene.lights, radiance).
 template <class See>
 void each_background_light(const LightSampler& sampler, Vector3d direction,
                            const SampledWavelengths& wavelengths, See&& see) {
@@ -266,8 +275,9 @@ void each_background_light(const LightSampler& sampler, Vector3d direction,
       see(d.light, d.sun->sun(d.frame.to_light(direction), wavelengths));
 }
 
-// Whether `accept` any of the directions to distant lights whose numbers (LightSampler::Distant::light) are
-// `bits` where `mask`, which is 2ⁿ − 1, is set. `far` as of sample_light.
+// Returns whether `accept` accepts any of the directions to certain distant lights. Their numbers
+// (LightSampler::Distant::light) are `bits` in the bits of `mask`, which is 2ⁿ − 1. `far` is that of
+// sample_light.
 template <class Accept>
 bool any_distant_light(const LightSampler& sampler, std::uint32_t bits, std::uint32_t mask,
                        const std::array<float, 2>& far, Accept&& accept) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// weigh of light_tree.h: the eight children of a node side by side.
+// This file has weigh of light_tree.h: the eight children of a node side by side.
 #pragma once
 
 #include "tracer/lights/light_tree.h"
@@ -27,8 +27,9 @@ VITRAIL_LANES void store(float (&to)[8], Floats<8> x) { __builtin_memcpy(to, &x,
 
 }  // namespace detail
 
-// Power · cos θ′ / max(d, near)², θ′ = θ − θ_o − θ_u the least angle between a normal of the child and the
-// direction to p, θ_u the half angle of its sphere from p; 0 where θ′ ≥ θ_e. All angles by cosines and sines.
+// Returns power · cos θ′ / max(d, near)², or 0 where θ′ ≥ θ_e. θ′ = θ − θ_o − θ_u is the least angle between
+// a normal of the child and the direction to p, and θ_u the half angle of its sphere from p. All angles are
+// held by cosines and sines.
 VITRAIL_LANES void weigh(const LightNode& node, Point3f p, LightWeights& result) {
   using F = Floats<8>;
   constexpr float of_unit = 1 / LightNode::unit, least_distance2 = LightNode::least_distance2;

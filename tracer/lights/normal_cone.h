@@ -5,13 +5,13 @@
 
 namespace vitrail {
 
-// Directions within `half_rad` of a unit axis; π: all.
+// It is the directions within `half_rad` of a unit axis; π: all.
 struct NormalCone {
   Vector3d axis{0, 0, 1};
   double half_rad = 0;
 };
 
-// The least cone around two.
+// Returns the least cone around two.
 NormalCone united(NormalCone a, NormalCone b);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights that shine from one point: point, spot, projection, goniometric.
+// These are lights that shine from one point: point, spot, projection, goniometric.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace vitrail {
 
-// To all sides: one whose beam is everything.
+// A light that shines to all sides is a spot whose beam is everything.
 struct SpotShape {
   SpotLight::Falloff falloff = SpotLight::Falloff::smoothstep;
   double cos_beam = 1, cos_cutoff = 0, cutoff_rad = 0, beam_rad = 0;
@@ -25,7 +25,7 @@ struct SpotShape {
   double tightness = 0;  // a power of the cosine
 };
 
-// A rectangle at z = 1 of half widths `half`.
+// It is a rectangle at z = 1 of half widths `half`.
 struct ProjectionShape {
   SpectrumParameter image;
   Point2d half{1, 1};
@@ -40,7 +40,7 @@ struct GoniometricShape {
   }
 };
 
-// How light leaves a point, whatever its place and colour: of all point lights the same one.
+// It says how light leaves a point, whatever its place and colour. All point lights share one.
 struct EmitterShape {
   std::variant<SpotShape, ProjectionShape, GoniometricShape> kind;
   Transform world_to_light;                 // its 3×3 block
@@ -49,14 +49,14 @@ struct EmitterShape {
   Vector3d axis{0, 0, 1};                   // of LightBounds, in the world
   double theta_o_rad = 0, theta_e_rad = 0;  // of LightBounds
 
-  // One that lanes know: a spot without a texture. Null: it is another.
+  // Returns the spot where it has no texture: lanes know this shape. Null: it is another shape.
   const SpotShape* plain() const {
     const auto* spot = std::get_if<SpotShape>(&kind);
     return spot && !spot->texture ? spot : nullptr;
   }
 };
 
-// A light, prepared. It refers to the light's record; many lights have little of their own.
+// It is a light, prepared. It refers to the light's record; with many lights, little is kept for each.
 struct PointEmitter {
   Point3d position;
   const Spectrum* intensity = nullptr;  // multiplies what its shape says
@@ -67,8 +67,8 @@ struct PointEmitter {
   bool casts_shadows = true;
 };
 
-// `image`: of a goniometric light. `aspect`: width over height of a projection's image. `records`: of the
-// textures. The light outlives its emitter.
+// `image` is that of a goniometric light. `aspect` is width over height of a projection's image. `records`
+// are those of the textures. The light has to outlive its emitter.
 PointEmitter make_emitter(const PointLight& light);
 PointEmitter make_emitter(const SpotLight& light, const Textures* textures = nullptr,
                           std::span<const Texture> records = {});
@@ -76,16 +76,17 @@ PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Tex
                           std::span<const Texture> records = {});
 PointEmitter make_emitter(const GoniometricLight& light, std::shared_ptr<const LightImage> image);
 
-// Radiant intensity, W·sr⁻¹·nm⁻¹. `direction` unit, from the light, in the world. `textures` may be null
-// where no emitter has one.
+// Returns the radiant intensity, W·sr⁻¹·nm⁻¹. `direction` is unit, from the light, in the world. `textures`
+// may be null where no emitter has one.
 SampledSpectrum intensity(const PointEmitter& emitter, Vector3d direction, const Textures* textures,
                           const SampledWavelengths& wavelengths);
 
-// The irradiance across the direction at a distance, over the intensity: 1/d², or as the light fades.
+// Returns the irradiance across the direction at a distance, over the intensity: 1/d², or as the light fades.
 double weakened(const PointEmitter& emitter, double distance);
 
-// What the tree is to know; power: luminous flux. A light that fades, of a scene whose farthest point is that
-// far from it, has the power of one that weakens as 1/d² beyond `near`, and sends nowhere less than it does.
+// Returns what the tree has to know; power: luminous flux. `farthest` is the distance of the scene's farthest
+// point. A light that fades gets the power of one that weakens as 1/d² beyond `near`, and that sends nowhere
+// less than it does.
 LightBounds bounds_of(const PointEmitter& emitter, double farthest);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light from one point to many, for any number of lanes: that of emitters whose shapes are plain.
+// This file has light from one point to many, for any number of lanes, of emitters whose shapes are plain.
 #pragma once
 
 #include "tracer/lights/point_emitter.h"
@@ -9,8 +9,8 @@
 namespace vitrail::lanes {
 namespace {
 
-// The part of its intensity that a spot without a texture sends where the cosine to its axis is z. spot(j):
-// the SpotShape of lane j.
+// Returns the part of its intensity that a spot without a texture sends where the cosine to its axis is z.
+// spot(j) is the SpotShape of lane j.
 template <class D, class SpotOf>
 VITRAIL_LANES D spot_part(D z, const SpotOf& spot) {
   using Falloff = SpotLight::Falloff;
@@ -40,11 +40,11 @@ struct EmitterSample {
   Mask<D> arrives;
   Vector<D> to_light;
   D distance;
-  // Irradiance across the direction: part · spectrum · weakening, in this order.
+  // The irradiance across the direction is part · spectrum · weakening, in this order.
   FloatsLike<D> part, weakening;
 };
 
-// draw_emitter. emitter(j): the PointEmitter of lane j, whose shape is plain.
+// It is draw_emitter. emitter(j) is the PointEmitter of lane j, whose shape is plain.
 template <class D, class EmitterOf>
 VITRAIL_LANES EmitterSample<D> draw_emitter(Vector<D> p, const EmitterOf& emitter) {
   EmitterSample<D> s;

@@ -9,17 +9,17 @@
 
 namespace vitrail {
 
-// ∫ Y dω of what a light projects through a rectangle at z = 1 of half widths `half`, its scale left out: of
-// an image by all of its texels, as pbrt-v4 has it. 0 only where certainly nothing shines.
+// Returns ∫ Y dω of what a light projects through a rectangle at z = 1 of half widths `half`, its scale left
+// out. An image counts by all of its texels, as in pbrt-v4. It is 0 only where certainly nothing shines.
 double projected_flux(const ProjectionLight& light, Point2d half, const Textures* textures,
                       std::span<const Texture> records);
-// Of side² alike parts of that frame, row by row from the bottom.
+// It has the flux of one of side² alike parts of that frame, row by row from the bottom.
 struct FramePart {
   double mean = 0, most = 0;  // of the flux per area of the frame
 };
 std::vector<FramePart> parts_of_frame(const SpectrumParameter& image, Point2d half, bool irradiance, int side,
                                       const Textures* textures, std::span<const Texture> records);
-// The mean of what a spot's texture has over its frame. 0 only where certainly nothing shines.
+// Returns the mean of a spot's texture over its frame. It is 0 only where certainly nothing shines.
 double mean_over_frame(const SpectrumParameter& texture, const Textures* textures,
                        std::span<const Texture> records);
 

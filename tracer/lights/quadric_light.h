@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sampling of one quadric that emits, and with what density. All is exact under affine transforms.
+// A QuadricLight samples one quadric that emits, and gives the density. All is exact under affine transforms.
 //
 //   whole sphere, from outside    uniform in the cone of directions that meets it, in its own space
 //   whole sphere, from inside     uniform in all directions of its own space
@@ -25,7 +25,8 @@ namespace vitrail {
 
 class QuadricLight {
  public:
-  // Refers to the record. `two_sided`: of its area light. `patches`: about how many it may have.
+  // It refers to the record. `two_sided` is that of its area light. `patches` is about the number that it may
+  // have.
   QuadricLight(const EmissiveQuadric& record, bool two_sided, int patches = QuadricPatches::most);
 
   struct Sample {
@@ -36,13 +37,13 @@ class QuadricLight {
     double pdf = 0;       // per solid angle
     bool front = false;   // is seen
   };
-  // u, v in [0,1). Empty where nothing that emits is seen.
+  // u and v are in [0,1). It returns nothing where nothing that emits is seen.
   std::optional<Sample> sample(Point3d from, float u, float v) const;
-  // The density, per solid angle, with which sample(from) gives the point `at` of it, seen at `cosine` from
-  // its normal (> 0: its front).
+  // Returns the density, per solid angle, with which sample(from) gives the point `at` of the quadric, seen
+  // at `cosine` from its normal (> 0: its front).
   double pdf(Point3d from, Point3d at, double cosine) const;
 
-  // One over the density, per area where it stands, of points uniform by the area of its own space.
+  // Returns one over the density, per area where it stands, of points uniform by the area of its own space.
   double area_by(Vector3d unit_normal) const {
     return own_area_ * area_stretch(record_->to_bundle, unit_normal);
   }
@@ -51,7 +52,7 @@ class QuadricLight {
   LightBounds bounds() const;  // box and normals
   const EmissiveQuadric& record() const { return *record_; }
   const PlacedQuadric& stands() const { return stands_; }
-  // Of the front of a closed one.
+  // Returns whether that side of a closed quadric is its front.
   bool is_front(bool outside) const { return outside != record_->quadric.inside_out; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A quadric that emits, cut into patches alike in area in its own space, of which a tree chooses by what each
-// can send to a point: those that are near, and turned to it.
+// A quadric that emits is cut into patches alike in area in its own space. A tree chooses among them by what
+// each can send to a point: those that are near, and turned to it.
 #pragma once
 
 #include <array>
@@ -11,26 +11,28 @@
 
 namespace vitrail {
 
-// Of a surface's sides, the inner one around its axis, which of all that is visible from a point.
+// It says which of a surface's sides are visible from a point: both, the outer one, or the inner one around
+// its axis.
 enum class Sides : std::uint8_t { both, outer, inner };
-// With the discs in its openings, what goes all the way round is the edge of a convex body: from between the
-// planes of these one side alone is seen, whatever else is there. `own_from` in the quadric's own space.
+// Returns the sides that are seen from `own_from`, in the quadric's own space. A quadric that goes all the
+// way round is, with the discs in its openings, the edge of a convex body. Between the planes of these discs
+// one side alone is seen.
 Sides sides_seen(const Quadric& quadric, Point3d own_from);
 
 class QuadricPatches {
  public:
   static constexpr int most = 256;
   static constexpr int fewest = 8;
-  // About `count` of them, a power of two within these.
+  // Makes about `count` patches: a power of two from `fewest` to `most`.
   QuadricPatches(const EmissiveQuadric& record, bool two_sided, int count);
 
   struct Place {
     double s = 0, t = 0;  // by area (quadric_area.h)
     double density = 0;   // there, of the unit square of (s,t)
   };
-  // u, v in [0,1). Empty where nothing that emits is seen.
+  // u and v are in [0,1). It returns nothing where nothing that emits is seen.
   std::optional<Place> choose(Point3d from, Sides seen, double u, double v) const;
-  // Of Place, of a point of it in its own space.
+  // Returns Place::density at a point of the quadric in its own space.
   double density(Point3d from, Sides seen, Point3d local) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is seen of a sky's model (scene/daylight/sky_model.h) at the wavelengths of paths, for any number of
-// lanes, without the sun's disc. All bands of a lane are worked out side by side.
+// This file has the radiance of a sky's model (scene/daylight/sky_model.h) at the wavelengths of paths, for
+// any number of lanes, without the sun's disc. All bands of a lane are worked out side by side.
 #pragma once
 
 #include "scene/daylight/sky_model.h"
@@ -11,7 +11,7 @@ namespace {
 
 namespace detail {
 
-// BandCurves::at: the segment, and t in it.
+// It is a place for BandCurves::at: the segment, and t in it.
 template <class D>
 struct CurvePlace {
   IntsLike<D> segment;
@@ -25,14 +25,14 @@ VITRAIL_LANES CurvePlace<D> place_on_curve(D x, int segments) {
   return {segment, to_floats(place - to_doubles(segment))};
 }
 
-// Of an angle by its cosine; SkyModel's, of its scattering.
+// Returns the place of an angle by its cosine, as SkyModel does for its scattering.
 template <class D>
 VITRAIL_LANES D place_of_angle(D cosine) {
   const D near = lanes::sqrt(D(1.0 - lanes::abs(cosine))) / 2.0;
   return select<D>(cosine < 0, 1.0 - near, near);
 }
 
-// Four bands from `b` on.
+// It holds four bands from `b` on.
 using FourBands = Floats<4>;
 VITRAIL_LANES FourBands bands_of(const float* p, std::size_t b) {
   FourBands bands;
@@ -46,13 +46,13 @@ VITRAIL_LANES FourBands on_curve(const BandCurves::Table& curve, int segment, fl
                                t * (bands_of(c + 2 * band_lanes, b) + t * bands_of(c + 3 * band_lanes, b)));
 }
 
-// Of all bands of each lane, relative to each band's mean.
+// It holds all bands of each lane, relative to each band's mean.
 template <int W>
 struct SkyBands {
   alignas(16) float value[W][band_lanes];
 };
 
-// The radiance at a wavelength: between the two nearest bands.
+// Returns the radiance at a wavelength: between the two nearest bands.
 template <class D>
 VITRAIL_LANES FloatsLike<D> between_bands(const double* radiance, const SkyBands<width<D>>& bands,
                                           FloatsLike<D> lambda_nm) {
@@ -73,8 +73,8 @@ VITRAIL_LANES FloatsLike<D> between_bands(const double* radiance, const SkyBands
 
 }  // namespace detail
 
-// SkyModel::sky, of the lanes that are `on`, else 0; d unit, of the light's frame; wavelengths(j) are those
-// of lane j.
+// It is SkyModel::sky, in the lanes that are `on`, else 0. d is unit, in the light's frame; wavelengths(j)
+// are those of lane j.
 template <class D, class WavelengthsOf>
 VITRAIL_LANES Four<FloatsLike<D>> sky_towards(const SkyModel& sky, Vector<D> d, Mask<D> on,
                                               const WavelengthsOf& wavelengths) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of whole spheres that emit, for any number of lanes: QuadricLight takes one lane of it.
+// This file has points of whole spheres that emit, for any number of lanes: QuadricLight takes one lane of
+// it.
 #pragma once
 
 #include "scene/geometry/portable_math.h"
@@ -10,14 +11,14 @@
 namespace vitrail::lanes {
 namespace {
 
-// How the unit sphere is seen from q.
+// It says how the unit sphere is seen from q.
 template <class D>
 struct SphereCone {
   D d2;  // |q|²
   Mask<D> outside;
   D height;  // 1 − cos θ of the cone; 2: all directions
 };
-// `doubt`: of |q|², where q is on the sphere.
+// `doubt` is the error of |q|² where q is on the sphere.
 template <class D>
 VITRAIL_LANES SphereCone<D> sphere_cone(Vector<D> q, std::type_identity_t<D> doubt) {
   SphereCone<D> cone;
@@ -28,7 +29,7 @@ VITRAIL_LANES SphereCone<D> sphere_cone(Vector<D> q, std::type_identity_t<D> dou
   cone.height = select<D>(cone.outside, seen, fill<D>(2));
   return cone;
 }
-// Of what is seen from outside, or inside; per solid angle of the own space.
+// Returns the density of what is seen from outside, or inside, per solid angle of the own space.
 template <class D>
 VITRAIL_LANES D cone_pdf(const SphereCone<D>& cone) {
   return 1.0 / (2 * pi * cone.height);
@@ -42,7 +43,7 @@ struct SphereSample {
   D distance, pdf;  // > 0 where it arrives; per solid angle
 };
 
-// Seen from `from`; sphere(j) is the PlacedQuadric of lane j.
+// Samples a sphere that is seen from `from`; sphere(j) is the PlacedQuadric of lane j.
 template <class D, class SphereOf>
 VITRAIL_LANES SphereSample<D> sample_sphere(Vector<D> from, FloatsLike<D> u, FloatsLike<D> v,
                                             const SphereOf& sphere) {
@@ -54,7 +55,7 @@ VITRAIL_LANES SphereSample<D> sample_sphere(Vector<D> from, FloatsLike<D> u, Flo
                     dot(VITRAIL_OF_SPHERE(inverse[2]), away)};
   const SphereCone<D> cone =
       sphere_cone(q, gather<D>([&](int j) __attribute__((always_inline)) { return sphere(j).doubt; }));
-  // A point of the disk, lifted onto the cap of that height: equal areas stay equal.
+  // It is a point of the disk, lifted onto the cap of that height: equal areas stay equal.
   const Vector<D> disk = sample_cosine_hemisphere(u, v);
   const D r2 = disk.x * disk.x + disk.y * disk.y;
   const D drop = cone.height * r2;
@@ -65,7 +66,7 @@ VITRAIL_LANES SphereSample<D> sample_sphere(Vector<D> from, FloatsLike<D> u, Flo
   s.outside = cone.outside;
   const D d = lanes::sqrt(cone.d2);
   const Frame<D> frame = frame_of(q * (-1.0 / d));
-  // The sine of the angle between the ray and the normal where they meet, over the radius of `cap`.
+  // It is the sine of the angle between the ray and the normal where they meet, over the radius of `cap`.
   const D sine = aside * d, cosine = safe_sqrt(1.0 - sine * sine * r2);
   const D turned = sine * cap.z - cosine * aside;  // sin of the angle at the centre, likewise
   Vector<D> direction = frame.to_world(cap);

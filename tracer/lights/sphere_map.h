@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of all directions: points (x,y) in [0,1]², y down from the top, in either of the projections of an
-// EnvironmentLight.
+// These are pictures of all directions: points (x,y) in [0,1]², y down from the top, in either of the
+// projections of an EnvironmentLight.
 #pragma once
 
 #include "scene/records/light.h"
@@ -9,7 +9,7 @@ namespace vitrail {
 
 using SphereProjection = EnvironmentLight::Projection;
 
-// `direction` unit.
+// `direction` is unit.
 Point2d sphere_point(SphereProjection projection, Vector3d direction);
 Vector3d sphere_direction(SphereProjection projection, Point2d point);
 

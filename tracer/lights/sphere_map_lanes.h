@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The projections of sphere_map.h, for any number of lanes.
+// This file has the projections of sphere_map.h, for any number of lanes.
 #pragma once
 
 #include "scene/geometry/portable_math.h"
@@ -10,14 +10,14 @@
 namespace vitrail::lanes {
 namespace {
 
-// Of the sphere's picture.
+// It is a point of the sphere's picture.
 template <class D>
 struct PicturePoint {
   D x, y;
 };
 
-// Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD" (2008). In |x|, |y|: a quadrant of the
-// square is an octant above the diagonal, and the one below it folded over the diagonal.
+// This is Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD" (2008). In |x|, |y| a quadrant
+// of the square has an octant above the diagonal, and below it the other one, folded over the diagonal.
 template <class D>
 VITRAIL_LANES Vector<D> equal_area_direction(PicturePoint<D> point) {
   const D x = 2.0 * point.x - 1.0, y = 2.0 * point.y - 1.0;

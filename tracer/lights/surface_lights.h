@@ -15,10 +15,10 @@ struct SurfaceLights {
   std::vector<std::uint32_t> parts_of;  // of each triangle; as in LightSampler
 };
 
-// What surfaces send: of textures by all that they have in boxes around parts of a surface. Power is luminous
-// flux over 683 lm/W of both sides that shine, and 0 only where certainly nothing does. None of an area
-// light's surfaces counts for less than a tenth of what all of them have for their area. Triangles are parted
-// where they are few.
+// Returns what surfaces send; a texture counts by all that it has in boxes around parts of a surface. Power
+// is luminous flux over 683 lm/W of both sides that shine, and 0 only where certainly nothing does. No
+// surface of an area light counts, for its area, for less than a tenth of the mean of all of them. Triangles
+// are parted where they are few.
 SurfaceLights surface_lights(const LightScene& scene, std::span<const QuadricLight> quadrics);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What emissive surfaces, triangles and quadrics alike, send from a point of them.
+// These functions give what emissive surfaces, triangles and quadrics alike, send from a point of them.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace vitrail {
 
-// Of an area light, by its record: whatever the surface's opacity is.
+// Returns the radiance of an area light by its record, whatever the surface's opacity is.
 inline SampledSpectrum surface_radiance(const LightSampler& s, std::uint32_t area_light,
                                         const TexturePoint& at, const SampledWavelengths& wavelengths,
                                         LastLamp& last) {
@@ -23,8 +23,8 @@ inline SampledSpectrum surface_radiance(const LightSampler& s, std::uint32_t are
   return s.scene.textures->spectrum(light.radiance, at, wavelengths) * light.scale;
 }
 
-// How much of the surface there is. None at all, everywhere: a light that nothing meets, and that shines as
-// if it was whole.
+// Returns how much of the surface there is. A surface of opacity 0 everywhere is a light that nothing meets,
+// and shines as if it was whole.
 inline float shining_share(const LightSampler& s, const FloatParameter& opacity, const TexturePoint& at) {
   if (const auto* constant = std::get_if<float>(&opacity))
     return is_invisible(opacity) ? 1 : std::clamp(*constant, 0.0f, 1.0f);
@@ -32,7 +32,7 @@ inline float shining_share(const LightSampler& s, const FloatParameter& opacity,
   return static_cast<float>(std::clamp(s.scene.textures->number(opacity, at), 0.0, 1.0));
 }
 
-// What leaves a slot's surface, of which `point()` is an EmissivePoint.
+// Returns the radiance that leaves a slot's surface; `point()` gives its EmissivePoint.
 template <class Point>
 SampledSpectrum shining(const LightSampler& s, const LightSampler::Slot& t, const Point& point,
                         const SampledWavelengths& wavelengths, LastLamp& last) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media that fade as POV-Ray's interiors do (scene/records/medium.h).
+// These media fade as POV-Ray's interiors do (scene/records/medium.h).
 #pragma once
 
 #include "scene/records/medium.h"

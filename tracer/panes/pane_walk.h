@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that parallel faces reflect to and fro before they let it through as it came: a connection to a
-// distant light walks its way back, and a photon tells whether a connection finds its way.
+// Parallel faces reflect light to and fro before they let it through in the direction in which it came. A
+// connection to a distant light walks the light's way back, and a photon tells whether a connection finds its
+// way.
 //
-// A connection that meets a face goes on, or back by chance. What it has passed tells by what chance, so that
-// every way brings the same: with R the reflectance of the faces before it, seen from where it comes, and of
-// the face r and t from the near side, r' and t' from the far one, all orders together are (Stokes 1862)
+// A connection that meets a face goes on, or back by chance. The chance depends on what it has passed, so
+// that every way brings the same. R is the reflectance of the faces before it, seen from where it comes. The
+// face has r and t from the near side, r' and t' from the far one. All orders together are then (Stokes 1862)
 //
 //   t/(1 − R r) of what arrives, and then R is r' + t t' R/(1 − R r).
 //
 // So it goes back with the chance R r, and brings t/(1 − R r) where it goes on. R guides the walk alone:
-// where faces have ends or absorb, a walk says so by what becomes of it, and the mean is that of all ways.
+// where faces have ends or absorb, the walk itself meets that, and the mean is that of all ways.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,7 @@
 
 namespace vitrail {
 
-// What a face does with light on the side where it is met, and on the other.
+// It says what a face does with light on the side where it is met, and on the other.
 template <class T>
 struct FaceLight {
   T reflected, transmitted, reflected_far, transmitted_far;
@@ -32,7 +33,7 @@ struct PaneWalk {
   bool back = false;        // on the way back
 
   static constexpr std::uint32_t most_faces = 127;
-  // In 24 bits. A walk is rounded after each of its events.
+  // Returns the walk in 24 bits. A walk is rounded after each of its events.
   std::uint32_t bits() const {
     const double code = std::clamp(behind, 0.0, 1.0) * 0x1p16 + 0.5;
     return static_cast<std::uint32_t>(std::min(code, 65535.0)) << 8 | faces << 1 | (back ? 1u : 0u);
@@ -41,7 +42,7 @@ struct PaneWalk {
     return {(bits >> 8) * 0x1p-16, bits >> 1 & most_faces, (bits & 1) != 0};
   }
 
-  // That a face turns it. The first of all turns all of what comes back.
+  // Returns the chance that a face turns it. The first face of all turns all that comes back.
   double chance_to_turn(const FaceLight<double>& f) const {
     if (faces == 0) return 0;
     if (!back) return behind * f.reflected;
@@ -59,16 +60,16 @@ struct PaneWalk {
       --faces;
     }
   }
-  // Through what absorbs.
+  // Passes through an absorber.
   void fade(double transmittance) {
     const double to_and_fro = transmittance * transmittance;
     behind = back ? std::min(1.0, behind / to_and_fro) : behind * to_and_fro;
   }
 };
 
-// The same of a photon, which meets the faces of a connection's walk from its end. A connection goes back
-// among the faces that it has passed alone; so a photon that comes back among faces has to pass one more than
-// it has gone back over, before a connection finds it.
+// It is the same for a photon, which meets the faces of a connection's walk from its end. A connection goes
+// back only among the faces that it has passed. So a photon that comes back among faces has to pass one more
+// than it has gone back over, before a connection finds it.
 struct PhotonWalk {
   std::uint32_t before = 0;  // faces to pass
   bool back = false;         // against the light
@@ -90,7 +91,8 @@ struct PhotonWalk {
   }
 };
 
-// How light that had `to_light` in its own medium stands to a face that parallel faces have brought it to.
+// It says how light that had `to_light` in its own medium stands to a face that parallel faces have brought
+// it to.
 struct ParallelWay {
   Vector3d to_light{};
   bool is_in = false, is_out = false;  // the near side is the light's own medium; the far side is
@@ -101,16 +103,16 @@ struct ParallelWay {
   bool holds() const { return is_in || is_out || is_within; }
 };
 
-// A smooth face as it is met.
+// It is a smooth face as a ray meets it.
 struct MetFace {
   Vector3d normal;        // unit, on the near side
   double near_index = 1;  // of refraction
   double eta = 1;         // index behind / in front
 };
 
-// Of light, or a connection to it, that goes along `direction`, or on its way back against it. The normals of
-// this and the faces before it are known to doubt_rad; all is reversible, so that light finds what
-// connections find.
+// Returns the way of light, or of a connection to it, that goes along `direction`, or with `back` against it.
+// The normals of this face and those before it are known to doubt_rad. All is reversible, so that light finds
+// what connections find.
 ParallelWay parallel_way(Vector3d direction, bool back, Vector3d to_light, const MetFace& face,
                          double doubt_rad);
 

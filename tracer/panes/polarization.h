@@ -29,7 +29,7 @@ struct Polarization {
     const double step = std::floor(q * steps + static_cast<double>(u));
     return {static_cast<std::int8_t>(std::clamp<double>(step, -steps, steps))};
   }
-  // In 6 bits, two's complement; `of` takes anything above them.
+  // Returns the code in 6 bits, two's complement; `of` takes anything above them.
   std::uint32_t bits() const { return static_cast<std::uint32_t>(code) & 0x3f; }
   static Polarization of(std::uint32_t bits) {
     return {static_cast<std::int8_t>(static_cast<int>((bits & 0x3f) ^ 0x20) - 0x20)};
@@ -37,7 +37,7 @@ struct Polarization {
 };
 
 // Returns Q/I as a face of normal n sees it of light that goes along d and came by a face of normal `before`:
-// the planes of incidence hold d and either normal. All of unit length.
+// the planes of incidence hold d and either normal. All are of unit length.
 inline double seen_by_face(Polarization polarization, Vector3d before, Vector3d d, Vector3d n) {
   const Vector3d s = cross(before, d), t = cross(n, d);
   const double lengths = dot(s, s) * dot(t, t);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons for which memory has no room, in files of the scratch directory. They come as sorted runs, are
-// merged into one order, and are found by their cells. A rank has few of them in memory at a time.
+// A PhotonFile holds photons for which memory has no room, in files of the scratch directory. They come as
+// sorted runs, are merged into one order, and are found by their cells. A rank has few of them in memory at a
+// time.
 #pragma once
 
 #include <array>
@@ -13,17 +14,18 @@
 
 namespace vitrail {
 
-// A photon that landed, with the number of the cell where it did.
+// It is a photon that landed, with the number of the cell where it did.
 struct PlacedPhoton {
   std::uint64_t cell = 0;
   Photon photon;
 };
 
-// The order in which photons are added up: cell, number, depth. None of them is of where they were kept.
+// It is the order in which photons are added up: cell, number, depth. It does not depend on where they were
+// kept.
 bool comes_before(const PlacedPhoton& a, const PlacedPhoton& b);
 
-// Reading after `merge` is safe from many threads. All but clear() throw MachineError where the disk is full
-// or does not answer.
+// Any number of threads may read after `merge`. All but clear() throw MachineError where the disk is full or
+// does not answer.
 class PhotonFile {
  public:
   PhotonFile() = default;
@@ -34,8 +36,8 @@ class PhotonFile {
   void clear();
   // Appends photons that are in order among themselves.
   void add_run(std::span<const PlacedPhoton> sorted);
-  // Puts all runs into one order, through `buffer`, of which the more the faster. At most `most_entries`
-  // cells are kept in memory, by which photons are found.
+  // Puts all runs into one order, through `buffer`: a larger one is faster. It keeps at most `most_entries`
+  // cells in memory, by which photons are found.
   void merge(std::span<PlacedPhoton> buffer, std::size_t most_entries);
   // Calls `visit` with the photons of the cells from `first` to `last`, in order.
   template <class Visit>
@@ -52,7 +54,7 @@ class PhotonFile {
   };
   class Merging;
   std::span<const PlacedPhoton> block(std::size_t first, std::array<PlacedPhoton, block_photons>& into) const;
-  // Returns where one looks for a cell: no photon of it lies before.
+  // Returns the place where the search for a cell begins: no photon of the cell lies before it.
   std::size_t begin_of(std::uint64_t cell) const;
 
   int runs_descriptor_ = -1, merged_descriptor_ = -1;

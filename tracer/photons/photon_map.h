@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The photons of one iteration that landed where a rank answers for them. What is gathered is a function of
-// the photons within the radius alone, to the bit: they are added up in an order of their own (cell, number,
-// depth), whatever else the map holds and in whatever order they came. Those that memory has no room for are
-// in files.
+// A PhotonMap holds the photons of one iteration that landed where a rank answers for them. What is gathered
+// is a function of the photons within the radius alone, to the bit. They are added up in an order of their
+// own (cell, number, depth), whatever else the map holds and in whatever order they came. Photons that memory
+// has no room for are in files.
 #pragma once
 
 #include <algorithm>
@@ -18,30 +18,31 @@ namespace vitrail {
 
 class PhotonMap {
  public:
-  // `most`: photons that there is memory for, 0: no limit.
+  // `most` is the number of photons that there is memory for, 0: no limit.
   explicit PhotonMap(std::size_t most = 0);
 
-  // Begins an iteration, without photons. `bounds` of the scene: the cells' origin.
+  // Begins an iteration, without photons. The `bounds` of the scene give the cells' origin.
   void begin(double radius, const Bounds3f& bounds);
-  // Throws MachineError where the disk cannot take those beyond the limit; so do `build` and what gathers.
+  // Throws MachineError where the disk cannot take those beyond the limit; so do `build` and the functions
+  // that gather.
   void add(const Photon& photon);
-  // Puts them in order for `gather`.
+  // Puts the photons in order for `gather`.
   void build();
 
-  // Σ f·Φ·|cos θ_s|/|cos θ_g| / (πr²) over the photons in the disc around the point that were scattered less
-  // than `max_depth` times together with its path, θ_s and θ_g from the shading and the surface's normal:
-  // what scatters by the shading normal is lit by the surface's (Veach 1997, §5.3). Times the weight.
-  // `found`: their number is added to it.
+  // Returns the weight times Σ f·Φ·|cos θ_s|/|cos θ_g| / (πr²) over the photons in the disc around the point.
+  // Only those count that were scattered less than `max_depth` times together with the point's path. θ_s and
+  // θ_g are from the shading and the surface's normal: what scatters by the shading normal is lit by the
+  // surface's (Veach 1997, §5.3). The number of these photons is added to `found`.
   SampledSpectrum gather(const Gather& at, std::uint32_t max_depth, std::uint64_t& found) const;
-  // Of the photons that landed at the sensor which `at` names, those that `is_of` takes by their number: the
-  // sum of their powers times the weight.
+  // Returns the weight times the sum of powers of the photons that landed at the sensor that `at` names. Only
+  // those count whose number `is_of` accepts.
   template <class IsOf>
   SampledSpectrum at_sensor(const Gather& at, std::uint32_t max_depth, std::uint64_t& found,
                             const IsOf& is_of) const;
 
   std::size_t in_memory() const { return photons_.size(); }
   std::uint64_t written_bytes() const { return file_.written_bytes(); }  // to the disk, in all
-  // One in memory takes these bytes, with its part of what finds those in files.
+  // A photon in memory takes these bytes, with its part of the table that finds those in files.
   static constexpr std::size_t photon_bytes = sizeof(PlacedPhoton) + 2;
 
  private:

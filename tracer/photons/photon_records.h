@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What photon mapping keeps and sends beside rays. Packed, trivially copyable, little-endian.
+// These records are what photon mapping keeps and sends beside rays. They are packed, trivially copyable and
+// little-endian.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +13,8 @@
 namespace vitrail {
 
 #pragma pack(push, 1)
-// Where a photon met a surface at which light is gathered. One that crossed the disc of a sensor has the
-// sensor's name (sensor_discs.h) in the place of its own point and direction.
+// A Photon is where a photon met a surface at which light is gathered. One that crossed the disc of a sensor
+// has the sensor's name (sensor_discs.h) in the place of its own point and direction.
 struct Photon {
   float p[3];
   DirectionCode direction;  // the way it travelled
@@ -28,8 +29,9 @@ struct Photon {
   }
 };
 
-// What light a point of a diffuse surface, or of one below a smooth coat, gets that photons bring, and what
-// of it goes to the camera. Of a sensor, whose name are `p` and `out`, the normals and the shape are unused.
+// A Gather asks for the light that photons bring to a point of a diffuse surface, or of one below a smooth
+// coat. It also holds what part of that light goes to the camera. The question of a sensor has the sensor's
+// name in `p` and `out`; its normals and shape are unused.
 struct Gather {
   float p[3];
   DirectionCode out, geometric, shading;  // towards the camera; normals on the side that is lit

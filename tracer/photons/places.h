@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose a point is: the cells of the kd-tree tile all of space, and of domains that share one the first has
-// its points.
+// These functions say which domain a point belongs to. The cells of the kd-tree tile all of space. The first
+// of several domains that share a cell has its points.
 #pragma once
 
 #include "bundle/manifest.h"
 
 namespace vitrail {
 
-// Visits the domains whose cells lie within `radius` of a point; of radius 0 the one whose it is.
+// Visits the domains whose cells lie within `radius` of a point; with radius 0, the domain that has the
+// point.
 template <class Visit>
 void for_each_domain_near(const Manifest& m, const float (&p)[3], double radius, const Visit& visit,
                           std::uint32_t from = 0) {

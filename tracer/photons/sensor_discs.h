@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The discs around sensors: photons that cross one bring their light to its sensor. Flux through a disc over
-// its area is the mean irradiance of the disc, whichever way the photons come.
+// These are the discs around sensors: photons that cross one bring their light to its sensor. Flux through a
+// disc over its area is the mean irradiance of the disc, whichever way the photons come.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace vitrail {
 
-// Where a sensor is and how it faces, as photons and questions name it: of all that have the same name one is
-// kept.
+// It says where a sensor is and how it faces, as photons and questions name it. One of all sensors with the
+// same name is kept.
 struct SensorName {
   Point3f p;
   DirectionCode facing;  // against its normal: the way that light comes which it measures in full
@@ -49,8 +49,8 @@ class SensorDiscs {
     Vector3d way;
     double end, radius;
   };
-  // A ball around the middles of the discs [begin, end). Children of an inner node: the next one, and
-  // `other`.
+  // It is a ball around the middles of the discs [begin, end). An inner node has two children: the next node,
+  // and `other`.
   struct Node {
     Point3d centre;
     double radius = 0;

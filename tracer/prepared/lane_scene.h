@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the stages that take several paths at a time (transport/waves/lane_stages.h) read of a scene: which
-// surfaces and lamps are of a kind that they know.
+// A LaneScene is what the stages that take several paths at a time (transport/waves/lane_stages.h) read of a
+// scene. It says which surfaces and lamps are of a kind that they know.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ enum class LaneKind : std::uint8_t {
 };
 inline constexpr std::size_t lane_kinds = 13;
 
-// An image that lanes look up: by (u,v), bilinear, the finest level.
+// It is an image that lanes look up: by (u,v), bilinear, the finest level.
 struct LaneTexture {
   const BakedImage* image = nullptr;
   std::uint32_t id = 0;  // of Manifest::textures
@@ -39,11 +39,11 @@ struct LaneTexture {
   Wrap wrap = Wrap::repeat;
 };
 
-// The parameters of a BSDF at a point.
+// It holds the parameters of a BSDF at a point.
 struct LaneBsdf {
   static constexpr std::size_t most_spectra = 3;
-  // Reflectance; index η and κ and a factor; diffuse and specular reflectance; base colour;
-  // factors of what is reflected and of what is let through.
+  // They depend on the kind: a reflectance; index η and κ and a factor; diffuse and specular reflectance; a
+  // base colour; factors of reflected and of transmitted light.
   SampledSpectrum spectra[most_spectra];
   Microfacets microfacets;
   double eta = 1, internal_reflectance = 0;       // of plastics; eta of rough glass, too
@@ -53,11 +53,11 @@ struct LaneBsdf {
   PrincipledBsdf principled;
   FinishBsdf finish;
 };
-// Of a surface of that kind.
+// Returns the parameters of a BSDF that LaneKind knows.
 LaneBsdf lane_bsdf(const Bsdf& bsdf);
 
-// The part of a CoatedDiffuseBsdf or CoatedConductorBsdf that is above its base, whose spectra and facets are
-// those of a LaneBsdf.
+// It is the part of a CoatedDiffuseBsdf or CoatedConductorBsdf above its base. A LaneBsdf has the base's
+// spectra and facets.
 struct LaneCoating {
   double eta = 1;
   Microfacets interface;
@@ -78,8 +78,8 @@ struct LaneMaterial {
   FlatSpectrum spectra[LaneBsdf::most_spectra];  // those of `constants`
   LaneBsdf constants;
   LaneTexture texture;  // of `diffuse`, where it has an image: the reflectance
-  // Of `glass`: the indices on its back and on its front; whether its factors are not 1. Of `sheet`: what it
-  // has over what is around it, and 1.
+  // They are the indices of `glass` on its back and on its front, and whether its factors are not 1. A
+  // `sheet` has its index over that of what is around it, and 1.
   float eta_behind = 1, eta_before = 1;
   bool is_tinted = false;
 
@@ -95,12 +95,13 @@ struct LaneSurface {
   bool blocks = false;  // no connection passes it
 };
 
-// A lamp that is there as a whole and shines to all sides, alike all over; an emitter of a plain shape; or
-// one for lane by lane.
+// A lamp is there as a whole and shines to all sides, alike all over, or is an emitter of a plain shape.
+// `other` lamps are taken lane by lane.
 enum class LaneLamp : std::uint8_t { other, triangle, sphere, emitter };
 
 struct LaneScene {
-  // A connection may be no shadow ray: light may pass something straight on, or has nothing in its way.
+  // A connection may be other than a shadow ray: light may pass something straight on, or has nothing in its
+  // way.
   bool has_connections = false;
   bool passes_light = false;            // light may: it goes by connections to all lights
   bool has_walks = false;               // connections to distant lights walk through panes
@@ -109,15 +110,16 @@ struct LaneScene {
   std::vector<LaneMaterial> materials;  // of all Manifest::materials
   std::vector<LaneSurface> surfaces;    // of all Manifest::surfaces
   std::vector<LaneLamp> lamps;          // of each slot of the lights' tree
-  // Of all Manifest::area_lights that have no texture: the radiance.
+  // They are the radiances of all Manifest::area_lights that have no texture.
   std::vector<FlatSpectrum> radiances;
-  // Of all LightSampler::distant: whether lanes know it, as it is no sun; the irradiance.
+  // They are of all LightSampler::distant: whether lanes know the light, which is then no sun, and its
+  // irradiance.
   struct Distant {
     bool is_plain = false;
     FlatSpectrum irradiance;
   };
   std::vector<Distant> distant;
-  // Stand for what a path does not have.
+  // They stand for what a path does not have.
   PointEmitter no_emitter;
   LightSampler::Slot no_slot;
   LightSampler::Face no_face;

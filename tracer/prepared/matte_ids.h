@@ -8,8 +8,8 @@
 
 namespace vitrail {
 
-// What films keep of things (film/mattes.h), by the indices of the manifest's records; empty where the film
-// does not keep it.
+// They are what films keep of things (film/mattes.h), by the indices of the manifest's records; empty where
+// the film does not keep it.
 struct MatteIds {
   std::vector<std::uint32_t> surfaces, materials;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every rank holds of the scene besides domains, prepared for tracing.
+// A RenderScene is what every rank holds of the scene besides domains, prepared for tracing.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@
 namespace vitrail {
 
 struct RenderScene {
-  // `texture_bytes`: for tiles of images in memory. Throws Error for texture files that are damaged.
+  // `texture_bytes` is the memory for tiles of images. Throws Error for texture files that are damaged.
   RenderScene(Manifest manifest, const std::filesystem::path& bundle, std::uint64_t texture_bytes,
               std::uint64_t seed, const SamplingChoices& sampling = {});
   RenderScene(const RenderScene&) = delete;  // its parts refer to each other
@@ -41,11 +41,11 @@ struct RenderScene {
   LightSampler lights;
   LaneScene lanes;
   Transform bundle_to_camera;
-  // Where the camera is that sensors take the place of: what is known to be around it tells what is around
-  // all. None: the camera's medium is around all.
+  // It is the place of the camera that sensors stand in for. What is known to be around it tells what is
+  // around all sensors. None: the camera's medium is around all of them.
   std::optional<Point3d> replaced_camera;
   double pixel_angle = 0;  // between neighbouring camera rays in the middle of the picture, rad
-  // Of what a pixel is wide that stands so far off: width + angle · distance. 0: it sees no edges.
+  // A pixel is width + angle · distance wide at a distance. 0: it sees no edges.
   struct Pixel {
     double width = 0, angle_rad = 0;
   } pixel;
@@ -57,7 +57,7 @@ struct RenderScene {
   MatteIds mattes;
 };
 
-// The surface that the hit's triangle belongs to; `domain` holds the hit.
+// Returns the surface that the hit's triangle belongs to; `domain` holds the hit.
 const Surface& surface_of(const Manifest& manifest, const DomainView& domain, const Hit& hit);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a segment of a curve is cut into parts.
+// These functions cut a segment of a curve into parts.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// A control point, or a ball on the curve.
+// It is a control point, or a ball on the curve.
 struct CurveBall {
   Vector3d at;
   double radius;
@@ -22,15 +22,15 @@ using CubicPart = std::array<CurveBall, 4>;  // by its Bézier control points
 
 inline constexpr int most_halvings = 6;
 
-// The square of how far a cubic is from its chord at most (Wang 1984: ¾ of the greatest second difference),
-// which falls with the fourth power of the number of parts.
+// Returns the square of the greatest distance of a cubic from its chord (Wang 1984: ¾ of the greatest second
+// difference). It falls with the fourth power of the number of parts.
 inline double squared_chord_error(const PlacedCurve& c) {
   const Vector3d p1 = cast<double>(c.to[0]), p2 = cast<double>(c.to[1]), p3 = cast<double>(c.to[2]);
   const Vector3d bend0 = p2 - p1 * 2.0, bend1 = p3 - p2 * 2.0 + p1;
   return 0.5625 * std::max(dot(bend0, bend0), dot(bend1, bend1));
 }
 
-// So many that chords are within an eighth of the greatest radius of the curve.
+// Returns the halvings that bring chords within an eighth of the greatest radius of the curve.
 inline int halvings(const PlacedCurve& c, double greatest_radius) {
   if (c.straight) return 0;
   const double off = squared_chord_error(c);
@@ -42,8 +42,8 @@ inline int halvings(const PlacedCurve& c, double greatest_radius) {
 
 inline double greatest_radius(const PlacedCurve& c) { return double{*std::ranges::max_element(c.radius)}; }
 
-// Into the curve, of the plane that cuts off its first end; 0 where that is round. Of its last end, likewise,
-// out of the curve.
+// They return the normals of the planes that cut off the curve's ends; 0 where an end is round. The first
+// plane's normal points into the curve, the last plane's out of it.
 inline Vector3d first_plane(const PlacedCurve& c) {
   for (const Vector3f& to : c.to)
     if (c.straight || !(to == Vector3f{})) return cast<double>(to);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a quadric stands, and what follows from that alone: each value as it would be computed anew.
+// A PlacedQuadric says where a quadric stands, and holds what follows from that alone: each value as it would
+// be computed anew.
 #pragma once
 
 #include "bundle/instance.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The test that decides hits of quadrics: a pure function of the ray, the quadric and where it stands, in
-// double and without FMA, so that every kernel and every decomposition has the same bits.
+// This test decides hits of quadrics. It is a pure function of the ray, the quadric and where it stands, in
+// double and without FMA. Every kernel and every decomposition thus has the same bits.
 #pragma once
 
 #include "bundle/instance.h"
@@ -16,14 +16,14 @@ struct QuadricHit {
                   // origin
 };
 
-// At most two, t ascending, all > 0.
+// There are at most two, t ascending, all > 0.
 struct QuadricHits {
   int count = 0;
   QuadricHit at[2];
 };
 
-// `starts_there`: the ray starts on this quadric. Of the two points where its line meets the whole surface
-// the one nearer to its origin is then where it starts, and no hit: glass is left on the other side.
+// `starts_there` says that the ray starts on this quadric. Its line meets the whole surface in two points.
+// The one nearer to the ray's origin is then where it starts, and no hit: glass is left on the other side.
 QuadricHits quadric_hits(const RayConstants& ray, const Affine& to_bundle, const Quadric& quadric,
                          bool starts_there);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where lines meet quadrics, for any number of lanes: quadric_hits takes one lane of it.
+// This file finds where lines meet quadrics, for any number of lanes: quadric_hits takes one lane of it.
 #pragma once
 
 #include "tracer/quadrics/placed_quadric.h"
@@ -8,7 +8,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// a·s² + 2b·s + c of a whole surface at p + s·d.
+// It is a·s² + 2b·s + c of a whole surface at p + s·d.
 template <class D>
 struct Quadratic {
   D a, b, c;
@@ -18,7 +18,7 @@ VITRAIL_LANES Quadratic<D> sphere_quadratic(Vector<D> p, Vector<D> d) {
   return {dot(d, d), dot(p, d), dot(p, p) - 1.0};
 }
 
-// The line o + t·d from the point that is nearest to the middle, at t = `nearest`.
+// It is the line o + t·d from the point that is nearest to the middle, at t = `nearest`.
 template <class D>
 struct NearestPoint {
   D nearest;
@@ -30,7 +30,7 @@ VITRAIL_LANES NearestPoint<D> nearest_point(Vector<D> origin, Vector<D> directio
   return {nearest, origin + direction * nearest};
 }
 
-// The two ends of what lies within, ascending.
+// They are the two ends of the part of a line within the surface, ascending.
 template <class D>
 struct Crossing {
   D s, t;          // from the nearest point, from the ray's origin
@@ -41,7 +41,7 @@ struct Crossings {
   Crossing<D> first, second;
 };
 
-// `starts_there` as of quadric_hits.
+// `starts_there` is that of quadric_hits.
 template <class D>
 VITRAIL_LANES Crossings<D> crossings(Quadratic<D> f, D nearest, std::type_identity_t<Mask<D>> starts_there) {
   const D discriminant = f.b * f.b - f.a * f.c;
@@ -65,7 +65,7 @@ VITRAIL_LANES Crossings<D> crossings(Quadratic<D> f, D nearest, std::type_identi
   return of;
 }
 
-// The direction as RayConstants has it, which divides by its greatest component.
+// Returns the direction as RayConstants has it, which divides by its greatest component.
 template <class F>
 VITRAIL_LANES Vector<DoublesLike<F>> sheared_direction(Vector<F> direction) {
   using D = DoublesLike<F>;
@@ -75,7 +75,7 @@ VITRAIL_LANES Vector<DoublesLike<F>> sheared_direction(Vector<F> direction) {
   return {d.x / greatest * greatest, d.y / greatest * greatest, d.z / greatest * greatest};
 }
 
-// vitrail::quadric_hits of whole spheres, sphere(j) the PlacedQuadric of lane j.
+// It is vitrail::quadric_hits for whole spheres; sphere(j) is the PlacedQuadric of lane j.
 template <class F, class SphereOf>
 VITRAIL_LANES Crossings<DoublesLike<F>> sphere_crossings(Vector<F> origin, Vector<F> direction,
                                                          const SphereOf& sphere,

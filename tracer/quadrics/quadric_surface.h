@@ -6,7 +6,7 @@
 
 namespace vitrail {
 
-// A point of a quadric where it stands.
+// It is a point of a quadric where it stands.
 struct QuadricPoint {
   Point3d p;
   Vector3d normal;      // unit, of the front
@@ -16,10 +16,10 @@ struct QuadricPoint {
 };
 
 Point3d placed_point(const Affine& to_bundle, Point3d local);
-// Unit, of the front.
+// Returns the unit normal of the front.
 Vector3d placed_quadric_normal(const OrientedQuadric& quadric, const Affine& to_bundle, Point3d local);
-// `local` on the surface, in the quadric's own space. (u,v) of what is no curve cost two arctangents, and are
-// left 0 unless they show.
+// `local` is on the surface, in the quadric's own space. The (u,v) of a quadric that is no curve cost two
+// arctangents; they are left 0 unless `uvs_show`.
 QuadricPoint quadric_point(const OrientedQuadric& quadric, const Affine& to_bundle, Point3d local,
                            bool uvs_show = true);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way from the kd-tree's root to the cell of each domain.
+// It holds the way from the kd-tree's root to the cell of each domain.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ class CellWays {
  public:
   explicit CellWays(const Manifest& manifest);
 
-  // A leaf, or the first node of the cell that the domain shares with others.
+  // Returns a leaf, or the first node of the cell that the domain shares with others.
   std::uint32_t cell_of(std::uint32_t domain) const { return cells_[domain].reference; }
-  // The node above a domain's cell, and above a node; `none` above the root.
+  // They return the node above a domain's cell, and above a node; it is `none` above the root.
   static constexpr std::uint32_t none = 0xffffffffu;
   std::uint32_t above_cell(std::uint32_t domain) const { return cells_[domain].above; }
   std::uint32_t above(std::uint32_t node) const { return above_[node]; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What connections to lights carry beside what every ray does.
+// These codes are what connections to lights carry beside what every ray does.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 namespace vitrail {
 
-// A power of two that is not below x, out of 15 from 2^`least` on, or 0; more than the greatest is that.
+// It codes the least power of two that is not below x, out of 15 from 2^`least` on, or 0. Greater values
+// become the greatest power.
 template <int least>
 struct PowerCode {
   static std::uint32_t of(double x) {
@@ -25,9 +26,9 @@ struct PowerCode {
   }
 };
 
-// How far the faces of glass that light has crossed since it last had the direction of its distant light may
-// be off, in rad: the greatest of them, at most 3.6°. The same in either direction, for two faces no less
-// than their sum.
+// It bounds how far faces of glass may be off parallel, in rad. They are those that light has crossed since
+// it last had the direction of its distant light. It is the greatest of them, at most 3.6°. It is the same in
+// either direction, and no less than the sum of two faces.
 struct FaceDoubt {
   using Code = PowerCode<-18>;
   std::uint32_t code = 0;
@@ -36,7 +37,8 @@ struct FaceDoubt {
   double allowed_rad() const { return 2 * Code::value(code); }
 };
 
-// Of a connection to a distant light that smooth interfaces refract: the light, and the faces' doubt.
+// It belongs to a connection to a distant light that smooth interfaces refract: the light, and the faces'
+// doubt.
 struct RefractedAim {
   std::uint32_t light = 0;  // lowest bits of its number
   FaceDoubt doubt;
@@ -48,8 +50,8 @@ struct RefractedAim {
   }
 };
 
-// Of any other connection: how much earlier its ray meets the plane of its light for each length that it is
-// moved aside, the tangent of its angle to the light's normal. In 4 bits.
+// It belongs to any other connection. It is the tangent of the ray's angle to the light's normal: how much
+// earlier the ray meets the light's plane for each length that it is moved aside. It takes 4 bits.
 struct StraightAim {
   double slope = 0;  // rounded up, at most 2048
 
@@ -58,8 +60,9 @@ struct StraightAim {
   static StraightAim of(std::uint32_t bits) { return {Slope::value(bits)}; }
 };
 
-// What such a connection has left, rounded down to 28 bits of mantissa, in 36 bits with 8 of exponent above
-// them. 0 of less than 2⁻¹²⁶; ∞, of lights infinitely far, stays ∞, and so does what is beyond 2¹²⁸.
+// They code the distance that such a connection has left in 36 bits: it is rounded down to 28 bits of
+// mantissa, with 8 of exponent above them. A distance below 2⁻¹²⁶ becomes 0. ∞, of lights infinitely far,
+// stays ∞, and a distance beyond 2¹²⁸ becomes ∞.
 inline constexpr int end_code_length = 36;
 inline constexpr std::uint64_t end_code_mask = (std::uint64_t{1} << end_code_length) - 1;
 inline constexpr std::uint64_t endless_code = std::uint64_t{0xff} << 28;

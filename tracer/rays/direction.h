@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions in 48 bits: two 24-bit octahedral coordinates (Meyer et al. 2010), resolution 1.2e-7 rad. Every
-// ray takes its direction through this code when it is made, so that a ray sent to another rank is bit for
-// bit the ray kept here. The axes are exact.
+// This file holds directions in 48 bits: two 24-bit octahedral coordinates (Meyer et al. 2010), resolution
+// 1.2e-7 rad. Every ray takes its direction through this code when it is made. A ray sent to another rank is
+// thus bit for bit the ray kept here. The axes are exact.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace vitrail {
 
 struct DirectionCode {
-  // Two numbers of three bytes, least significant first. Bytes, since records hold it unaligned.
+  // They are two numbers of three bytes, least significant first: bytes, since records hold them unaligned.
   std::uint8_t byte[6]{};
   bool operator==(const DirectionCode&) const = default;
 
@@ -29,8 +29,8 @@ struct DirectionCode {
   }
 };
 
-// Of a point of the octahedron: where its lower half lies in the square, beyond the edges of the upper one;
-// and back.
+// Folds a point of the octahedron's lower half to its place in the square, beyond the edges of the upper
+// half, and back.
 inline void fold_if(bool lower, double& x, double& y) {
   const double folded_x = 1 - std::abs(y), folded_y = 1 - std::abs(x);
   if (!lower) return;
@@ -38,7 +38,7 @@ inline void fold_if(bool lower, double& x, double& y) {
   y = y < 0 ? -folded_y : folded_y;
 }
 
-// `d` finite and not zero; any length.
+// `d` is finite and not zero, of any length.
 inline DirectionCode encode_direction(Vector3d d) {
   const double norm = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
   const double inverse = 1 / norm;
@@ -51,9 +51,9 @@ inline DirectionCode encode_direction(Vector3d d) {
   return DirectionCode::of(quantise(x), quantise(y));
 }
 
-// Unit vector, rounded to float.
+// Returns a unit vector, rounded to float.
 inline Vector3f decode_direction(DirectionCode code) {
-  // Exact at the axes: 8388607 times its rounded inverse is 1.
+  // It is exact at the axes: 8388607 times its rounded inverse is 1.
   const auto coordinate = [](std::uint32_t n) {
     return (static_cast<std::int32_t>(n) - 8388607) * (1 / 8388607.0);
   };
@@ -64,7 +64,7 @@ inline Vector3f decode_direction(DirectionCode code) {
   return cast<float>(d * (1 / std::sqrt(dot(d, d))));
 }
 
-// The orientation of a face, either side: two 10-bit octahedral coordinates, to 0.24°.
+// It is the orientation of a face, either side: two 10-bit octahedral coordinates, to 0.24°.
 struct FaceCode {
   std::uint32_t bits = 0;
   static constexpr int length = 20;  // in bits
@@ -82,8 +82,8 @@ inline Vector3d decode_face(FaceCode code) {
   return cast<double>(decode_direction(centre));
 }
 
-// Whether a face is parallel to the one encoded, to 0.5°. A wedge of that angle in glass spreads the visible
-// spectrum by less than 1e-4 rad.
+// Returns whether a face is parallel to the one encoded, to 0.5°. A wedge of that angle in glass spreads the
+// visible spectrum by less than 1e-4 rad.
 inline bool is_parallel(FaceCode code, Vector3d normal) {
   return length(cross(decode_face(code), normal)) < 0.0045;
 }

@@ -8,17 +8,18 @@
 
 namespace vitrail {
 
-// Points o + t·d, t in (0, ∞). `direction` is finite and not zero; it need not be of unit length.
+// A Ray has the points o + t·d, t in (0, ∞). `direction` is finite and not zero; it need not be of unit
+// length.
 struct Ray {
   Point3f origin;
   Vector3f direction;
   std::uint32_t exclude = no_triangle;  // the triangle the ray starts on: never hit
 };
 
-// The best hit so far: least (t, triangle). t = ∞ and no_triangle: none.
-// `cluster` and `lane` say where the domain that found it holds the triangle; where depth > 0, in the object
-// of the last of the instances chain[0 … depth), each an index in the one before. u, v are barycentric:
-// p = (1−u−v)·v0 + u·v1 + v·v2. Of a quadric (u, v, w) is the point in its own space.
+// It is the best hit so far: least (t, triangle). t = ∞ and no_triangle: none. `cluster` and `lane` say where
+// the domain that found it holds the triangle. Where depth > 0, they are in the object of the last of the
+// instances chain[0 … depth), each an index in the one before. u, v are barycentric:
+// p = (1−u−v)·v0 + u·v1 + v·v2. A hit of a quadric has in (u, v, w) the point in its own space.
 struct Hit {
   double t = __builtin_inf();
   std::uint32_t triangle = no_triangle;
@@ -29,9 +30,9 @@ struct Hit {
   std::uint32_t chain[max_instance_depth] = {};
 };
 
-// What every traversal of every domain needs of a ray, computed once by `prepare`.
-// z is the axis of the direction's greatest component, x and y the next ones. Distances inside a traversal
-// are ζ = t·|d_z|, in units of the scene whatever the length of the direction.
+// It holds what every traversal of every domain needs of a ray, computed once by `prepare`. z is the axis of
+// the direction's greatest component, x and y the next ones. Distances inside a traversal are ζ = t·|d_z|, in
+// units of the scene whatever the length of the direction.
 struct RayConstants {
   float origin[3];             // by axis
   float inverse_direction[3];  // |d_z|/d_a, its magnitude at most 1e18

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state of a ray between domains: what waits in queues and travels between ranks. Packed, trivially
-// copyable, little-endian. Wavelengths and random numbers are functions of (seed, pixel, sample), so they do
-// not travel. Each kind of ray has a record of its own, in which a field means one thing.
+// A record is the state of a ray between domains: it waits in queues and travels between ranks. Records are
+// packed, trivially copyable and little-endian. Wavelengths and random numbers are functions of (seed, pixel,
+// sample), so they do not travel. Each kind of ray has a record of its own, in which a field means one thing.
 #pragma once
 
 #include <bit>
@@ -16,8 +16,8 @@ namespace vitrail {
 
 static_assert(std::endian::native == std::endian::little);
 
-// Samples a pixel are numbered in 23 bits, depth in 16, beside which one says that the ray scatters no more;
-// domains in 16.
+// Samples of a pixel are numbered in 23 bits, and domains in 16. Depth has 16 bits, beside which one says
+// that the ray scatters no more.
 inline constexpr std::uint32_t max_samples = 1u << 23;
 inline constexpr int max_path_depth = (1 << 16) - 1;
 inline constexpr std::uint32_t max_domains = 0xffff;
@@ -31,11 +31,11 @@ enum RayFlags : std::uint8_t {
   ray_passed = 32,     // went straight on at an event that had the random numbers of its depth
   ray_unrecorded = 64  // the film keeps layers of the first surface, and it is yet to be met
 };
-// Of a path: it was scattered where connections to lights are made from.
+// This bit of a path says that it was scattered where connections to lights are made from.
 inline constexpr std::uint8_t ray_connected = 128;
 
 #pragma pack(push, 1)
-// What every ray has on its way to its next hit.
+// It is what every ray has on its way to its next hit.
 struct RayRecordHead {
   double hit_t;  // of the best hit so far; ∞: none yet
   std::uint32_t hit_triangle;
@@ -51,7 +51,7 @@ struct RayRecordHead {
   bool is(std::uint8_t flag) const { return (kind_and_flags & flag) != 0; }
 };
 
-// A sample of a pixel and the depth of its ray.
+// It is a sample of a pixel and the depth of its ray.
 struct SampleRecord {
   std::uint32_t pixel;
   std::uint32_t sample_depth;  // sample << 9 | high 9 bits of the depth
@@ -64,7 +64,7 @@ struct SampleRecord {
   std::uint32_t all_depth() const { return (sample_depth & 0x1ff) << 8 | depth; }
 };
 
-// Of a path or photon that comes from a smooth face of glass.
+// It belongs to a path or photon that comes from a smooth face of glass.
 struct PaneRecord {
   std::uint8_t face_and_bits[3];  // its FaceCode in 20 bits, PaneBits above it
   std::uint8_t polarization;      // bits of its Polarization
@@ -74,8 +74,8 @@ enum PaneBits : std::uint8_t { pane_within = 1, pane_parts = 2, pane_owes = 4 };
 struct PathRecord : RayRecordHead {
   SampleRecord sample;
   std::uint8_t cone;  // cone_code of its ray's width
-  // Of the last scattering: its density over solid angle, as pdf_code (0: specular or camera), and the way
-  // since then, straight through surfaces, as distance_code.
+  // It describes the last scattering: its density over solid angle, as pdf_code (0: specular or camera). It
+  // also has the way since then, straight through surfaces, as distance_code.
   struct Scattered {
     std::uint16_t pdf, travelled;
   };
@@ -85,14 +85,14 @@ struct PathRecord : RayRecordHead {
   };
 };
 
-// A connection to a light: a ray that deposits its throughput where it gets there.
+// It is a connection to a light: a ray that deposits its throughput when it gets there.
 struct ConnectionRecord : RayRecordHead {
   SampleRecord sample;
-  // Straight through what lets it: to hit_t, the end of this ray, where its light is.
+  // It goes straight through all that lets it: to hit_t, the end of this ray, where its light is.
   struct Straight {
     std::uint8_t left_and_slope[5];  // end_code of its whole way from here in 36 bits, StraightAim above it
   };
-  // Through panes to a distant light, with the hit so far.
+  // It goes through panes to a distant light, with the hit so far.
   struct Walking {
     std::uint16_t light_and_doubt;  // RefractedAim
     std::uint8_t walk[3];           // bits of its PaneWalk
@@ -104,7 +104,7 @@ struct ConnectionRecord : RayRecordHead {
   std::uint8_t light_group;  // of its light, as LightGroups has them
 };
 
-// Of a photon (transport/scatterer.h, PhotonPath); above them the code of its FaceDoubt.
+// They are bits of a photon (transport/scatterer.h, PhotonPath). The code of its FaceDoubt is above them.
 enum PhotonHistory : std::uint8_t { photon_refracted = 1, photon_scattered = 2, photon_counted = 4 };
 inline constexpr int photon_doubt_shift = 3;
 
@@ -120,13 +120,13 @@ struct PhotonRecord : RayRecordHead {
   };
 };
 
-// A ray that looks for what is around a sensor, before the paths of that begin.
+// It is a ray that looks for what is around a sensor, before the sensor's paths begin.
 struct ProbeRecord : RayRecordHead {
   SampleRecord sample;
   std::uint8_t known;  // SensorPlace
 };
 
-// Any of them.
+// It is any of these records.
 union RayRecord {
   RayRecordHead head;
   PathRecord path;
@@ -135,7 +135,7 @@ union RayRecord {
   ProbeRecord probe;
 };
 
-// A ray to a point on a light. It deposits `radiance` unless something is hit in (0, tmax).
+// It is a ray to a point on a light. It deposits `radiance` unless something is hit in (0, tmax).
 struct ShadowRecord {
   float origin[3];
   DirectionCode direction;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which domains rays were traced in, from where they came and how long that took: what render --profile
-// records. One a thread.
+// It records which domains rays were traced in, from where they came and how long that took, for render
+// --profile. Each thread has one.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ class RayTraffic {
  public:
   explicit RayTraffic(std::size_t domains) : visits_(domains), seconds_(domains + 1) {}
 
-  // Where the ray is that is being traced: in a domain, at the camera, or about to be traced where it was
-  // sent to, a way that the sender has counted.
+  // It says where the ray at hand is: in a domain, at the camera, or about to be traced where it was sent to.
+  // The sender has counted the way of a ray that `arrives`.
   struct Place {
     std::uint32_t domain = RayProfile::Way::camera;
     bool arrives = false;
@@ -28,7 +28,7 @@ class RayTraffic {
     look_at_clock();
     place_ = place;
   }
-  // A ray, behind which comes the next one or `end`. Reading the clock takes time itself: a few rays are
+  // Begins a ray; the next ray or `end` follows. Reading the clock takes time itself, so only a few rays are
   // timed.
   void begin(Place place) {
     end();
@@ -55,9 +55,9 @@ class RayTraffic {
     for (const auto& [way, rays] : other.ways_) ways_[way] += rays;
   }
   const std::vector<std::uint64_t>& visits() const { return visits_; }
-  // Of the rays that were timed: by domain, and behind those what was before the first one.
+  // They are of the rays that were timed: by domain, and last the time before a ray's first domain.
   const std::vector<double>& seconds() const { return seconds_; }
-  // By the domain they come from in the upper half, that they go to in the lower.
+  // They are by the domain that rays come from, in the upper half, and the one that they go to, in the lower.
   const std::unordered_map<std::uint64_t, std::uint64_t>& ways() const { return ways_; }
 
  private:

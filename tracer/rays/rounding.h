@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is lost where points become floats and directions codes.
+// These are the losses where points become floats and directions codes.
 #pragma once
 
 #include <array>
@@ -9,21 +9,22 @@
 
 namespace vitrail {
 
-// Of a unit vector from encode_direction to decode_direction, in length. The worst of 2·10⁷ is 2.92e-7.
+// It bounds the error, in length, of a unit vector from encode_direction to decode_direction. The worst of
+// 2·10⁷ is 2.92e-7.
 inline constexpr double direction_rounding = 3.5e-7;
 
-// Where a shadow ray to a point of light ends, of the way: what the light stands in, as exported or rounded,
-// is beyond it, and so is that part of a medium. pbrt's number (its ShadowEpsilon); Mitsuba has 1 − 9·10⁻⁴,
-// POV-Ray leaves out 10⁻³ of its unit.
+// A shadow ray to a point of light ends at this part of its way. The object that the light stands in, as
+// exported or rounded, is beyond this end, and so is that part of a medium. It is pbrt's number (its
+// ShadowEpsilon); Mitsuba has 1 − 9·10⁻⁴, POV-Ray leaves out 10⁻³ of its unit.
 inline constexpr double before_point = 1 - 1e-4;
 
-// What rounding to float can move a point by along a unit vector.
+// Returns how far rounding to float can move a point along a unit vector.
 inline double rounding_along(Vector3d unit, Point3d p) {
   return 0x1p-24 * (std::abs(unit.x * p.x) + std::abs(unit.y * p.y) + std::abs(unit.z * p.z));
 }
 
-// What the normal of a triangle can be off by, in rad, whose corners p0, p0 + e1, p0 + e2 may be off by that
-// much along it: each turns it about the opposite side. `twice_area` > 0.
+// Returns the error, in rad, of a triangle's normal. Its corners p0, p0 + e1, p0 + e2 may be off by `off`
+// along the normal. Each corner turns the normal about the opposite side. `twice_area` > 0.
 inline double tilt_of(Vector3d e1, Vector3d e2, double twice_area, const std::array<double, 3>& off) {
   return (off[0] * length(e2 - e1) + off[1] * length(e2) + off[2] * length(e1)) / twice_area;
 }

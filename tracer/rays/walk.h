@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order in which a ray meets the sub-domains: front to back through the kd-tree, both sides of an
-// interface where the ray is within ε of it. Of those that share a
-// cell each is met once, where it first may have something.
+// A DomainWalk is the order in which a ray meets the sub-domains: front to back through the kd-tree. Both
+// sides of an interface are met where the ray is within ε of it. Each of the domains that share a cell is met
+// once, where it first may have something.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace vitrail {
 
-// The leaves of one ray, one after the other. The sequence is a function of the ray and the manifest alone,
-// so a rank that receives a ray finds its place in it again with `skip_past`.
+// It visits the leaves of one ray, one after the other. The sequence is a function of the ray and the
+// manifest alone. A rank that receives a ray finds its place in it again with `skip_past`.
 class DomainWalk {
  public:
   struct Visit {
@@ -24,8 +24,8 @@ class DomainWalk {
     double entry;  // no point of the ray before it lies in the domain
   };
 
-  // `resident`: indexed by domain, null where absent; may be empty. The one domain of a scene is at once the
-  // first and the last, if it is at hand: its tree tells what misses it.
+  // `resident` is indexed by domain, null where absent; it may be empty. The one domain of a scene is at once
+  // the first and the last, if it is at hand: its tree tells what misses it.
   DomainWalk(const Manifest& manifest, const Ray& ray, std::span<const DomainView* const> resident = {})
       : manifest_(manifest), resident_(resident) {
     if (!starts_near(ray.origin)) return;
@@ -33,33 +33,34 @@ class DomainWalk {
     if (!only_one_) begin(ray);
   }
 
-  // Whether the one domain of a scene is at hand, so that the walk of a ray that `starts_near` visits it
-  // alone.
+  // Returns whether the one domain of a scene is at hand, so that the walk of a ray that `starts_near` visits
+  // it alone.
   static bool has_one(const Manifest& manifest, std::span<const DomainView* const> resident) {
     return resident.size() == 1 && resident[0] && !manifest.domains[0].tight_bounds.empty();
   }
-  // Of a ray's start from the scene's centre, of which no scene reaches 10¹⁵: its square and its product with
-  // 10¹⁸ (ray.h) are still floats. What starts beyond meets nothing. False for NaN.
+  // Returns whether a ray starts within 10¹⁸ of the scene's centre on each axis; no scene reaches 10¹⁵ from
+  // it. The square of such a distance and its product with 10¹⁸ (ray.h) are still floats. A ray that starts
+  // beyond meets nothing. It is false for NaN.
   static bool starts_near(Point3f origin) {
     constexpr double farthest = 1e18;
     const Point3d o = cast<double>(origin);
     return std::abs(o.x) <= farthest && std::abs(o.y) <= farthest && std::abs(o.z) <= farthest;
   }
 
-  // A ray of a sample of them, by which crossings are counted: one in `sampled_one_in`. A function of the
-  // ray.
+  // Returns whether the ray is in the sample by which crossings are counted: one ray in `sampled_one_in`. It
+  // is a function of the ray.
   static constexpr std::uint64_t sampled_one_in = 64;
   static bool is_sampled(const Ray& ray);
 
-  // The next domain whose tight bounds and marked cells the ray enters before tmax; false at the end.
+  // Finds the next domain whose tight bounds and marked cells the ray enters before tmax; false at the end.
   bool next(double tmax, Visit& visit) {
     if (!only_one_) return next_of_many(tmax, visit);
     only_one_ = false;
     visit = {0, 0};
     return true;
   }
-  // Goes on behind `domain`, which the walk visits, where none has been visited yet: down the tree to its
-  // cell, without the leaves before it.
+  // Goes on behind `domain`, which the walk visits, where it has visited none yet. It goes down the tree to
+  // the domain's cell, without the leaves before it.
   void skip_past(std::uint32_t domain, const CellWays& ways);
 
  private:
@@ -68,7 +69,7 @@ class DomainWalk {
     bool shared;  // below a node without an axis
     double t0, t1;
   };
-  // The two children of a plane, in the order in which the ray comes to them.
+  // They are the two children of a plane, in the order in which the ray comes to them.
   struct Sides {
     std::uint32_t near, far;
     double near_end, far_begin;
@@ -91,7 +92,7 @@ class DomainWalk {
   double epsilon_;
   std::array<Pending, 64> stack_;
   int size_ = 0;
-  // The shared cell that the walk is in.
+  // It is the shared cell that the walk is in.
   struct {
     std::uint32_t first, left;  // its first domain, and how many of them are still to be met
     int below;                  // of the stack, when the walk entered it

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of the numbers of a set, those of its candidate k: digits are flipped as in the first points of Sobol's
-// sequence, so that four candidates lie in different quarters of each dimension, 16 in different 16ths, and
-// each alone keeps the strata of the set.
+// These functions give the numbers of candidate k from those of a set. Digits are flipped as in the first
+// points of Sobol's sequence. Four candidates thus lie in different quarters of each dimension, 16 in
+// different 16ths, and each alone keeps the strata of the set.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 
 namespace vitrail {
 
-// The digits that are flipped: the highest four of 24 bits, of the first and third number and of the others.
+// They are the digits that are flipped: the highest four of 24 bits, of the first and third number
+// (`straight`) and of the others (`turned`).
 struct CandidateDigits {
   std::uint32_t straight, turned;
 };

@@ -9,7 +9,7 @@ namespace vitrail {
 
 const float* table_of_ones();
 
-// A spectrum as numbers that paths side by side read (lanes/spectra.h), whatever its kind is:
+// It is a spectrum as numbers that paths side by side read (lanes/spectra.h), whatever its kind is:
 // sigmoid · table · scale · factor, multiplied in this order. A part that it has not is 1.
 struct FlatSpectrum {
   float c0 = 0, c1 = 0, c2 = std::numeric_limits<float>::infinity();  // SigmoidSpectrum
@@ -19,7 +19,7 @@ struct FlatSpectrum {
   const Spectrum* other = nullptr;       // of a kind that has no such numbers: evaluate · factor
 };
 
-// Of evaluate(spectrum) · factor, to the bit. `spectrum` outlives it.
+// Returns the numbers of evaluate(spectrum) · factor, to the bit. `spectrum` has to outlive them.
 FlatSpectrum flat_spectrum(const Spectrum& spectrum, float factor = 1);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of spectra (flat_spectrum.h) in lanes: each path has its four wavelengths.
+// This file evaluates spectra (flat_spectrum.h) in lanes: each path has its four wavelengths.
 #pragma once
 
 #include <limits>
@@ -11,7 +11,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// SigmoidSpectrum; c2 may be ±∞.
+// It is a SigmoidSpectrum; c2 may be ±∞.
 template <class D>
 VITRAIL_LANES FloatsLike<D> sigmoid(D c0, D c1, D c2, std::type_identity_t<FloatsLike<D>> lambda_nm) {
   using F = FloatsLike<D>;
@@ -24,7 +24,7 @@ VITRAIL_LANES FloatsLike<D> sigmoid(D c0, D c1, D c2, std::type_identity_t<Float
   return select<F>(constant, select<F>(x > 0, fill<F>(1), fill<F>(0)), value);
 }
 
-// of(j): the FlatSpectrum of lane j, which has no `other`. lambda_nm(i): the wavelengths i of all lanes.
+// of(j) is the FlatSpectrum of lane j, which has no `other`. lambda_nm(i) are the wavelengths i of all lanes.
 template <class D, class SpectrumOf, class LambdaOf>
 VITRAIL_LANES Four<FloatsLike<D>> flat_values(const SpectrumOf& of, const LambdaOf& lambda_nm) {
   using F = FloatsLike<D>;

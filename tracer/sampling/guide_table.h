@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the search in a cumulative distribution begins, so that it takes about one step (Chen and Asau 1974).
+// A GuideTable says where the search in a cumulative distribution begins, so that it takes about one step
+// (Chen and Asau 1974).
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 namespace vitrail {
 
-// Of bins with bounds c₀ = 0 ≤ c₁ ≤ … ≤ cₙ = 1, n ≥ 1. The bounds are the caller's.
+// Its bins have bounds c₀ = 0 ≤ c₁ ≤ … ≤ cₙ = 1, n ≥ 1, which the caller keeps.
 class GuideTable {
  public:
   GuideTable() = default;
@@ -21,7 +22,7 @@ class GuideTable {
     }
   }
 
-  // The bin with cᵢ ≤ u < cᵢ₊₁, u in [0,1); the last one where there is none.
+  // Returns the bin with cᵢ ≤ u < cᵢ₊₁, u in [0,1); the last one where there is none.
   std::size_t bin(std::span<const double> cumulative, double u) const {
     const auto cell = static_cast<std::int32_t>(u * cells_);  // int32: one instruction
     return search(cumulative, first_[static_cast<std::size_t>(cell)], u);

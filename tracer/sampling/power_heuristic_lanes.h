@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// power_heuristic.h's, for any number of lanes.
+// This file has power_heuristic.h, for any number of lanes.
 #pragma once
 
 #include "tracer/simd/lanes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stateless random numbers: Owen-scrambled Sobol' points, padded in sets of four dimensions (Burley,
-// "Practical Hash-based Owen Scrambling", JCGT 2020). Every number is a pure function of (seed, pixel,
-// sample, set).
+// This file has stateless random numbers: Owen-scrambled Sobol' points, padded in sets of four dimensions
+// (Burley, "Practical Hash-based Owen Scrambling", JCGT 2020). Every number is a pure function of (seed,
+// pixel, sample, set).
 #pragma once
 
 #include <array>
@@ -10,11 +10,12 @@
 
 namespace vitrail {
 
-// What all samples of a picture have in common. A number alone is a seed whose samples know their error.
+// It is what all samples of a picture have in common. A number alone is a seed whose samples know their
+// error.
 struct PictureSeed {
   std::uint64_t value = 0;
-  // A pixel's samples are one sequence, stratified together: less noise, and nothing tells how much there is.
-  // Else they are two (film/sample_groups.h).
+  // A pixel's samples are then one sequence, stratified together: there is less noise, and nothing tells how
+  // much. Otherwise they are two (film/sample_groups.h).
   bool one_sequence = false;
   constexpr PictureSeed(std::uint64_t seed = 0, bool one = false) : value(seed), one_sequence(one) {}
   constexpr operator std::uint64_t() const { return value; }
@@ -26,21 +27,21 @@ struct SampleKey {
   std::uint32_t sample = 0;
 };
 
-// SplitMix64's finaliser (Steele, Lea & Flood 2014).
+// It is SplitMix64's finaliser (Steele, Lea & Flood 2014).
 constexpr std::uint64_t mix(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
   return x ^ (x >> 31);
 }
 
-// Four numbers in [0,1), the coordinates of a point of a scrambled Sobol' sequence of its own for each (seed,
-// pixel, set, group of samples): the samples of a group (film/sample_groups.h) are its points in turn; of one
-// sequence, all samples are one group. Sets and groups are statistically independent of each other. Who wants
-// but the first of them is spared the others, which are 0 then.
+// Returns four numbers in [0,1), the coordinates of a point of a scrambled Sobol' sequence. Each (seed,
+// pixel, set, group of samples) has a sequence of its own. The samples of a group (film/sample_groups.h) are
+// its points in turn; with one sequence, all samples are one group. Sets and groups are statistically
+// independent of each other. A caller that needs only the first numbers saves the others, which are then 0.
 enum class Wanted : std::uint8_t { two, three, four };
 std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set, Wanted wanted = Wanted::four);
 
-// As many numbers in [0,1) as it takes (SplitMix64, Steele et al. 2014), from a seed of `stream_seed`.
+// It gives any number of numbers in [0,1) (SplitMix64, Steele et al. 2014), from a seed of `stream_seed`.
 class RandomStream {
  public:
   explicit RandomStream(std::uint64_t seed) : state_(seed) {}
@@ -50,14 +51,14 @@ class RandomStream {
  private:
   std::uint64_t state_;
 };
-// Four numbers in [0,1), a function of the seed.
+// Returns four numbers in [0,1), a function of the seed.
 std::array<float, 4> hashed_4d(std::uint64_t seed);
-// A function of the key, which all streams of a sample begin with.
+// Returns a function of the key, which all streams of a sample begin with.
 constexpr std::uint64_t sample_seed(const SampleKey& key) {
   const std::uint64_t sample = static_cast<std::uint64_t>(key.pixel) << 32 | key.sample;
   return mix(mix(key.seed + 0x9e3779b97f4a7c15ull) ^ sample);
 }
-// A function of (sample_seed, a, b).
+// Returns a function of (sample_seed, a, b).
 constexpr std::uint64_t stream_seed(std::uint64_t sample_seed, std::uint64_t a, std::uint64_t b) {
   return mix(sample_seed + mix(a + 0x632be59bd9b4e019ull) * 3 + b);
 }
@@ -65,7 +66,7 @@ constexpr std::uint64_t stream_seed(const SampleKey& key, std::uint64_t a, std::
   return stream_seed(sample_seed(key), a, b);
 }
 
-// Which set is for what: one for the camera, one for its lens and one for its time, two a bounce.
+// These sets are for the camera, its lens and its time, one each, and two for a bounce.
 namespace sample_set {
 inline constexpr std::uint32_t camera =
     0;  // film x, film y, wavelengths, whose is the hero and choice of a light
@@ -81,8 +82,8 @@ inline constexpr std::uint32_t material = 0xfffffffdu;      // which of a blend,
 inline constexpr std::uint32_t polarization = 0xfffffffcu;  // of connections through panes
 }  // namespace sample_set
 
-// Numbers in [0,1) for the choice of a material: the first is stratified over the samples of a pixel, for a
-// path's first surface, or of a stream as all others are.
+// They are numbers in [0,1) for the choice of a material. The first one for a path's first surface is
+// stratified over the samples of a pixel; all others are of a stream.
 class MaterialNumbers {
  public:
   explicit MaterialNumbers(std::uint64_t stream) : stream_(stream) {}

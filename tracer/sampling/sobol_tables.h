@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sobol' points by tables of bytes, for sample_4d.
+// This file has Sobol' points by tables of bytes, for sample_4d.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
   return (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
 }
 
-// Direction numbers v₁…v₃₂ of the first four Sobol' dimensions: primitive polynomials and initial values of
-// Joe & Kuo (2008), new-joe-kuo-6.21201. The first dimension is the radical inverse.
+// They are the direction numbers v₁…v₃₂ of the first four Sobol' dimensions: primitive polynomials and
+// initial values of Joe & Kuo (2008), new-joe-kuo-6.21201. The first dimension is the radical inverse.
 using Directions = std::array<std::uint32_t, 32>;
 
 constexpr Directions directions(int degree, std::uint32_t polynomial, std::array<std::uint32_t, 3> initial) {
@@ -35,8 +35,8 @@ constexpr Directions directions(int degree, std::uint32_t polynomial, std::array
   return v;
 }
 
-// Contribution of each byte of the index to each dimension but the first, its bits reversed: 4 exclusive-ors
-// a number instead of up to 32.
+// It holds the contribution of each byte of the index to each dimension but the first, its bits reversed. A
+// number takes 4 exclusive-ors instead of up to 32.
 using ByteTable = std::array<std::array<std::uint32_t, 256>, 4>;
 
 constexpr ByteTable byte_table(const Directions& v) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hero wavelengths and what the sensor makes of them.
+// This file has hero wavelengths and what the sensor makes of them.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +12,17 @@
 
 namespace vitrail {
 
-// Four wavelengths, stratified: u, u + ¼, u + ½, u + ¾ (mod 1) through the inverse of a cumulative density
-// that is proportional to x̄ + ȳ + z̄ plus a small floor, constant within each nanometre (Wilkie et al. 2014;
-// Radziszewski et al. 2009 for the density). u in [0,1).
+// Returns four wavelengths, stratified: the inverse of a cumulative density at u, u + ¼, u + ½, u + ¾ (mod
+// 1), u in [0,1). The density is proportional to x̄ + ȳ + z̄ plus a small floor, constant within each
+// nanometre (Wilkie et al. 2014; Radziszewski et al. 2009 for the density).
 SampledWavelengths sample_wavelengths(float u);
 
-// A number for that: `u` in [0,1) places the four in their quarters, where its strata are four times as fine
-// as they are in the whole; `quarter`, 0 … 3, says which of them is the hero.
+// Returns a number for sample_wavelengths. `u` in [0,1) places the four in their quarters, where its strata
+// are four times as fine as in the whole. `quarter`, 0 … 3, says which of them is the hero.
 inline float number_of_hero(float u, float quarter) { return std::min((u + quarter) / 4, 0x1.fffffep-1f); }
 
-// What sample_wavelengths reads: of each nanometre its density and the sum of those before, and where the
-// search for u·cells begins. It ends there or one farther, but where `several` is added.
+// sample_wavelengths reads these: for each nanometre its density and the sum of those before, and where the
+// search for u·cells begins. The search ends there or one farther, but where `several` is added.
 struct WavelengthTables {
   static constexpr std::int32_t several = 1 << 30;
   const double *pdf, *cumulative;
@@ -31,28 +31,29 @@ struct WavelengthTables {
 };
 WavelengthTables wavelength_tables();
 
-// Fixed ones, each the middle of a 16th of ∫ȳ: the mean of a spectrum over them is about its luminance.
+// Returns fixed wavelengths, each the middle of a 16th of ∫ȳ: the mean of a spectrum over them is about its
+// luminance.
 const std::array<SampledWavelengths, 4>& luminance_wavelengths();
 
-// What a pixel gets of radiance L at the four wavelengths: XYZ = Σᵢ Lᵢ · weight[·][i], unbiased; and where
-// the film keeps spectral bins, Lᵢ·spectral[i] for bin[i], so that the sum's mean is the mean of L over the
-// bin.
+// They are what a pixel gets of radiance L at the four wavelengths: XYZ = Σᵢ Lᵢ · weight[·][i], unbiased.
+// Where the film keeps spectral bins, bin[i] gets Lᵢ·spectral[i], so that the sum's mean is the mean of L
+// over the bin.
 struct SensorWeights {
   std::array<float, hero_count> x{}, y{}, z{};
   std::array<float, hero_count> spectral{};  // 0: in no bin
   std::array<std::uint16_t, hero_count> bin{};
 };
-// Three functions of the wavelength, as x̄, ȳ and z̄ are: at 360, 361 … 830 nm.
+// It is three functions of the wavelength, as x̄, ȳ and z̄ are: at 360, 361 … 830 nm.
 using Observer = std::array<std::array<float, 3>, table_size>;
-// Sees spectra that are constant in the bands of scene/spectra/rgb_bands.h as the linear sRGB colours of
-// their numbers: within a band it follows the density of `sample_wavelengths`, so that each of a band's
-// wavelengths counts as much as any other; between bands it is 0.
+// Returns an observer that sees spectra that are constant in the bands of scene/spectra/rgb_bands.h as the
+// linear sRGB colours of their numbers. Within a band it follows the density of `sample_wavelengths`, so that
+// all of a band's wavelengths count alike; between bands it is 0.
 const Observer& band_observer();
-// `scale` multiplies them.
+// `scale` multiplies the weights.
 SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale = 1,
                              const SpectralBins& bins = {}, const Observer& observer = cie_1931());
 
-// SensorWeights::spectral is nowhere greater.
+// Returns a weight that SensorWeights::spectral never exceeds.
 double greatest_bin_weight(const SpectralBins& bins);
 
 inline XYZ sense(const SensorWeights& w, const SampledSpectrum& radiance) {
@@ -66,7 +67,7 @@ inline XYZ sense(const SensorWeights& w, const SampledSpectrum& radiance) {
   return sum;
 }
 
-// To float precision.
+// Evaluates to float precision.
 SampledSpectrum evaluate(const Spectrum& spectrum, const SampledWavelengths& wavelengths);
 
 }  // namespace vitrail

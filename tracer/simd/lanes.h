@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// W numbers side by side, one a path: the vectors of GCC and clang, W in {1, 2, 4, 8}; W = 1 is plain
-// numbers. One text serves every W, and every W gives the bits that the scalar function gives.
+// These lanes are W numbers side by side, one a path. They are the vectors of GCC and clang, W in {1, 2, 4,
+// 8}; W = 1 is plain numbers. One text serves every W, and every W gives the bits that the scalar function
+// gives.
 //
 // Functions take their width from their arguments. All is in an unnamed namespace, so that what one file
 // compiles for its instruction set is never linked into another; README.md has more.
@@ -30,7 +31,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// W of T. Its alignment is its size.
+// It has W numbers of T. Its alignment is its size.
 template <class T, int W>
 struct VectorOf {
   typedef T type __attribute__((vector_size(sizeof(T) * W)));
@@ -71,7 +72,7 @@ using Number = typename LanesOf<V>::Number;
 template <class V>
 inline constexpr int width = LanesOf<V>::width;
 
-// As many of T as V has.
+// It has as many numbers of T as V has.
 template <class T, class V>
 using Like = Lanes<T, LanesOf<V>::width>;
 template <class V>
@@ -85,8 +86,8 @@ using WordsLike = Like<std::uint32_t, V>;
 template <class V>
 using LongsLike = Like<std::uint64_t, V>;
 
-// What comparing gives: integers of the numbers' size, all bits of a lane set or none; of plain numbers bool.
-// Combined by & | and `no`. Those of doubles and of floats differ: `mask_for`.
+// Comparing gives a Mask: integers of the numbers' size, all bits of a lane set or none; for plain numbers
+// bool. Masks are combined by & | and `no`. Those of doubles and of floats differ: `mask_for`.
 template <class V>
 using Mask = decltype(std::declval<V>() < std::declval<V>());
 
@@ -124,17 +125,17 @@ struct Halves {
 
 }  // namespace detail
 
-// get(j) of each lane j.
+// Returns get(j) in each lane j.
 template <class V, class Get>
 VITRAIL_LANES V gather(const Get& get) {
   return detail::gathered<V>(get, std::make_integer_sequence<int, width<V>>{});
 }
-// table[index] of each lane.
+// Returns table[index] in each lane.
 template <class I, class T>
 VITRAIL_LANES Like<T, I> at(const T* table, I index) {
   return gather<Like<T, I>>([&](int j) __attribute__((always_inline)) { return table[lane(index, j)]; });
 }
-// Changes one lane; of masks, whether it is set.
+// They change one lane; in a mask, whether it is set.
 template <class V>
 VITRAIL_LANES void set_lane(V& v, int j, std::type_identity_t<Number<V>> x) {
   if constexpr (width<V> == 1)
@@ -149,7 +150,7 @@ VITRAIL_LANES void set_mask(M& mask, int j, bool set) {
   else
     mask[j] = set ? -1 : 0;
 }
-// The mask for which set(j).
+// Returns the mask of the lanes j for which set(j).
 template <class V, class Get>
 VITRAIL_LANES Mask<V> gather_mask(const Get& get) {
   if constexpr (width<V> == 1)
@@ -167,7 +168,7 @@ VITRAIL_LANES M no(M mask) {
   return mask == 0;
 }
 
-// One bit a lane, the lowest of lane 0.
+// Returns one bit a lane, the lowest that of lane 0.
 template <class M>
 VITRAIL_LANES unsigned bits(M mask) {
   if constexpr (width<M> == 1) {
@@ -204,8 +205,8 @@ VITRAIL_LANES bool all(M mask) {
   return bits(mask) == (1u << width<M>)-1;
 }
 
-// Of numbers between types. From floating point towards 0, and then what T cannot hold is anything but a
-// trap.
+// Converts numbers between types. Floating-point numbers are rounded towards 0; a number that T cannot hold
+// gives any value, but no trap.
 template <class T, class V>
 VITRAIL_LANES Like<T, V> convert(V v) {
   using To = Like<T, V>;
@@ -239,7 +240,7 @@ template <class V>
 VITRAIL_LANES FloatsLike<V> to_floats(V v) {
   return convert<float>(v);
 }
-// A mask of doubles or floats for another type of numbers, as many.
+// Returns a mask of doubles or floats for as many numbers of another type.
 template <class V, class M>
 VITRAIL_LANES Mask<V> mask_for(M mask) {
   if constexpr (width<V> == 1)
@@ -248,13 +249,13 @@ VITRAIL_LANES Mask<V> mask_for(M mask) {
     return __builtin_convertvector(mask, Mask<V>);
 }
 
-// The same bits.
+// Returns the same bits as another type.
 template <class T, class V>
 VITRAIL_LANES Like<T, V> cast_bits(V v) {
   return std::bit_cast<Like<T, V>>(v);
 }
 
-// IEEE's, correctly rounded.
+// It is IEEE's, correctly rounded.
 template <class V>
 VITRAIL_LANES V sqrt(V x) {
   if constexpr (width<V> == 1) {
@@ -298,7 +299,8 @@ VITRAIL_LANES V abs(V x) {
   }
 }
 
-// With the arguments in the order of std::min and std::max: `a` where one is NaN or both are equal.
+// They take their arguments in the order of std::min and std::max: the result is `a` where one is NaN or both
+// are equal.
 template <class V>
 VITRAIL_LANES V min(V a, std::type_identity_t<V> b) {
   return select<V>(b < a, b, a);
@@ -312,18 +314,18 @@ VITRAIL_LANES V clamp(V x, Number<V> low, Number<V> high) {
   return select<V>(x < low, fill<V>(low), select<V>(high < x, fill<V>(high), x));
 }
 
-// safe_sqrt: 0 of what is not above 0.
+// It is safe_sqrt, which is 0 where x is not above 0.
 template <class D>
 VITRAIL_LANES D safe_sqrt(D x) {
   return lanes::sqrt(select<D>(x > 0, x, fill<D>(0)));
 }
-// x ≥ 0, not above 2³⁰.
+// x is ≥ 0 and not above 2³⁰.
 template <class D>
 VITRAIL_LANES D ceil_of_few(D x) {
   const D below = to_doubles(convert<std::int32_t>(x));
   return below + select<D>(below < x, fill<D>(1), fill<D>(0));
 }
-// ±1 with the sign of x, of zeros too.
+// Returns ±1 with the sign of x, for zeros too.
 template <class D>
 VITRAIL_LANES D sign_of(D x) {
   constexpr std::uint64_t one = std::bit_cast<std::uint64_t>(1.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of scene/geometry/portable_math.h for any number of lanes. SLEEF's `cinz` variants use no fused
-// multiply-add: those of all widths have the same bits, but for ties of sine and cosine.
+// This file has functions of scene/geometry/portable_math.h for any number of lanes. SLEEF's `cinz` variants
+// use no fused multiply-add: those of all widths have the same bits, but for ties of sine and cosine.
 #pragma once
 
 #include <sleef.h>
@@ -44,7 +44,7 @@ VITRAIL_SLEEF(Logarithm, log, u35)
 #undef VITRAIL_SLEEF_4
 #undef VITRAIL_SLEEF_8
 
-// By the variant of that width, or by halves.
+// Calls the variant of that width, or works by halves.
 template <class Function, class D, class... More>
 VITRAIL_LANES D by_sleef(D x, More... more) {
   if constexpr (width<D> == 1) {
@@ -74,8 +74,8 @@ VITRAIL_LANES D by_sleef(D x, More... more) {
   }
 }
 
-// Of a function that is reduced by the integer nearest to `steps`, |steps| < 2³¹. Where that is a tie, the
-// variant for one lane rounds otherwise than the wider ones: there it is asked itself.
+// Calls a function that is reduced by the integer nearest to `steps`, |steps| < 2³¹. In a tie the variant for
+// one lane rounds otherwise than the wider ones: ties take that variant.
 template <class Function, class D>
 VITRAIL_LANES D by_nearest(D x, D steps) {
   D value = by_sleef<Function>(x);
@@ -105,7 +105,7 @@ template <class D>
 VITRAIL_LANES D portable_exp(D x) {
   return detail::by_nearest<detail::Exponential, D>(x, lanes::clamp<D>(x * 1.4426950408889634, -2e9, 2e9));
 }
-// x ≥ 0 to any power.
+// Returns x ≥ 0 to any power.
 template <class D>
 VITRAIL_LANES D portable_pow(D x, D y) {
   const Mask<D> has_logarithm = x > 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Elementary functions where single precision is enough, for any number of lanes: five times as fast as those
-// of portable_math.h. They too have the same bits on every machine: sums, products and quotients in a fixed
-// order.
+// These are elementary functions where single precision is enough, for any number of lanes: five times as
+// fast as those of portable_math.h. They too have the same bits on every machine: sums, products and
+// quotients in a fixed order.
 #pragma once
 
 #include "tracer/simd/lanes.h"
@@ -9,7 +9,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// c₀ + c₁x + c₂x² + …: the even and the odd powers side by side, for half the latency.
+// Returns c₀ + c₁x + c₂x² + …: the even and the odd powers are summed side by side, for half the latency.
 template <class D, class... Coefficients>
 VITRAIL_LANES D polynomial(D x, Coefficients... coefficients) {
   constexpr int count = sizeof...(coefficients);
@@ -23,13 +23,14 @@ VITRAIL_LANES D polynomial(D x, Coefficients... coefficients) {
   return even + x * odd;
 }
 
-// eˣ for x ≤ 700, to 1e-11 of its value; 0 below −700. (2ⁿ·eʳ with Taylor's series to r⁹, |r| ≤ ln 2/2.)
+// Returns eˣ for x ≤ 700, to 1e-11 of its value; 0 below −700. (It is 2ⁿ·eʳ with Taylor's series to r⁹,
+// |r| ≤ ln 2/2.)
 template <class D>
 VITRAIL_LANES D quick_exp(D x) {
   constexpr double round = 0x1.8p52;  // adding it leaves no bits for a fraction
   const D n = (x * 1.4426950408889634 + round) - round;
   const D r = x - n * 0.6931471805599453;
-  // |n| < 1023 of what counts: 32 bits do.
+  // |n| < 1023 where the result counts: 32 bits hold it.
   const auto exponent = convert<std::uint64_t>(
       cast_bits<std::uint32_t>(convert<std::int32_t>(select<D>(x > -700, n, fill<D>(0))) + 1023));
   const D power = cast_bits<double>(exponent << 52);
@@ -38,7 +39,8 @@ VITRAIL_LANES D quick_exp(D x) {
   return select<D>(x > -700, value, fill<D>(0));
 }
 
-// ln x for normal x > 0, to 1e-10 absolute. (2·artanh((m − 1)/(m + 1)) of the mantissa, 1/√2 < m ≤ √2.)
+// Returns ln x for normal x > 0, to 1e-10 absolute. (It is 2·artanh((m − 1)/(m + 1)) of the mantissa,
+// 1/√2 < m ≤ √2.)
 template <class D>
 VITRAIL_LANES D quick_log(D x) {
   const auto all_bits = cast_bits<std::uint64_t>(x);
@@ -52,14 +54,14 @@ VITRAIL_LANES D quick_log(D x) {
          2.0 * s * polynomial(s2, 1, 1.0 / 3, 1.0 / 5, 1.0 / 7, 1.0 / 9, 1.0 / 11);
 }
 
-// erf x for x ≥ 0, to 1.5e-7, given e^(−x²) (Abramowitz & Stegun 1964, 7.1.26).
+// Returns erf x for x ≥ 0, to 1.5e-7, given e^(−x²) (Abramowitz & Stegun 1964, 7.1.26).
 template <class D>
 VITRAIL_LANES D quick_erf(D x, D gauss) {
   const D t = 1.0 / (1.0 + 0.3275911 * x);
   return 1.0 - t * polynomial(t, 0.254829592, -0.284496736, 1.421413741, -1.453152027, 1.061405429) * gauss;
 }
 
-// Cosine and sine of 2π·turn, 0 ≤ turn ≤ 1, to 1e-12.
+// It holds the cosine and sine of 2π·turn, 0 ≤ turn ≤ 1, to 1e-12.
 template <class D>
 struct Circle {
   D cosine, sine;
@@ -77,7 +79,7 @@ VITRAIL_LANES Circle<D> quick_circle(D turn) {
   return {select<D>(left, -along, along), select<D>(lower, -across, across)};
 }
 
-// x with erf x = y for |y| < 1, to 2e-7 of its value (Giles 2012).
+// Returns x with erf x = y for |y| < 1, to 2e-7 of its value (Giles 2012).
 template <class D>
 VITRAIL_LANES D inverse_erf(D y) {
   const D w = -quick_log(lanes::max((1.0 - y) * (1.0 + y), fill<D>(1e-15)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// More than one float a lane in one register: half of what W doubles take is free where floats are side by
-// side. Of W lanes, number r of lane j is element r·W + j.
+// This file holds more than one float a lane in one register. Half of the register that W doubles take is
+// free where floats are side by side. Number r of lane j, of W lanes, is element r·W + j.
 #pragma once
 
 #include "tracer/simd/vectors.h"
@@ -23,7 +23,7 @@ inline constexpr int floats_a_lane = width<F> == 1                     ? 4
                                      : 2 * sizeof(F) <= register_bytes ? 2
                                                                        : 1;
 
-// Elements J of a and b together.
+// Returns the elements J of a and b together.
 template <class To, class F, int... J>
 VITRAIL_LANES To shuffled(F a, F b, std::integer_sequence<int, J...>) {
   return __builtin_shufflevector(a, b, J...);
@@ -35,11 +35,11 @@ VITRAIL_LANES To part(F a, std::integer_sequence<int, J...>) {
 
 }  // namespace detail
 
-// Four of one lane; of more two, where a register holds them.
+// There are four floats of one lane; of more lanes two each, where a register holds them.
 template <class F>
 using Several = Lanes<float, detail::floats_a_lane<F> * width<F>>;
 
-// x for each number of a lane.
+// Returns x for each number of a lane.
 template <class F>
 VITRAIL_LANES Several<F> repeated(F x) {
   if constexpr (width<F> == 1)
@@ -50,7 +50,7 @@ VITRAIL_LANES Several<F> repeated(F x) {
     return detail::shuffled<Several<F>>(x, x, std::make_integer_sequence<int, 2 * width<F>>{});
 }
 
-// Values at the four wavelengths of each lane.
+// They are values at the four wavelengths of each lane.
 template <class F>
 struct Spectra {
   static constexpr int count = 4 / detail::floats_a_lane<F>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of 360, 361 … 830 nm, read at a wavelength of each lane.
+// These are tables of 360, 361 … 830 nm, read at a wavelength of each lane.
 #pragma once
 
 #include "scene/spectra/color.h"
@@ -12,7 +12,7 @@ namespace detail {
 
 inline constexpr int last_nanometre = table_size - 1;
 
-// Between the two nearest of 360, 361 … 830 nm.
+// It is a place between the two nearest of 360, 361 … 830 nm.
 template <class F>
 struct TablePlace {
   IntsLike<F> below;
@@ -24,7 +24,7 @@ struct TablePlace {
     f = x - to_floats(below);
   }
   VITRAIL_LANES F between(F a, F b) const { return (1.0f - f) * a + f * b; }
-  // Of a table with `stride` numbers a nanometre.
+  // Returns the value in a table with `stride` numbers a nanometre.
   VITRAIL_LANES F in(const float* table, int stride = 1) const {
     return between(at(table, below * stride), at<IntsLike<F>>(table, (below + 1) * stride));
   }
@@ -32,7 +32,7 @@ struct TablePlace {
 
 }  // namespace detail
 
-// One for all, or table_of(j) of each lane.
+// They read one table for all lanes, or table_of(j) for each lane j.
 template <class F>
 VITRAIL_LANES F table_value(const float* table, F lambda_nm) {
   return detail::TablePlace<F>(lambda_nm).in(table);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points, directions and spectra of W paths, each coordinate in lanes, with the operations of
+// This file has points, directions and spectra of W paths, each coordinate in lanes, with the operations of
 // scene/geometry/vec.h.
 #pragma once
 
@@ -45,14 +45,14 @@ VITRAIL_LANES Vector<FloatsLike<D>> to_floats(Vector<D> v) {
   return {convert<float>(v.x), convert<float>(v.y), convert<float>(v.z)};
 }
 
-// get(j).x, .y, .z of each lane j: a Vector3 or Point3 of any number.
+// Returns get(j).x, .y, .z of each lane j: a Vector3 or Point3 of any number.
 template <class D, class Get>
 VITRAIL_LANES Vector<D> gather_vector(const Get& get) {
   return {gather<D>([&](int j) __attribute__((always_inline)) { return get(j).x; }),
           gather<D>([&](int j) __attribute__((always_inline)) { return get(j).y; }),
           gather<D>([&](int j) __attribute__((always_inline)) { return get(j).z; })};
 }
-// Of a lane.
+// Returns the vector of one lane.
 template <class D>
 VITRAIL_LANES Vector3<Number<D>> lane(const Vector<D>& v, int j) {
   return {lane(v.x, j), lane(v.y, j), lane(v.z, j)};
@@ -65,7 +65,7 @@ VITRAIL_LANES void set_lane(Vector<D>& v, int j, const Vector3<Number<D>>& x) {
   set_lane(v.z, j, x.z);
 }
 
-// Unit; v itself where its length is zero or not finite.
+// Returns a unit vector; v itself where its length is zero or not finite.
 template <class D>
 VITRAIL_LANES Vector<D> normalize(Vector<D> v) {
   const D l = length(v);
@@ -73,19 +73,19 @@ VITRAIL_LANES Vector<D> normalize(Vector<D> v) {
   return select<D>(usable, v * (1.0 / l), v);
 }
 
-// Four values a path: random numbers, or values at its wavelengths.
+// They are four values a path: random numbers, or values at its wavelengths.
 template <class F>
 struct Four {
   F v[4];
   VITRAIL_LANES F& operator[](int i) { return v[i]; }
   VITRAIL_LANES const F& operator[](int i) const { return v[i]; }
 };
-// The same in all lanes.
+// Returns the same in all lanes.
 template <class F>
 VITRAIL_LANES Four<F> fill(const SampledSpectrum& s) {
   return {{fill<F>(s.v[0]), fill<F>(s.v[1]), fill<F>(s.v[2]), fill<F>(s.v[3])}};
 }
-// Of a lane.
+// Returns the spectrum of one lane.
 template <class F>
 VITRAIL_LANES SampledSpectrum lane(const Four<F>& s, int j) {
   return {{lane(s[0], j), lane(s[1], j), lane(s[2], j), lane(s[3], j)}};
@@ -96,7 +96,7 @@ VITRAIL_LANES F greatest(const Four<F>& s) {
   return lanes::max(lanes::max(lanes::max(s[0], s[1]), s[2]), s[3]);
 }
 
-// As ShadingFrame.
+// It is ShadingFrame.
 template <class D>
 struct Frame {
   Vector<D> tangent, bitangent, normal;
@@ -108,15 +108,15 @@ struct Frame {
   }
 };
 
-// scene/geometry/frame.h's Frame.
+// It is Frame of scene/geometry/frame.h.
 template <class D>
 VITRAIL_LANES Frame<D> frame_of(Vector<D> n) {
   const D sign = sign_of(n.z), a = -1.0 / (sign + n.z), b = n.x * n.y * a;
   return {{1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
 }
 
-// The shading frame of a surface: its tangent follows `along`, where that has a part across n. `side` is −1
-// where the surface scatters on its back as in front, which turns the normal alone.
+// Returns the shading frame of a surface: its tangent follows `along`, where that has a part across n. `side`
+// is −1 where the surface scatters on its back as in front, which turns the normal alone.
 template <class D>
 VITRAIL_LANES Frame<D> frame_around(Vector<D> n, Vector<D> along, D side) {
   Frame<D> frame = frame_of(n);

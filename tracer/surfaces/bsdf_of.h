@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a material's record to its model of scattering at one point: every parameter is looked up.
+// These functions turn a material's record into its model of scattering at one point: every parameter is
+// looked up.
 #pragma once
 
 #include <span>
@@ -12,7 +13,7 @@ namespace vitrail {
 
 bool has_tint(const PrincipledMaterial& m);
 
-// A table of the bundle and what is made of it when it is loaded.
+// It is a table of the bundle and what is made of it when it is loaded.
 struct LoadedFourier {
   const FourierTable* table;  // outlives it
   FourierIntegrals integrals;
@@ -52,7 +53,8 @@ struct BsdfMaker {
   Bsdf operator()(const SlabMaterial& m) const { return slab(m); }
   Bsdf operator()(const FinishMaterial& m) const { return finish(m); }
   Bsdf operator()(const GlazedMaterial& m) const;
-  // Never asked: parts are chosen, nothing is gone through, and bundles have no subsurface materials.
+  // These are never called: parts are chosen, nothing is gone through, and bundles have no subsurface
+  // materials.
   Bsdf operator()(const BlendMaterial&) const { return LambertBsdf{}; }
   Bsdf operator()(const MaskMaterial&) const { return LambertBsdf{}; }
   Bsdf operator()(const TwoSidedMaterial&) const { return LambertBsdf{}; }

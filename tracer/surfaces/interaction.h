@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hit made ready for shading.
+// An Interaction is a hit made ready for shading.
 #pragma once
 
 #include <array>
@@ -18,13 +18,13 @@ struct Interaction {
   Vector3d shading;    // unit, on the same side as `geometric`
   std::uint32_t triangle = no_triangle;
   bool front = false;  // the ray came from the front side
-  // What floats may have moved the surface by along its normal: its corners, which may be farther from 0 than
-  // p, as far as they count where the ray comes from.
+  // It is how far floats may have moved the surface along its normal. The corners count, which may be farther
+  // from 0 than p, as far as they matter where the ray comes from.
   double rounding = 0;
-  // In front of a dielectric with a priority; null: the material's own.
+  // It is the index in front of a dielectric with a priority; null: the material's own.
   const Spectrum* exterior_eta = nullptr;
 
-  // Of surfaces that textures are looked up on.
+  // They are set on surfaces that textures are looked up on.
   Point2d uv;
   Vector3d dpdu, dpdv;  // 0 where the triangle's (u,v) do not span a plane
   double uv_width = 0;  // of the ray's cone
@@ -37,19 +37,20 @@ struct Interaction {
   }
 };
 
-// `domain` holds the hit. `direction` of the ray, decoded, `cone_width` of its cone at the hit (0: none), and
-// its time, where anything moves. `uvs_show`: some texture or picture reads (u,v); else those of quadrics may
-// be 0.
+// `domain` holds the hit. `direction` is the ray's, decoded, `cone_width` its cone's at the hit (0: none),
+// and `time_s` its time, where anything moves. `uvs_show` says that some texture or picture reads (u,v);
+// otherwise those of quadrics may be 0.
 Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
                              std::uint32_t attributes, double time_s = 0, bool uvs_show = true);
 
-// What rounding can turn its normal by, in rad: of what is stored of the shading normal, or of the surface,
-// whose vertices may stand `vertex_doubt` off beside (Surface). Decimals count up to `most_of_decimals_rad`.
+// Returns the angle, in rad, by which rounding can turn the normal. It is that of the stored shading normal,
+// or that of the surface, whose vertices may stand `vertex_doubt` off beside (Surface). Decimals count up to
+// `most_of_decimals_rad`.
 double normal_doubt(const DomainView& domain, const Hit& hit, bool shading, double vertex_doubt,
                     double time_s = 0);
 
-// A face that decimals make less certain than this is taken by what it is: a pane's two together turn light
-// by less than the radius of the sun's disc.
+// A face that decimals make less certain than this is taken as it is. A pane's two faces together then turn
+// light by less than the radius of the sun's disc.
 inline constexpr double most_of_decimals_rad = 0x1p-8;
 
 }  // namespace vitrail

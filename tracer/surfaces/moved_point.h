@@ -5,8 +5,8 @@
 
 namespace vitrail {
 
-// Where the point p of what was hit at `from_s` is at `to_s`, in the bundle's coordinates: p itself where
-// nothing that holds it moves. `domain` holds the hit.
+// Returns where the point p of an object hit at `from_s` is at `to_s`, in the bundle's coordinates. It is p
+// itself where nothing that holds it moves. `domain` holds the hit.
 Point3d moved_point(const DomainView& domain, const Hit& hit, Point3d p, double from_s, double to_s);
 
 }  // namespace vitrail

@@ -7,14 +7,15 @@
 
 namespace vitrail {
 
-// Where a sample of a BSDF goes.
+// It is the direction in which a sample of a BSDF goes.
 struct ScatteredDirection {
   Vector3d world;
   bool by_surface = false;  // mirrored about the surface's own normal, whatever the shading normal is
 };
 
-// `direction` of the sample, `out` in the scattering's frame. Where the shading normal would let it through
-// the surface, or reflect it into it, a mirror goes by the surface's own normal and all else ends: empty.
+// `direction` is that of the sample, and `out` is in the scattering's frame. The shading normal may let the
+// sample through the surface, or reflect it into it. A mirror then goes by the surface's own normal, and all
+// else ends: the result is empty.
 inline std::optional<ScatteredDirection> kept_on_its_side(const Scattering& scattering, const Interaction& at,
                                                           Vector3d out, const BsdfSample& chosen,
                                                           Vector3d direction) {

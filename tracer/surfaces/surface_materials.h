@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The materials of a bundle: from a record and a point to what scatters there.
+// Materials are those of a bundle: they give, for a record and a point, what scatters there.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace vitrail {
 
-// What a path has to know of a surface's material before anything is looked up.
+// It is what a path has to know of a surface's material before anything is looked up.
 struct MaterialKind {
   bool is_interface = false;       // nothing is there
   bool is_fibre = false;           // nothing is there from behind
@@ -30,43 +30,43 @@ struct MaterialKind {
 
 class Materials {
  public:
-  // Both outlive it.
+  // Both have to outlive it.
   Materials(const Manifest& manifest, const Textures& textures);
 
   const MaterialKind& kind(std::uint32_t material) const { return kinds_[material]; }
-  // Whether some smooth interface or sheet may stand parallel to another.
+  // Returns whether some smooth interface or sheet may stand parallel to another.
   bool have_panes() const { return have_panes_; }
 
-  // The material that a path meets: of two sides the one it sees, of a blend one by chance, of a mask the
-  // material or, null, nothing: light goes straight through.
+  // Returns the material that a path meets: of two sides the one that it sees, of a blend one by chance. A
+  // mask gives its material or null: nothing is there, and light goes straight through.
   const Material* choose(std::uint32_t material, const Interaction& at, MaterialNumbers& numbers) const;
-  // The share of the light that goes straight through, by no chance; thin glass tells light of that Q/I
-  // (tracer/panes/polarization.h) apart.
+  // Returns the share of the light that goes straight through, by no chance. It is of light of that Q/I
+  // (tracer/panes/polarization.h), which matters to thin glass.
   SampledSpectrum passes_straight(std::uint32_t material, const Interaction& at,
                                   const SampledWavelengths& wavelengths, double q = 0) const;
-  // And the share that sheets and smooth metal mirror.
+  // Returns the share that sheets and smooth metal mirror.
   SampledSpectrum mirrors(std::uint32_t material, const Interaction& at,
                           const SampledWavelengths& wavelengths, double q = 0) const;
 
-  // Whether a chosen material turns wavelengths into different directions.
+  // Returns whether a chosen material turns wavelengths into different directions.
   bool disperses(const Material& material, const Interaction& at) const {
     return kind(index_of(material)).dispersive || (at.exterior_eta && !is_constant(*at.exterior_eta));
   }
-  // Whether a chosen material scatters: the back of a one-sided surface is black.
+  // Returns whether a chosen material scatters: the back of a one-sided surface is black.
   bool scatters(const Material& material, const Interaction& at) const;
-  // Of one that does. `throughput` of the path guides choices between wavelengths; `event` is what walks in
-  // layers are a function of.
+  // Returns the scattering of a material that scatters. `throughput` of the path guides choices between
+  // wavelengths; walks in layers are a function of `event`.
   Scattering scattering_at(const Material& material, const Interaction& at,
                            const SampledWavelengths& wavelengths, const SampledSpectrum& throughput,
                            std::uint64_t event) const;
-  // What scatters at a point of a chosen material that depends on nothing but the point: it is one of those
-  // that LaneKind knows.
+  // Returns the BSDF at a point of a chosen material that depends on nothing but the point: it is one of
+  // those that LaneKind knows.
   Bsdf bsdf_at(const Material& material, const TexturePoint& at, const SampledWavelengths& wavelengths) const;
-  // The normal as bump and normal maps turn it; on the same side as at.geometric. `any_normal`:
-  // takes_any_normal of what scatters there.
+  // Returns the normal as bump and normal maps turn it, on the same side as at.geometric. `any_normal` is
+  // takes_any_normal of the BSDF there.
   Vector3d shading_normal(const Material& material, const Interaction& at, bool any_normal = false) const;
-  // What the tangent of the frame around it follows. A map turns the frame of the smooth normal, whose
-  // tangent is perpendicular to that, as in pbrt and Mitsuba.
+  // Returns the direction that the tangent of the frame follows. A map turns the frame of the smooth normal,
+  // whose tangent is perpendicular to that, as in pbrt and Mitsuba.
   Vector3d tangent(const Material& material, const Interaction& at) const;
 
  private:
@@ -87,10 +87,10 @@ class Materials {
   std::vector<double> luminance_;  // of a material: of the constant colour that it has a tint of
 };
 
-// Index behind over index in front at the four wavelengths, seen from where the ray came.
+// Returns the index behind over the index in front at the four wavelengths, seen from where the ray came.
 SampledSpectrum relative_index(const DielectricMaterial& material, const Interaction& at,
                                const SampledWavelengths& wavelengths);
-// And the index in front, of the hero.
+// Returns the index in front, at the hero wavelength.
 double near_index(const DielectricMaterial& material, const Interaction& at,
                   const SampledWavelengths& wavelengths);
 

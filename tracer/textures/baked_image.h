@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lookups in one baked image by (s,t): (0,0) is its lower left corner, (1,1) the upper right one.
+// A BakedImage looks up one baked image by (s,t): (0,0) is its lower left corner, (1,1) the upper right one.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace vitrail {
 
-// Tiles in memory, shared by images and threads (tracer/textures/tile_cache.h).
+// It holds tiles in memory, shared by images and threads (tracer/textures/tile_cache.h).
 class TileCache;
 
-// Values are pure functions of the arguments, whatever is in memory. Safe to use from many threads. A damaged
-// tile throws Error when it is read.
+// Values are pure functions of the arguments, whatever is in memory. It is safe to use from many threads. A
+// damaged tile throws Error when it is read.
 class BakedImage {
  public:
-  // Throws Error with the file's name where its header is damaged. One cache for all of a rank's images:
+  // Throws Error with the file's name where its header is damaged. All of a rank's images share one cache:
   // std::make_shared<TileCache>(budget_bytes), or Textures::tiles().
   BakedImage(const std::filesystem::path& file, std::shared_ptr<TileCache> cache);
   BakedImage(TextureFile file, std::shared_ptr<TileCache> cache);
@@ -38,34 +38,36 @@ class BakedImage {
   // of the four texels whose centres surround (s,t). An image of vectors is 0 as a spectrum.
   SampledSpectrum nearest(double s, double t, Wrap wrap, int level, const SampledWavelengths&) const;
   SampledSpectrum bilinear(double s, double t, Wrap wrap, int level, const SampledWavelengths&) const;
-  // The texel itself, 0 ≤ x < width(level), 0 ≤ y < height(level), y up from the bottom.
+  // Returns the texel itself, 0 ≤ x < width(level), 0 ≤ y < height(level), y up from the bottom.
   SampledSpectrum texel(int x, int y, int level, const SampledWavelengths&) const;
 
-  // The three numbers of a vector; of an image of numbers three times that number; of spectra 0.
+  // They return the three numbers of a vector; for an image of numbers three times that number, for one of
+  // spectra 0.
   std::array<double, 3> nearest_vector(double s, double t, Wrap wrap, int level) const;
   std::array<double, 3> bilinear_vector(double s, double t, Wrap wrap, int level) const;
 
-  // The luminance of a texel (Y of D65 = 1), within 1e-3 of an image of light. Never negative.
+  // Returns the luminance of a texel (Y of D65 = 1), within 1e-3 in an image of light. It is never negative.
   double luminance(int x, int y, int level) const;
-  // Of an image of numbers.
+  // Returns a texel of an image of numbers.
   double number(int x, int y, int level) const;
 
-  // What look-ups of many paths at a time read (image_lanes.h).
+  // Look-ups of many paths at a time read these (image_lanes.h).
   struct Size {
     TexelFormat format;
     int width, height;
   };
   Size size(int level) const;
-  // The words of texels (x[i % 2][j], y[i / 2][j]), i in [0, 4), for each of `count` look-ups j that is set
-  // in `lanes`: words[i][word][j]. x and y are [2][count]. Words that the format has not stay as they are.
+  // Reads the words of texels (x[i % 2][j], y[i / 2][j]), i in [0, 4), to words[i][word][j]. It does so for
+  // each of `count` look-ups j that is set in `lanes`. x and y are [2][count]. Words that the format has not
+  // stay as they are.
   void read_corners(int level, unsigned lanes, int count, const std::int32_t* x, const std::int32_t* y,
                     std::uint32_t* words) const;
-  // The same of one texel each: words[word][j] of (x[j], y[j]).
+  // Reads one texel for each look-up: (x[j], y[j]) to words[word][j].
   void read_texels(int level, unsigned lanes, int count, const std::int32_t* x, const std::int32_t* y,
                    std::uint32_t* words) const;
 
   const TextureFile& file() const;
-  // What a tile costs while it is not in memory: its checksum and where it would be.
+  // It is the cost of a tile that is not in memory: its checksum and the place where it would be.
   static constexpr std::uint64_t table_bytes_per_tile = 16;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Look-ups in a baked image for any number of lanes: BakedImage's. wavelengths(j) are those of lane j; lanes
-// that are not set in `lanes` get anything.
+// This file has BakedImage's look-ups for any number of lanes. wavelengths(j) are those of lane j; lanes that
+// are not set in `lanes` get anything.
 #pragma once
 
 #include "tracer/textures/baked_image.h"
@@ -31,7 +31,7 @@ VITRAIL_LANES Four<F> value_of_texels(TexelFormat format, const TexelsOfLanes<N,
   return parted(sum);
 }
 
-// By `of` each lane, of a SampledSpectrum.
+// Calls of(j), which returns a SampledSpectrum, for each lane.
 template <class F, class Of>
 VITRAIL_LANES Four<F> lane_by_lane(unsigned lanes, const Of& of) {
   Four<F> result{};
@@ -71,7 +71,7 @@ VITRAIL_LANES Four<FloatsLike<D>> bilinear(const BakedImage& image, D s, D t, Wr
   return detail::value_of_texels(size.format, texels, factors, wavelengths);
 }
 
-// 0 ≤ x < width, 0 ≤ y < height of the level, in lanes that are set.
+// 0 ≤ x < width and 0 ≤ y < height of the level, in lanes that are set.
 template <class I, class WavelengthsOf>
 VITRAIL_LANES Four<Like<float, I>> texel(const BakedImage& image, I x, I y, int level, unsigned lanes,
                                          const WavelengthsOf& wavelengths) {

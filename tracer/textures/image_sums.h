@@ -9,7 +9,8 @@ namespace vitrail {
 
 class BakedImage;
 
-// Values that lie in [least, most]. `mean` may be a guess; 0 as `most` is none: all of them are 0 or less.
+// They are values in [least, most]. `mean` may be a guess. It is 0 where `most` is: all values are then 0 or
+// less.
 struct ValueRange {
   double least = 0, mean = 0, most = 0;
 };
@@ -18,14 +19,14 @@ struct Interval {
   double low = 0, high = 0;
 };
 
-// What an image has in any part of it: luminances, or numbers of an image of numbers. Every texel counts, in
-// means over cells of a grid, over four of them, and so on.
+// It gives the range of an image in any part of it: luminances, or numbers of an image of numbers. Every
+// texel counts, in means over cells of a grid, over four of them, and so on.
 class ImageSums {
  public:
-  // `most_cells`: along a side, a power of two.
+  // `most_cells` is the number along a side, a power of two.
   ImageSums(const BakedImage& image, int most_cells);
 
-  // Where (s,t) is in the box. `interpolated`: lookups reach the next texel.
+  // Returns the range where (s,t) is in the box. `interpolated` says that lookups reach the next texel.
   ValueRange over(Interval s, Interval t, Wrap wrap, bool interpolated) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which texels of a row a coordinate reads, for any number of lanes.
+// These functions find the texels of a row that a coordinate reads, for any number of lanes.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// floor without a call of the C library, for |x| < 2³¹.
+// Returns floor(x) without a call of the C library, for |x| < 2³¹.
 template <class D>
 VITRAIL_LANES IntsLike<D> floor_to_int(D x) {
   using I = IntsLike<D>;
@@ -20,7 +20,7 @@ VITRAIL_LANES IntsLike<D> floor_to_int(D x) {
 
 namespace detail {
 
-// Of what is no number, or too large for an int.
+// Folds a number that is not finite, or too large for an int.
 inline double folded_far(double s, Wrap wrap) {
   if (!std::isfinite(s)) return 0;
   if (wrap == Wrap::repeat) return s - std::floor(s);
@@ -30,7 +30,8 @@ inline double folded_far(double s, Wrap wrap) {
 
 }  // namespace detail
 
-// s or t where the image is repeated, so that what follows fits an int; beyond, in [-1, 2].
+// Returns s or t where the image is repeated, so that an int holds what follows; in other modes it is within
+// [-1, 2].
 template <class D>
 VITRAIL_LANES D folded(D s, Wrap wrap) {
   const Mask<D> near = abs(s) < 1e9;
@@ -47,7 +48,7 @@ VITRAIL_LANES D folded(D s, Wrap wrap) {
   return place;
 }
 
-// The texel that stands for texel i of a row of n, or −1 for black.
+// Returns the texel that stands for texel i of a row of n, or −1 for black.
 template <class I>
 VITRAIL_LANES I wrapped(I i, std::type_identity_t<I> n, Wrap wrap) {
   switch (wrap) {
@@ -62,8 +63,8 @@ VITRAIL_LANES I wrapped(I i, std::type_identity_t<I> n, Wrap wrap) {
   }
 }
 
-// The two texels of a row whose centres are around a coordinate, and their weights: 0 for black ones, which
-// any texel stands for.
+// They are the two texels of a row whose centres are around a coordinate, and their weights. A black texel
+// has the weight 0, and any texel stands for it.
 template <class D>
 struct TexelPair {
   IntsLike<D> texel[2];
@@ -84,7 +85,7 @@ VITRAIL_LANES TexelPair<D> pair_at(D s, IntsLike<D> n, Wrap wrap) {
   return {{texel(i), texel(j)}, {weight(i, 1.0f - f), weight(j, f)}};
 }
 
-// The texel of a row at a coordinate, or −1 for black.
+// Returns the texel of a row at a coordinate, or −1 for black.
 template <class D>
 VITRAIL_LANES IntsLike<D> single_at(D s, IntsLike<D> n, Wrap wrap) {
   return wrapped<IntsLike<D>>(floor_to_int<D>(folded(s, wrap) * to_doubles(n)), n, wrap);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the words of a texel say: vectors, and spectra by Matrix-R. texel_value_lanes.h has the others.
+// These functions turn the words of a texel into values: vectors, and spectra by Matrix-R.
+// texel_value_lanes.h has the others.
 #pragma once
 
 #include <bit>
@@ -12,7 +13,7 @@
 
 namespace vitrail {
 
-// Of Matrix-R at the wavelengths of a path: its basis at the bands about each, [basis][wavelength].
+// It is Matrix-R at the wavelengths of a path: its basis at the bands about each, [basis][wavelength].
 struct MatrixRWeights {
   std::array<std::array<float, hero_count>, 3> below, above;
   std::array<float, hero_count> part_above;
@@ -25,7 +26,7 @@ struct MatrixRWeights {
   }
 };
 
-// sum += base + factor · q
+// Computes sum += base + factor · q.
 inline void add_matrix_r(const std::array<float, 3>& x, const MatrixRWeights& weights, float base,
                          float factor, SampledSpectrum& sum) {
   const auto q = [&](const auto& a, std::size_t i) {
@@ -38,7 +39,7 @@ inline void add_matrix_r(const std::array<float, 3>& x, const MatrixRWeights& we
   }
 }
 
-// Σ factor · texel, of an image by Matrix-R; D65 is left to the caller.
+// Returns Σ factor · texel for an image by Matrix-R; the caller multiplies by D65.
 inline SampledSpectrum sum_of(TexelFormat format, std::span<const TexelWords> texels, const float* factors,
                               const MatrixRWeights& weights) {
   SampledSpectrum sum;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the words of texels say at the wavelengths of paths, for any number of lanes: numbers and sigmoids.
-// Matrix-R is in texel_value.h.
+// These functions turn the words of texels into values at the wavelengths of paths, for any number of lanes:
+// numbers and sigmoids. Matrix-R is in texel_value.h.
 #pragma once
 
 #include "bundle/texel.h"
@@ -11,7 +11,7 @@
 namespace vitrail::lanes {
 namespace {
 
-// x(λ) = Σ l[k]·x_k of the parabola through x at 360, 595 and 830 nm (Lagrange).
+// They are the weights of x(λ) = Σ l[k]·x_k, the parabola through x at 360, 595 and 830 nm (Lagrange).
 template <class F>
 struct NodeWeights {
   Spectra<F> l[3];
@@ -25,7 +25,7 @@ struct NodeWeights {
   }
 };
 
-// The words of N texels a lane, those that the format has.
+// They are the words of N texels a lane, those that the format has.
 template <int N, int W>
 struct TexelsOfLanes {
   alignas(4 * W) std::uint32_t word[N][3][W];
@@ -38,13 +38,13 @@ struct TexelsOfLanes {
 
 namespace detail {
 
-// vitrail::decode_real21
+// It is vitrail::decode_real21.
 template <class U>
 VITRAIL_LANES FloatsLike<U> decode_real21(U code) {
   return cast_bits<float>((code & 0xfffffu) << 8 | ((code << 11) & 0x80000000u)) * 0x1p112f;
 }
 
-// sum += factor · S
+// Computes sum += factor · S.
 template <class F>
 VITRAIL_LANES void add_sigmoid(const F (&x)[3], const NodeWeights<F>& weights, F factor, Spectra<F>& sum) {
   using S = Several<F>;
@@ -57,7 +57,7 @@ VITRAIL_LANES void add_sigmoid(const F (&x)[3], const NodeWeights<F>& weights, F
 
 }  // namespace detail
 
-// 0.5 + x/(2√(1+x²)) of x at the three nodes.
+// Returns 0.5 + x/(2√(1+x²)) of x at the three nodes.
 template <class F>
 VITRAIL_LANES Spectra<F> sigmoid_of_nodes(const F (&x)[3], const NodeWeights<F>& weights) {
   Spectra<F> s{};
@@ -65,7 +65,7 @@ VITRAIL_LANES Spectra<F> sigmoid_of_nodes(const F (&x)[3], const NodeWeights<F>&
   return s;
 }
 
-// Σ factor · texel of an image by bands.
+// Returns Σ factor · texel for an image by bands.
 template <class F, int N>
 VITRAIL_LANES Spectra<F> sum_of_bands(const TexelsOfLanes<N, width<F>>& texels, const F (&factors)[N],
                                       const Spectra<F>& lambda_nm) {
@@ -81,7 +81,8 @@ VITRAIL_LANES Spectra<F> sum_of_bands(const TexelsOfLanes<N, width<F>>& texels, 
   return sum;
 }
 
-// Σ factor · texel of an image of spectra or numbers, not by Matrix-R or bands; D65 is left to the caller.
+// Returns Σ factor · texel for an image of spectra or numbers, not by Matrix-R or bands; the caller
+// multiplies by D65.
 template <class F, int N>
 VITRAIL_LANES Spectra<F> sum_of(TexelFormat format, const TexelsOfLanes<N, width<F>>& texels,
                                 const F (&factors)[N], const NodeWeights<F>& weights) {
@@ -105,7 +106,7 @@ VITRAIL_LANES Spectra<F> sum_of(TexelFormat format, const TexelsOfLanes<N, width
   return sum;
 }
 
-// What an image of light sends out: its value times `d65`, which is cie_d65().
+// Returns the light of an image of light: its value times `d65`, which is cie_d65().
 template <class F>
 VITRAIL_LANES Spectra<F> lit(const Spectra<F>& value, const float* d65, const Spectra<F>& lambda_nm) {
   Spectra<F> result;

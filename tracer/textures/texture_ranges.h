@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What textures have in a part of a surface: for lights, which are chosen by a guess of what they send, and
-// left out only where they certainly send nothing.
+// A TextureRanges gives the range of textures in a part of a surface, for lights. Lights are chosen by a
+// guess of what they send, and left out only where they certainly send nothing.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace vitrail {
 
-// Boxes around points of a surface.
+// It holds boxes around points of a surface.
 struct TextureRegion {
   TexturePoint middle;  // its attributes: of all of the triangle
   Interval u{1, 0}, v{1, 0};
@@ -24,16 +24,16 @@ struct TextureRegion {
   void extend(Point2d uv, Point3d at);
 };
 
-// Bounds by the rules of intervals; means of images are exact, of checkerboards those of a box, of what is
-// computed from a point the value in the middle, and inputs count as if they were independent. Not for many
-// threads.
+// It bounds by the rules of intervals. Means are exact for images, those of a box for checkerboards, and the
+// value in the middle for what is computed from a point. Inputs count as if they were independent. It is not
+// for many threads.
 class TextureRanges {
  public:
-  // Both outlive it; null: all textures are black.
+  // Both have to outlive it. Null: all textures are black.
   TextureRanges(const Textures* textures, std::span<const Texture> records)
       : textures_(textures), records_(records) {}
 
-  // Of luminances; `most` is 0 where nothing has any light, at any wavelength.
+  // Returns the range of luminances; `most` is 0 where nothing has any light, at any wavelength.
   ValueRange luminances(const SpectrumParameter& parameter, const TextureRegion& region);
   ValueRange numbers(const FloatParameter& parameter, const TextureRegion& region);
 

@@ -14,21 +14,21 @@
 
 namespace vitrail {
 
-// Memory for tiles: a fixed number of slots of 16 KiB, given to the tiles in use by the clock algorithm.
-// Reading takes no lock (a sequence lock a slot, Lameter 2005): a reader copies the texels that it wants and
-// then looks whether the slot has been given away meanwhile; if so, it reads the file.
+// A TileCache is memory for tiles: a fixed number of slots of 16 KiB, given to the tiles in use by the clock
+// algorithm. Reading takes no lock (a sequence lock a slot, Lameter 2005). A reader copies the texels that it
+// wants and then looks whether the slot has been given away meanwhile. If so, it reads the file.
 //
 // A file of colour codes is read into texels of spectra that are still to be found: each is found when it is
 // first looked up (`convert`), and kept if no other thread is writing.
 class TileCache {
  public:
-  // At least one slot. The system gives the memory when it is first used. Throws MachineError.
+  // It has at least one slot. The system gives the memory when it is first used. Throws MachineError.
   explicit TileCache(std::uint64_t budget_bytes);
   ~TileCache();
   TileCache(const TileCache&) = delete;
   TileCache& operator=(const TileCache&) = delete;
 
-  // Where a tile of an image is: slot (upper half) and the slot's sequence number then. 0: nowhere.
+  // It says where a tile of an image is: slot (upper half) and the slot's sequence number then. 0: nowhere.
   using Entry = std::atomic<std::uint64_t>;
 
   struct Tile {
@@ -37,7 +37,7 @@ class TileCache {
     TexelFormat format;  // as it is read
     std::uint32_t level, x, y;
   };
-  // Where the words of some texels go: word w of texel i to first[(3·i + w)·stride].
+  // The words of some texels go here: word w of texel i to first[(3·i + w)·stride].
   struct Words {
     std::uint32_t* first;
     std::size_t stride = 1;
@@ -46,7 +46,7 @@ class TileCache {
     }
   };
   // Copies the words of the texels with these indices, row by row in the tile. Colours whose spectra are
-  // still to be found are replaced by them, there too. Throws Error for a damaged tile.
+  // still to be found are replaced by the spectra, in the cache too. Throws Error for a damaged tile.
   template <std::size_t N>
   void read(const Tile& tile, const std::array<std::uint32_t, N>& texels, const Words& out) {
     read_as_kept(tile, texels, out);
@@ -57,7 +57,7 @@ class TileCache {
     if (is_color_code(either) && finds_spectra(tile.file.info().format)) convert(tile, texels, out);
   }
 
-  // The same, but colours whose spectra are still to be found stay as they are (coded_color).
+  // Does the same, but colours whose spectra are still to be found stay as they are (coded_color).
   template <std::size_t N>
   void read_as_kept(const Tile& tile, const std::array<std::uint32_t, N>& texels, const Words& out) {
     if (!read_resident(tile, texels, out)) read_and_store(tile, texels, out);

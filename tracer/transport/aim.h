@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that connect to lights.
+// These rays connect to lights.
 #pragma once
 
 #include <bit>
@@ -12,7 +12,7 @@
 
 namespace vitrail {
 
-// Where a ray starts.
+// It says where a ray starts.
 struct Departure {
   Point3d p;       // what it leaves
   Point3f origin;  // beside it
@@ -20,7 +20,8 @@ struct Departure {
   std::uint8_t inside = 0;  // state of Interiors
 };
 
-// A connection's ray: coded, and as far as it goes, in lengths of its direction; ∞ where its light is.
+// It is a connection's ray: its coded direction, and its end in lengths of that direction; ∞ where its light
+// is.
 struct Aimed {
   DirectionCode direction;
   Vector3f rounded = decode_direction(direction);
@@ -28,12 +29,13 @@ struct Aimed {
   double cosine = 1;  // of its direction to the surface's normal there; of StraightAim's slope
 };
 
-// From where it departs, beside the point that the light was sampled for. It ends at the light, where it
-// meets the surface that was sampled, of triangles its plane: by its rounded direction, not quite where that
-// was. There an error of the direction counts by the inverse cosine.
+// Aims from where the ray departs, beside the point that the light was sampled for. The ray ends at the
+// light, where it meets the sampled surface, or the plane of a sampled triangle. It goes by its rounded
+// direction, so it does not end quite at the sampled point. An error of the direction counts there by the
+// inverse cosine.
 Aimed aim(const Departure& from, const LightSample& light);
 
-// Not above x ≥ 0.
+// Returns a float that is not above x ≥ 0.
 inline float float_below(double x) {
   const auto nearest = static_cast<float>(x);
   if (!(static_cast<double>(nearest) > x)) return nearest;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Connections of a path to lights: which light, and the ray there.
+// These functions connect a path to lights: they choose the light, and make the ray to it.
 #pragma once
 
 #include "tracer/transport/scatterer.h"
@@ -7,14 +7,14 @@
 
 namespace vitrail {
 
-// How many candidates for a light a path has at a point: several where the camera sees it, directly or
-// through mirrors and glass, and where they differ.
+// Returns how many candidates for a light a path has at a point. There are several where the camera sees it,
+// directly or through mirrors and glass, and where they differ.
 std::uint32_t light_candidates(const Tracing& tracing, const CameraPath& path, Point3d p, bool diffuse);
 
-// Of `candidates` for a light one is connected to, chosen by what each would bring if nothing was in its way,
-// and brings their mean (resampling: Talbot, Cline & Egbert 2005). Their weights of multiple importance
-// sampling are of so many samples of the lights and one of the BSDF. A shadow ray, or a connection where
-// light passes something, is put behind the others of `shadows`.
+// They connect to one of `candidates` for a light, chosen by what each would bring if nothing was in its way.
+// It brings their mean (resampling: Talbot, Cline & Egbert 2005). Weights of multiple importance sampling
+// count so many samples of the lights and one of the BSDF. A shadow ray, or a connection where light passes
+// something, is put behind the others of `shadows`.
 void connect_surface(Tracing& tracing, const CameraPath& path, const Event& event,
                      const Scattering& scattering, Vector3d out, std::uint32_t candidates,
                      ShadowRays& shadows);
@@ -23,7 +23,7 @@ void connect_medium(Tracing& tracing, const CameraPath& path, const Departure& f
 void connect_sensor(Tracing& tracing, const CameraPath& path, const Departure& from, Vector3d normal,
                     std::uint32_t candidates, ShadowRays& shadows);
 
-// To a light that is chosen, with what it is to bring.
+// Sends a ray to a light that is chosen, with the radiance that it is to bring.
 void send(Tracing& tracing, const CameraPath& path, const Departure& from, const LightSample& light,
           const SampledSpectrum& radiance, ShadowRays& shadows);
 

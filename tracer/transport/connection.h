@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A connection to a light, where the scene has something that light passes: a ray that goes on behind what
+// A Connection is a ray to a light, in a scene that has something that light passes. It goes on behind what
 // lets it through, and deposits what it carries where its light is. It goes straight on, or, to a distant
-// light, through panes: smooth interfaces refract it by the hero's index, and what parallel faces reflect to
-// and fro is a part of it (pane_walk.h). All wavelengths leave a pane with parallel faces in the direction
+// light, through panes: smooth interfaces refract it by the hero's index. Light that parallel faces reflect
+// to and fro is a part of it (pane_walk.h). All wavelengths leave a pane with parallel faces in the direction
 // they came, so all four stay unless it is thick.
 #pragma once
 
@@ -21,44 +21,46 @@ struct Connection : Traveller {
   bool walks = false;            // through panes, to a distant light
   bool passes_veils = false;     // to a lamp that fades as POV-Ray's: fog does not weaken it
   std::uint8_t light_group = 0;  // as GroupedLights says
-  // One that goes straight:
+  // These members are of a connection that goes straight.
   StraightAim straight;
   double left = 0;  // of its way, in lengths of its direction; rounded as it travels
-  // One that walks:
+  // These members are of a connection that walks.
   RefractedAim refracted;
   std::uint32_t walk = 0;  // bits of a PaneWalk
 };
 
-// Those that wait to be traced together: one of each path of a wave at most.
+// These connections wait to be traced together: one of each path of a wave at most.
 struct Connections {
   std::vector<Connection> begun;
   std::vector<Connection*> live;  // of those that are traced together
 };
 
-// One of a path that is to be told where it goes.
+// Adds a connection of a path; the caller gives it its way.
 Connection& add_connection(const CameraPath& path, Connections& waiting);
-// Gives one that goes straight its end, in lengths of its direction, and the slope of its light there.
+// Gives a connection that goes straight its end, in lengths of its direction, and the slope of its light
+// there.
 void end_at(Connection& connection, double end, double slope);
 
-// Traces those that begin here, and leaves none of them.
+// Traces the connections that begin here, and leaves none of them.
 void trace(Tracing& tracing, Connections& waiting);
-// Goes on with one in `at`.
+// Goes on with a connection in `at`.
 void resume(Tracing& tracing, const ConnectionRecord& record, const Arrival& at);
 void pack(const Tracing& tracing, const Connection& connection, bool resolved, RayRecord& record);
 
-// At a smooth face or a sheet: one that walks goes on, or back. False where it ends.
+// They take a connection that walks on, or back, at a smooth face or a sheet. They return false where it
+// ends.
 bool walk_interface(Tracing& tracing, Connection& connection, const Interaction& at, const Surface& surface);
 bool walk_sheet(const Tracing& tracing, Connection& connection, const Interaction& at,
                 const Surface& surface);
-// However many faces there are, and however often light goes to and fro: its mean is the same. False where it
-// ends.
+// Lets a connection go on by chance. Its mean is the same however many faces there are, and however often
+// light goes to and fro. Returns false where it ends.
 bool walks_on(Connection& connection);
-// What is absorbed on its way.
+// Applies what is absorbed on its way.
 void fade(Connection& connection, const SampledSpectrum& transmitted);
-// The point of the sun's disc that all of a sample's connections go to, so that one which glass has turned
-// can tell whether it has come there.
+// Returns the numbers of the point of the sun's disc that all of a sample's connections go to. A connection
+// that glass has turned can thus tell whether it has come there.
 std::array<float, 2> numbers_for_far_lights(const Tracing& tracing, const SampleKey& key);
-// What a surface lets straight through.
+// Returns the share that a surface lets straight through.
 SampledSpectrum straight_through(const Tracing& tracing, const Traveller& t, const Interaction& at,
                                  const Surface& surface);
 

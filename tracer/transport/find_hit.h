@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a ray meets, domain by domain.
+// These functions find what a ray meets, domain by domain.
 #pragma once
 
 #include <new>
@@ -10,29 +10,31 @@
 
 namespace vitrail {
 
-// Where a ray has to be to go on: in a domain that is not resident. `resolved`: its hit there is certain.
+// It says where a ray has to be to go on: in a domain that is not resident. `resolved` says that its hit
+// there is certain.
 struct Elsewhere {
   std::uint32_t domain;
   bool resolved;
 };
-// A ray that was sent to `domain`, which is resident.
+// It is a ray that was sent to `domain`, which is resident.
 struct Arrival {
   std::uint32_t domain;
   bool resolved;
 };
 
-// Whether a ray that begins takes all domains at hand at once, by the scene's tree of domains. Else it goes
-// from one into the next: where its way is recorded, or its crossings are counted.
+// Returns whether a ray that begins takes all domains at hand at once, by the scene's tree of domains. A ray
+// goes from one into the next where its way is recorded, or its crossings are counted.
 bool goes_by_tree(const Tracing& tracing, const Ray& ray);
 
-// Empty when the hit, or that there is none, is certain and its domain at hand.
+// Finds the hit. Returns nothing when the hit, or that there is none, is certain and its domain at hand.
 std::optional<Elsewhere> find_hit(Tracing& tracing, Traveller& t, const std::optional<Arrival>& at);
 
-// Finds hits of rays that begin, 32 at a time, where the scene's only domain is resident and no way recorded.
+// It finds hits of rays that begin, 32 at a time, where the scene's only domain is resident and no way is
+// recorded.
 class HitsInOne {
  public:
   explicit HitsInOne(Tracing& tracing) : tracing_(tracing) {}
-  // It outlives its hit, which is found at the latest by `finish`.
+  // The traveller has to outlive its hit, which is found at the latest by `finish`.
   void add(Traveller& t) {
     if (!DomainWalk::starts_near(t.ray.origin)) return;
     new (rays_ + count_) RayConstants(prepare(t.ray, t.time_s));  // in place, as a copy costs much
@@ -53,10 +55,10 @@ class HitsInOne {
   std::size_t count_ = 0;
 };
 
-// What every record has of a ray that goes on elsewhere, and back: `t` has its seed.
+// They convert what every record has of a ray that goes on elsewhere, and back. `t` has its seed already.
 RayRecordHead head_of(const Traveller& t, RayRecordKind kind, bool resolved);
 void unpack_head(const RayRecordHead& head, Traveller& t);
-// Puts it into the outbox.
+// Puts the traveller into the outbox.
 template <class T>
 void send(Tracing& tracing, const T& traveller, const Elsewhere& to) {
   RayRecord record{};

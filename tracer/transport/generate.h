@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths where they begin: at the camera, and where they come from another domain.
+// These functions start paths: at the camera, and where they come from another domain.
 #pragma once
 
 #include "tracer/transport/find_hit.h"
@@ -7,15 +7,16 @@
 
 namespace vitrail {
 
-// Of a path's sample through the pixel (x, y) of the whole film.
+// Returns the camera ray of a path's sample through the pixel (x, y) of the whole film.
 CameraRay camera_ray(const Tracing& tracing, const CameraPath& path, int x, int y);
-// Makes it that of sample `sample` of the pixel (x, y) of the whole film, which lies in the crop.
+// Makes the path that of sample `sample` of the pixel (x, y) of the whole film, which lies in the crop.
 void set_sample(const Tracing& tracing, CameraPath& path, int x, int y, std::uint32_t sample);
-// What LaneStages::begin has given a path: its numbers, wavelengths and sensor; its ray besides.
+// It says what LaneStages::begin has given a path: its numbers, wavelengths and sensor (`numbers`), and its
+// ray besides (`ray`).
 enum class Given : std::uint8_t { nothing, numbers, ray };
-// Begins it. False where it is dark: the lens holds it up.
+// Begins a path. Returns false where it is dark: the lens stops it.
 bool begin(Tracing& tracing, CameraPath& path, Given given);
-// The column of its pixel in the whole film, and the row.
+// They return the column of its pixel in the whole film, and the row.
 int column_of(const Tracing& tracing, const FilmSample& film);
 int row_of(const Tracing& tracing, const FilmSample& film);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons on their way from lights to where they are gathered.
+// These functions trace photons on their way from lights to where they are gathered.
 #pragma once
 
 #include "tracer/transport/find_hit.h"
@@ -7,9 +7,9 @@
 
 namespace vitrail {
 
-// That one of the iteration's.
+// Traces the iteration's photon of that number.
 void trace_photon(Tracing& tracing, std::uint32_t number);
-// Goes on with one in `at`.
+// Goes on with a photon in `at`.
 void resume(Tracing& tracing, const PhotonRecord& record, const Arrival& at);
 void pack(const Tracing& tracing, const PhotonPath& photon, bool resolved, RayRecord& record);
 

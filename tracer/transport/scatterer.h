@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What travels by scattering: paths from the camera and photons from lights, which have the same events.
+// A Scatterer travels by scattering. It is a path from the camera or a photon from a light, which have the
+// same events.
 #pragma once
 
 #include "tracer/panes/pane_walk.h"
@@ -9,7 +10,7 @@
 
 namespace vitrail {
 
-// What is known of the last smooth face of glass. Within glass its far face may be parallel to that:
+// It holds what is known of the last smooth face of glass. Within glass the far face may be parallel to that:
 // wavelengths go on together until they meet a face that is not.
 struct PaneState {
   bool within = false;
@@ -19,7 +20,7 @@ struct PaneState {
   Polarization polarization;  // by the faces up to that
 
   bool is_known() const { return within || polarization.code != 0; }
-  // Lets a face of that normal, on its side, leave a ray polarised so; u in [0,1) rounds it.
+  // Lets a face of that normal, on its side, leave a ray polarised so; u in [0,1) rounds q.
   void meet(Vector3d normal, double q, float u) {
     if (!within) face = encode_face(normal);
     polarization = Polarization::rounded(q, u);
@@ -53,7 +54,7 @@ struct Scatterer : Traveller {
   PaneState pane;
 };
 
-// A path from the camera: its throughput is the importance of what it meets.
+// It is a path from the camera: its throughput is the importance of what it meets.
 struct CameraPath : Scatterer {
   FilmSample film;
   double travelled = 0;     // since the last scattering, straight through surfaces; rounded as it travels
@@ -61,21 +62,21 @@ struct CameraPath : Scatterer {
   bool connected = false;   // it was scattered where connections to lights are made from
   mutable LastLamp lamp;
 
-  // A path that nothing has turned from its way yet has this as its density.
+  // It is the density of a path that nothing has turned from its way yet.
   static constexpr float unscattered = -1;
   bool has_scattered() const { return pdf >= 0; }
 
-  // About the point of the last scattering.
+  // Returns about the point of the last scattering.
   Point3d scattered_from() const {
     return cast<double>(ray.origin) - cast<double>(ray.direction) * travelled;
   }
 };
 
-// A photon: its throughput is power, in units of PhotonPass::power_w_nm.
+// It is a photon: its throughput is power, in units of PhotonPass::power_w_nm.
 struct PhotonPath : Scatterer {
   std::uint32_t number = 0;  // among those of its iteration
-  // What has happened to it since its light. Neither of the first two: it went straight, and connections find
-  // the same light.
+  // They say what has happened to it since its light. Where neither of the first two is set, it went
+  // straight, and connections find the same light.
   bool refracted = false;  // by smooth interfaces, or reflected to and fro by parallel faces
   bool scattered = false;  // by anything else
   bool counted = false;    // of what connections pass, it has met something that counts for its depth
@@ -83,12 +84,12 @@ struct PhotonPath : Scatterer {
   PhotonWalk walk;
 };
 
-// The first event at a depth has a stratified set; those that follow where going straight on counts for no
-// depth have numbers of their ray.
+// Returns numbers for a scattering. The first event at a depth has a stratified set. Events that follow,
+// where going straight on counts for no depth, have numbers of their ray.
 std::array<float, 4> numbers_for_scattering(const Scatterer& s, Wanted wanted = Wanted::four);
 
-// At anything in glass but a face parallel to the one it entered by: the wavelengths part, and entering
-// counts. False where that was one scattering too many.
+// They are called at anything in glass but a face parallel to the one that the ray entered by. The
+// wavelengths part, and entering counts. They return false where that was one scattering too many.
 bool leave_pane(CameraPath& path);
 bool leave_pane(PhotonPath& photon);
 // Returns Q/I as the ray meets a face of that normal (polarization.h).
@@ -97,14 +98,14 @@ double polarization_at(const Scatterer& s, Vector3d normal);
 // Photons have the cones of a first sample.
 inline std::uint32_t sample_of(const CameraPath& path) { return path.film.sample; }
 inline std::uint32_t sample_of(const PhotonPath&) { return 0; }
-// It widens by the angle between rays, and after a scattering by a tenth of the width of a lobe, whose
-// density is up to four times the path's (Akenine-Möller et al., "Texture Level of Detail Strategies for
-// Real-Time Ray Tracing", 2019).
+// Returns the cone. It widens by the angle between rays, and after a scattering by a tenth of a lobe's width.
+// The lobe's density is up to four times the path's (Akenine-Möller et al., "Texture Level of Detail
+// Strategies for Real-Time Ray Tracing", 2019).
 RayCone cone_of(const Tracing& tracing, const Scatterer& s, std::uint32_t sample);
-// To where it starts next.
+// Widens the cone up to where the next ray starts.
 void widen_cone(const Tracing& tracing, Scatterer& s, std::uint32_t sample, double distance);
 
-// A surface where it has come to it.
+// It is a surface that a ray has come to.
 struct Event {
   const Surface& surface;
   const MaterialKind& kind;
@@ -121,21 +122,22 @@ Event event_of(const Tracing& tracing, T& t) {
   return event;
 }
 
-// On the other side of a surface, as if it was not there; null: of a hole. Connections go through it too, so
-// a path keeps the density of the scattering that it comes from.
+// They go on, on the other side of a surface, as if it was not there; null: the surface of a hole.
+// Connections go through it too, so a path keeps the density of the scattering that it comes from.
 void pass_straight(const Tracing& tracing, CameraPath& path, const Interaction& at, const Surface* surface);
 void pass_straight(const Tracing& tracing, PhotonPath& photon, const Interaction& at, const Surface* surface);
-// Counts that it goes straight on, where that counts: through a sheet, or what is not there of it.
+// They count that the ray goes straight on, where that counts: through a sheet, or a part of the surface that
+// is not there.
 void count_straight(const Tracing& tracing, CameraPath& path);
 void count_straight(const Tracing& tracing, PhotonPath& photon);
-// Tells the ray that it meets a surface: only the far face of a pane lets the wavelengths out the way they
+// Tells the ray that it meets a surface. Only the far face of a pane lets the wavelengths out the way they
 // came in, and only smooth glass keeps their polarisation. Returns what leave_pane does.
 template <class T>
 bool come_to(T& t, const Event& event) {
   if (!event.kind.smooth_dielectric) t.pane.polarization = {};
   return (!event.at.front && event.kind.smooth_dielectric) || leave_pane(t);
 }
-// An event after which it goes on as it came.
+// Handles an event after which the ray goes on as it came.
 template <class T>
 void scatter_straight(const Tracing& tracing, T& t, const Event& event) {
   if (tracing.settings().straight_counts)
@@ -145,26 +147,26 @@ void scatter_straight(const Tracing& tracing, T& t, const Event& event) {
   pass_straight(tracing, t, event.at, &event.surface);
 }
 
-// The chance that it lives on after the event at hand: what it carries over what is worth going on for, which
-// is what it carries then. 1 after the first event that is not a mirror's or smooth glass's: the ray from
-// there brings light that the camera sees on what it looks at.
+// Returns the chance that the path lives on after the event at hand. It is what the path carries over what is
+// worth going on for; a path that lives on carries the latter. It is 1 after the first event that is not a
+// mirror's or smooth glass's. The ray from there brings light that the camera sees on what it looks at.
 float survival(const Tracing& tracing, const CameraPath& path);
-// Counts a scattering event, and decides by roulette whether it lives on. A path that is to scatter no more
-// lives on for the light that it may still see directly.
+// They count a scattering event, and decide by roulette whether the ray lives on. A path that is to scatter
+// no more lives on for the light that it may still see directly.
 bool go_on(const Tracing& tracing, CameraPath& path, float u, bool specular, bool no_more = false);
 bool go_on(const Tracing& tracing, PhotonPath& photon, float u, bool specular);
 
-// Scatters no more. A photon is scattered once more, where it is gathered.
+// They return whether the ray scatters no more. A photon is scattered once more, where it is gathered.
 bool is_spent(const Tracing& tracing, const CameraPath& path);
 bool is_spent(const Tracing& tracing, const PhotonPath& photon);
 
-// The material that chance chooses of a surface; null: nothing.
+// Returns the material that chance chooses of a surface; null: nothing.
 const Material* chosen_at(const Tracing& tracing, const Scatterer& s, const Surface& surface,
                           const Interaction& at);
-// What a path does then.
+// Passes a path where chance chooses nothing.
 void pass_nothing(const Tracing& tracing, CameraPath& path, const Surface& surface, const Interaction& at);
-// The material that it meets where it scatters, and what scatters there. Empty material: it does not;
-// `goes_on` says whether it has passed, or ends.
+// It is the material that the ray meets where it scatters. If the material is null, it does not scatter;
+// `goes_on` then says whether it has passed, or ends.
 struct MetMaterial {
   const Material* material = nullptr;
   bool goes_on = false;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sensors: where paths begin that measure. A sensor is a white diffuse surface at which paths begin: radiance
-// leaves it, the irradiance over π. The medium that the file gives is the camera's: where surfaces divide
-// space, a sensor's own is found first, by a ray along its normal, which no surface hides that it lies in.
+// This file begins paths that measure at sensors. A sensor is a white diffuse surface: radiance leaves it,
+// the irradiance over π. The medium that the file gives is the camera's. Where surfaces divide space, a
+// sensor's own medium is found first, by a ray along its normal. A surface that the sensor lies in does not
+// hide this ray.
 #pragma once
 
 #include "tracer/transport/find_hit.h"
@@ -12,9 +13,9 @@ namespace vitrail {
 
 enum class Begun { goes_on, ends, elsewhere };
 
-// A path that has begun at the camera, in a column that is a sensor's, begins there.
+// Begins a path at a sensor. The path has begun at the camera, in the sensor's column.
 Begun begin_at(Tracing& tracing, CameraPath& path, const Sensor& sensor, ShadowRays& shadows);
-// The path of one that came to `at` before its place was known.
+// Begins the path of a probe that came to `at` before the sensor's surroundings were known.
 Begun resume(Tracing& tracing, const ProbeRecord& record, const Arrival& at, CameraPath& path,
              ShadowRays& shadows);
 

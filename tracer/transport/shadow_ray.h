@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays to a point on a light, which nothing lets through in part: whether anything is in their way. Where
-// something does, connections (connection.h) wait beside them.
+// A ShadowRay goes to a point on a light in a scene where nothing lets light through in part. It finds
+// whether anything is in its way. In other scenes connections (connection.h) wait beside shadow rays.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ struct ShadowRay {
   double time_s = 0;                      // its path's
   const SensorWeights* sensor = nullptr;  // its path's, if that is at hand
 };
-// Those that wait to be traced together: not more than `most`, one of each path of a wave.
+// These rays wait to be traced together: not more than `most`, one of each path of a wave.
 struct ShadowRays {
   static constexpr std::size_t most = 512;
   std::unique_ptr<ShadowRay[]> rays = std::make_unique<ShadowRay[]>(most);
@@ -28,7 +28,7 @@ struct ShadowRays {
   Connections connections;
 };
 
-// Deposits what gets through of rays and connections that begin here, and leaves none of them.
+// Deposits the light of rays and connections that begin here and get through, and leaves none of them.
 void trace(Tracing& tracing, ShadowRays& rays);
 // Goes on with a ray in `domain`, which is resident.
 void resume(Tracing& tracing, const ShadowRecord& record, std::uint32_t domain);

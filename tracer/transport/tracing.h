@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one thread traces with: the scene, the domains that are at hand, where light and rays go. What the
-// functions of this room need beside the ray itself.
+// A Tracing is what one thread traces with: the scene, the domains that are at hand, and where light and rays
+// go. The functions of this folder need it beside the ray itself.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 
 namespace vitrail {
 
-// Rays that have to go on in a domain that is not resident.
+// These rays have to go on in a domain that is not resident.
 struct Outbox {
   struct Ray {
     std::uint32_t domain;
@@ -45,19 +45,22 @@ struct Outbox {
 };
 
 struct TraceCounters {
-  // From the camera; further ones of paths and photons; to lights, each segment behind a surface one more.
+  // They count rays from the camera, further ones of paths and photons, and rays to lights. Each segment of a
+  // ray to a light behind a surface is one more.
   std::uint64_t rays_camera = 0, rays_indirect = 0, rays_shadow = 0;
-  // Domains entered after the first one of a ray; from one ray in DomainWalk::sampled_one_in.
+  // It counts domains entered after the first one of a ray, for one ray in DomainWalk::sampled_one_in.
   std::uint64_t crossings = 0;
-  // Rays alive: paths begun, and connections and shadow rays put into an outbox; the same when they end.
+  // They count rays alive: paths begun, and connections and shadow rays put into an outbox; the same when
+  // they end.
   std::uint64_t born = 0, died = 0;
-  // Of photon mapping: sent from lights, questions answered, and photons found for them.
+  // They belong to photon mapping: photons sent from lights, questions answered, and photons found for them.
   std::uint64_t photons_emitted = 0, gathers = 0, photons_gathered = 0;
-  // Connections to distant lights at faces where they leave glass, those that end there as the faces are not
-  // parallel, and the widest wedge of these in 10⁻⁹ rad: of panes that taper, of prisms, of lenses.
+  // They count connections to distant lights at faces where they leave glass, and those that end there as the
+  // faces are not parallel. The widest wedge of the latter is in 10⁻⁹ rad: of panes that taper, of prisms, of
+  // lenses.
   std::uint64_t connections_in_glass = 0, connections_in_wedges = 0, widest_wedge_nrad = 0;
 
-  // `wedge`: as wedge_of; > 1: no light of that direction comes in there.
+  // `wedge` is that of wedge_of; > 1: no light of that direction comes in there.
   void count_leaving(bool leaves, double wedge) {
     ++connections_in_glass;
     if (leaves || wedge > 1) return;
@@ -67,11 +70,11 @@ struct TraceCounters {
 };
 TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b);
 
-// Indexed by domain; null: not resident.
+// They are indexed by domain; null: not resident.
 using ResidentViews = std::span<const DomainView* const>;
 
 struct LaneStages;
-// Of the fastest kernel that runs here (lane_stages.h).
+// Returns the stages of the fastest kernel that runs here (lane_stages.h).
 const LaneStages& best_lane_stages();
 
 // All that it refers to outlives it; the film is shared.
@@ -86,7 +89,7 @@ struct Tracing {
   const KernelFunctions& kernel = best_kernel();
   const LaneStages* stages = &best_lane_stages();  // null: every path by itself; the same picture
   PixelSums* sums = nullptr;  // what goes to the film goes through them, where there are any
-  // Where the film splats: the pixels of the sample that was added to it last.
+  // It is the footprint of the sample that was added last to a film that splats: its pixels.
   struct {
     std::uint64_t of = ~std::uint64_t{0};  // pixel and sample
     Footprint footprint;
@@ -100,7 +103,7 @@ struct Tracing {
   }
 };
 
-// A sample of a pixel, numbered in the crop, and how it sees.
+// It is a sample of a pixel, numbered in the crop, and how it sees.
 struct FilmSample {
   std::uint32_t pixel = 0, sample = 0;
   std::array<float, 4> camera{};  // its numbers for the camera; wavelengths follow from them
@@ -109,19 +112,20 @@ struct FilmSample {
 };
 
 SampleKey key_of(const Tracing& tracing, std::uint32_t pixel, std::uint32_t sample);
-// Among photons all paths of an iteration's part have its wavelengths.
+// Returns a sample's numbers for the camera. With photons all paths of an iteration's part have the part's
+// wavelengths.
 std::array<float, 4> camera_numbers(const Tracing& tracing, const SampleKey& key);
-// When a sample sees the scene. Among photons all paths of an iteration's part see it at once.
+// Returns when a sample sees the scene, in s. With photons all paths of an iteration's part see it at once.
 double time_of(const Tracing& tracing, const SampleKey& key);
-// After so much, in [0,1), of the time that the shutter is open.
+// Returns the time after this part, in [0,1), of the time that the shutter is open.
 double time_at(const Tracing& tracing, float number);
-// Of a sample whose numbers for the camera are `camera`.
+// Returns the weights of a sample whose numbers for the camera are `camera`.
 SensorWeights sensor_of(const Tracing& tracing, const std::array<float, 4>& camera,
                         const SampledWavelengths& wavelengths);
-// Where the film splats, the pixels of a sample; else null.
+// Returns the pixels of a sample where the film splats, else null.
 const Footprint* footprint_of(Tracing& tracing, std::uint32_t pixel, std::uint32_t sample);
 
-// Whose light a deposit is, for films that keep groups of lights.
+// It says whose light a deposit is, for films that keep groups of lights.
 struct LitBy {
   std::uint8_t group = 0;  // or GroupedLights::by_direction
   Vector3f direction{};    // to the light, any length; of what is by direction

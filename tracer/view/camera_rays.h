@@ -19,30 +19,31 @@ struct CameraRay {
 
 class CameraSampler {
  public:
-  // All outlive it.
+  // All of them have to outlive it.
   CameraSampler(const Camera& camera, const Motion& motion, const FilmSettings& film);
 
-  // Linear in the raster position: at_corner + per_x·x + per_y·y.
+  // It is linear in the raster position: at_corner + per_x·x + per_y·y.
   struct Linear {
     Vector3d at_corner, per_x, per_y;
     Vector3d at(Point2d raster) const { return at_corner + per_x * raster.x + per_y * raster.y; }
   };
-  // Where rays start, and their directions of any length.
+  // They are where rays start, and their directions of any length.
   struct LinearRays {
     Linear origin, direction;
   };
-  // Of a pinhole and of parallel rays that stand still, without clip planes; null of other cameras.
+  // Returns the rays of a pinhole and of parallel rays that stand still, without clip planes; null for other
+  // cameras.
   const LinearRays* linear() const { return is_linear_ ? &linear_ : nullptr; }
 
-  // Whether rays need a point of the lens.
+  // Returns whether rays need a point of the lens.
   bool has_lens() const { return has_lens_; }
-  // The ray through raster position (x, y), in pixels of the whole film from the top left. `lens`, in [0,1)²,
-  // chooses the point of the lens, if there is one. `time_s`: where the camera moves.
+  // Returns the ray through raster position (x, y), in pixels of the whole film from the top left. `lens`, in
+  // [0,1)², chooses the point of the lens, if there is one. `time_s` matters where the camera moves.
   CameraRay ray(Point2d raster, Point2d lens, double time_s) const;
-  // Where in the raster a point is seen at a time, without a lens. None: behind the camera, or of cameras
-  // that are neither a perspective nor an orthographic one.
+  // Returns where in the raster a point is seen at a time, without a lens. None: it is behind the camera, or
+  // the camera is neither a perspective nor an orthographic one.
   std::optional<Point2d> raster(Point3d p, double time_s) const;
-  // Of a column, where the camera is one of sensors: where it is and its unit normal.
+  // Returns the sensor of a column, where the camera is one of sensors: its place and its unit normal.
   std::optional<Sensor> sensor(int x) const;
 
  private:
@@ -55,7 +56,7 @@ class CameraSampler {
   LinearRays linear_;
 };
 
-// The square [0,1]² to the unit disk, area by area, neighbours staying neighbours (Shirley & Chiu 1997).
+// Maps the square [0,1]² to the unit disk, area by area, neighbours staying neighbours (Shirley & Chiu 1997).
 Point2d concentric_disk(Point2d u);
 
 }  // namespace vitrail

@@ -17,15 +17,17 @@ struct FilterSample {
   double weight = 1;  // of what the sample deposits: f/pdf, its mean is 1
 };
 
-// Sampling by a separable reconstruction filter f, so that a sample lands in one pixel (Ernst, Stamminger &
-// Greiner 2006): offsets are distributed as |f|, with weight ∫|f|/∫f, negative in f's negative lobes; 1 where
-// it has none. Of samples that splat, offsets are even over the pixel, and the filter is in their footprint.
+// It samples by a separable reconstruction filter f, so that a sample lands in one pixel (Ernst, Stamminger &
+// Greiner 2006). Offsets are distributed as |f|, with weight ∫|f|/∫f, negative in f's negative lobes; it is 1
+// where f has none. Offsets of samples that splat are even over the pixel, and the filter is in their
+// footprint.
 class FilterSampler {
  public:
   explicit FilterSampler(const Filter& filter, bool splats = false);
   bool splats() const { return splats_; }
   FilterSample sample(float u, float v) const;  // u, v in [0,1)
-  // Where samples lie evenly about the pixel's centre, with the weight 1: how far, in x and y.
+  // Returns how far in x and y samples lie evenly about the pixel's centre, with the weight 1. It is empty
+  // for other filters.
   std::optional<Point2d> even_radius() const;
   double weight(float u, float v) const { return has_lobes() ? sample(u, v).weight : 1; }  // of that sample
   Footprint footprint(float u, float v) const;  // of that sample; radii ≤ greatest_splat_radius

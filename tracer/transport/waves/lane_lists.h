@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of a wave's paths go by which stage in lanes.
+// LaneLists says which of a wave's paths go by which stage in lanes.
 #pragma once
 
 #include <array>
@@ -15,18 +15,18 @@ class LaneLists {
   // Paths of a wave are at places below `most`.
   explicit LaneLists(std::size_t most);
 
-  // Whether any of the scene's paths may be put into a list.
+  // Returns whether any of the scene's paths may be put into a list.
   static bool apply_to(const Tracing& tracing);
-  // Puts a path, which has flown, into the list of its kind, as far as its stage can do all of what the event
-  // takes: light that it meets there is deposited. False: for `shade`.
+  // Puts a path, which has flown, into the list of its kind, if its stage can do all that the event takes.
+  // Light that the path meets there is deposited. Returns false for a path that is left to `shade`.
   bool take(Tracing& tracing, CameraPath& path, std::uint32_t place, const Arrived& arrived);
-  // Runs the stages over all that is in lists, and empties them. Those that go on are put behind `live`.
+  // Runs the stages over all that is in lists, and empties them. Paths that go on are put behind `live`.
   void run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows, std::vector<std::uint32_t>& live);
 
  private:
   bool take_in_medium(Tracing& tracing, CameraPath& path, std::uint32_t place, const Arrived& arrived);
   bool take_leaving(Tracing& tracing, CameraPath& path, std::uint32_t place);
-  // Into the list of the material that it has met. `at`: null where nothing is asked of it.
+  // Puts a path into the list of the material that it has met. `at` is null where nothing of it is needed.
   [[gnu::always_inline]] inline void enlist(const Tracing& tracing, const CameraPath& path,
                                             std::uint32_t place, const LaneMaterial& of,
                                             const Interaction* at, bool is_placed);
@@ -34,7 +34,8 @@ class LaneLists {
   std::uint32_t candidates_of(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
                               bool is_placed, const LaneMaterial& of) const;
 
-  // Places by kind, by whether the hit is placed, by whether there are several candidates for a light.
+  // They are places by kind, by whether the hit is placed, by whether there are several candidates for a
+  // light.
   std::array<std::array<std::array<std::vector<std::uint32_t>, 2>, 2>, lane_kinds> lists_;
   std::vector<std::uint32_t> surface_, material_, next_;  // by place, by place; places
   std::vector<LaneBsdf> bsdfs_;                           // by place

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stages of a wave that take several paths at a time, one a lane: what scatters there is of one kind for all
-// of them. Each gives every path the bits that `shade` gives it. Compiled for each instruction set from one
-// text, lane_stages.inl.
+// These stages of a wave take several paths at a time, one a lane: what scatters there is of one kind for all
+// of them. Each gives every path the bits that `shade` gives it. They are compiled for each instruction set
+// from one text, lane_stages.inl.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,9 @@
 
 namespace vitrail {
 
-// Of a hit within an instance, of a quadric, or of a surface whose material is chosen or whose normal is
-// turned: what of its Interaction the stages read. Of a point in a medium, p alone.
+// It holds what the stages read of an Interaction that they cannot make themselves. The hit is within an
+// instance, or of a quadric, or of a surface whose material is chosen or whose normal is turned. A point in a
+// medium has p alone.
 struct PlacedHit {
   Point3d p;
   Vector3d geometric, shading, dpdu;
@@ -25,7 +26,7 @@ struct PlacedHit {
   Point2d uv;
 };
 
-// What the stages work on. Paths and what is kept of each are at their places in a wave.
+// It is what the stages work on. Paths and what is kept of each are at their places in a wave.
 struct LaneWork {
   Tracing& tracing;
   const LaneScene& scene;
@@ -42,14 +43,14 @@ struct LaneWork {
   bool groups_lights;                  // the film keeps groups of lights
   double rounding_of_doubles;          // as of offset_origin
 
-  // What comes out: shadow rays behind those that are there, and the places of paths that go on.
+  // These are the results: shadow rays behind those that are there, and the places of paths that go on.
   ShadowRays& shadows;
   std::uint32_t* next;
   std::size_t next_count = 0;
   std::uint64_t rays_shadow = 0;
 };
 
-// Places of paths that have come to surfaces of one kind, and are not to end there.
+// They are places of paths that have come to surfaces of one kind, and are not to end there.
 struct LaneList {
   const std::uint32_t* places;
   std::size_t count;
@@ -57,7 +58,7 @@ struct LaneList {
   std::uint32_t candidates;  // for a light, of each
 };
 
-// Paths that begin, whose samples are set.
+// They are paths that begin, whose samples are set.
 struct NewPaths {
   const Tracing& tracing;
   CameraPath* paths;
@@ -70,21 +71,22 @@ struct NewPaths {
 };
 
 struct LaneStages {
-  // Gives them their numbers for the camera, their wavelengths and what the sensor makes of them; of a linear
-  // camera also their rays.
+  // Gives paths their numbers for the camera, their wavelengths and what the sensor makes of them; a linear
+  // camera also gives their rays.
   void (*begin)(const NewPaths& work);
 
-  // Light that paths see which leave the scene: not within a pane, no medium there, no disc of a sun.
+  // Adds the light that paths see which leave the scene: not within a pane, with no medium there and no disc
+  // of a sun.
   void (*leave_scene)(LaneWork& work, const LaneList& list);
 
-  // At points of media.
+  // Scatters at points of media.
   void (*scatter_in_media)(LaneWork& work, const LaneList& list);
 
-  // By kind, but `none`.
+  // There is a stage for each kind but `none`.
   void (*stage[lane_kinds])(LaneWork& work, const LaneList& list);
 };
 
-// Of the instruction set of a kernel that runs here.
+// Returns the stages for the instruction set of a kernel that runs here.
 const LaneStages& lane_stages(Kernel kernel);
 
 extern const LaneStages portable_stages;
@@ -93,39 +95,40 @@ extern const LaneStages avx2_stages;
 extern const LaneStages avx512_stages;
 #endif
 
-// What the stages leave to one path at a time.
+// The stages leave these to one path at a time.
 namespace lane_by_lane {
 
-// sample_light for a path, with the numbers of a candidate. False where nothing arrives.
+// It is sample_light for a path, with the numbers of a candidate. It returns false where nothing arrives.
 bool sample(const LaneWork& work, const CameraPath& path, Point3d p, const float (&u)[4], LightSample& light);
-// The same where a light of the tree is chosen: what is left of the number for that, and its probability.
+// It is the light of the tree that a path has chosen: its probability, and what is left of the number that
+// chose it. `draw` does the same as `sample` for it.
 struct ChosenLight {
   std::uint32_t slot;
   double rest, probability;
 };
 bool draw(const LaneWork& work, const CameraPath& path, Point3d p, const float (&u)[4],
           const ChosenLight& chosen, LightSample& light);
-// LightSampler::choice_of, light_of; the face of a triangle.
+// They are LightSampler::choice_of and light_of, and the face of a triangle.
 std::size_t choice_of(const LightSampler& lights, double u);
 LightRef light_of(const LightSampler& lights, std::uint32_t slot);
 LightSampler::Face face_of(const LightSampler::Slot& triangle);
-// As GroupedLights says.
+// Returns the group of a light, as GroupedLights does.
 std::uint8_t group_of(const LaneWork& work, LightRef light);
 FilterSample filter_sample(const Tracing& tracing, float u, float v);
-// Of a spectrum that is an `other`.
+// Evaluates a spectrum that is an `other`.
 void evaluate(const FlatSpectrum& spectrum, const CameraPath& path, float (&value)[4]);
-// Radiance times throughput, of all that is around the scene.
+// Deposits radiance times throughput, of all that is around the scene.
 void deposit_surroundings(const LaneWork& work, const CameraPath& path, const SampledSpectrum& radiance);
-// Where a ray leaves a surface. `front_side`: it leaves there.
+// It says where a ray leaves a surface; `front_side`: it leaves on the front.
 struct SurfaceSide {
   std::uint32_t place;
   bool from_front, front_side;
 };
-// Where light may pass something: goes to a light by whatever ray it takes.
+// Sends a path's light sample by whatever ray it takes, where light may pass something.
 using Leaving = Departure;
 void send(LaneWork& work, const CameraPath& path, const Leaving& from, const LightSample& light,
           const SampledSpectrum& radiance);
-// Goes straight to a light.
+// A StraightConnection goes straight to a light.
 struct StraightConnection {
   Leaving from;
   Vector3f direction;
@@ -137,13 +140,14 @@ struct StraightConnection {
 void begin_connection(LaneWork& work, const CameraPath& path, const StraightConnection& way,
                       const SampledSpectrum& throughput);
 Vector3d sample_phase(double g, Vector3d out, float u, float v);
-// State of Interiors there.
+// Returns the state of Interiors there.
 std::uint8_t inside(const LaneWork& work, const CameraPath& path, const SurfaceSide& side);
 // Aims a shadow ray to a quadric.
 void aim(const CameraPath& path, Point3d p, Point3f origin, const LightSample& light, ShadowRay& shadow);
-// As numbers_for_scattering and of lights, of a path that has passed something for nothing.
+// It gives the numbers of numbers_for_scattering, and those for lights, of a path that has passed something
+// for nothing.
 void hash_numbers(const CameraPath& path, RayRandom use, float (&numbers)[4]);
-// Goes straight on behind a sheet.
+// It is a sheet behind which a path goes straight on.
 struct SheetHit {
   std::uint32_t place;
   Point3d p;
@@ -152,16 +156,16 @@ struct SheetHit {
   bool front;
 };
 void pass_sheet(LaneWork& work, CameraPath& path, const SheetHit& hit, const SampledSpectrum& throughput);
-// As vitrail::polarization_at.
+// It is vitrail::polarization_at.
 double polarization_at(const CameraPath& path, Vector3d normal);
-// A face of glass of one index.
+// It is a face of glass of one index.
 struct CrossedFace {
   Vector3d normal;  // on the path's side
   bool front, reflected;
   double q;  // Q/I behind it,
   float u;   // and what rounds it
 };
-// What is known of it then.
+// Records what is known of the face then.
 void cross_face(CameraPath& path, const CrossedFace& face);
 
 }  // namespace lane_by_lane

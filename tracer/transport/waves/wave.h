@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths from the camera that are traced together, stage by stage: all begin, all look for their next hit,
-// then all are shaded, then their shadow rays are traced, until none is left. Nothing of the picture depends
-// on which paths these are.
+// A Wave is paths from the camera that are traced together, stage by stage. All begin, all look for their
+// next hit, then all are shaded, then their shadow rays are traced, until none is left. Nothing of the
+// picture depends on which paths these are.
 #pragma once
 
 #include <memory>
@@ -18,26 +18,27 @@ namespace vitrail {
 
 class Wave {
  public:
-  // States of paths and what they are read for fit into a core's second cache.
+  // States of paths and the data that are read for them fit into a core's second cache.
   static constexpr std::size_t most = 512;
   static_assert(most <= ShadowRays::most);
 
   Wave() : paths_(std::make_unique<CameraPath[]>(most)), at_(most) {}
 
   bool is_full() const { return next_ == most; }
-  // Takes in a sample of the pixel (x, y) of the whole film; not where it is full.
+  // Takes in a sample of the pixel (x, y) of the whole film. It must not be full.
   void add(const Tracing& tracing, int x, int y, std::uint32_t sample);
-  // A place for a path that has begun, as new; it goes on where `resume` says so. Not where it is full.
+  // Returns a place, as new, for a path that has begun; it goes on where `resume` says so. The wave must not
+  // be full.
   CameraPath& place() { return *std::construct_at(&paths_[next_++]); }
-  // Of the path in the place that was given last. `at`: of one that comes from elsewhere.
+  // Goes on with the path in the place that was given last. `at` is set for a path that comes from elsewhere.
   void resume(const std::optional<Arrival>& at) {
     at_[next_ - 1] = at;
     live_.push_back(static_cast<std::uint32_t>(next_ - 1));
   }
-  // Of paths that begin in it.
+  // They are the shadow rays of paths that begin in it.
   ShadowRays& shadows() { return shadows_; }
 
-  // Traces all of them to their ends, or until they go on elsewhere. It is empty then.
+  // Traces all of them to their ends, or until they go on elsewhere. The wave is then empty.
   void trace(Tracing& tracing);
 
  private:
