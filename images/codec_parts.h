@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of ImageCodec that have files of their own. For the module alone.
+// These functions of ImageCodec have files of their own. They are for the module alone.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -9,7 +9,7 @@
 
 namespace vitrail {
 
-// The header of the file, where it is one of Radiance's; else what changes nothing.
+// Returns the header of a Radiance file; for another file, a header that changes nothing.
 RadianceHeader radiance_header_of(const OIIO::ImageInput& in, const std::string& file);
 
 std::string encode_picture(const std::string& file, const PictureFile& picture, const void* pixels,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that lie within other files, as glTF has them: a record names one by a part of that file.
+// A picture may lie within another file, as in glTF: a record then names a part of that file.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace vitrail {
 
-// So many bytes of a file from an offset on. Of base64: `bytes` of what the text that begins at `offset`
-// comes to, behind the first `skip` (0 to 2) of it.
+// A FilePart is `bytes` bytes of a file, from `offset` on. With base64, it is `bytes` bytes of what the text
+// that begins at `offset` decodes to, behind its first `skip` (0 to 2).
 struct FilePart {
   std::filesystem::path file;
   std::uint64_t offset = 0, bytes = 0;
@@ -21,17 +21,18 @@ struct FilePart {
   bool operator==(const FilePart&) const = default;
 };
 
-// "/a/scene.glb#bytes=120+4096", "/a/scene.gltf#base64=120+4096", "…#base64=120+4096-2" with skip.
+// Returns names such as "/a/scene.glb#bytes=120+4096", "/a/scene.gltf#base64=120+4096", and with skip
+// "…#base64=120+4096-2".
 std::string name_of(const FilePart& part);
-// The part that such a name means; nothing for names of whole files.
+// Returns the part that such a name means, and nothing for the name of a whole file.
 std::optional<FilePart> file_part(const std::string& name);
-// The file that is opened for it: itself where it is no part.
+// Returns the file that is opened for a name: the name itself where it is of no part.
 std::filesystem::path whole_file(const std::string& name);
 
-// Throws Error where the file has not so much, or no base64 there; with the file's name.
+// Throws Error with the file's name where the file ends before, or has no base64 there.
 std::vector<std::byte> read_part(const FilePart& part);
 
-// ".png", ".jpg", ".webp", ".ktx2" … by the first bytes; "" where they tell nothing.
+// Returns ".png", ".jpg", ".webp", ".ktx2" … by the first bytes; "" where they tell nothing.
 std::string picture_suffix(const std::vector<std::byte>& bytes);
 
 }  // namespace vitrail

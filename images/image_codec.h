@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What speaks OpenImageIO and OpenColorIO. With the 260 libraries that hang on them, it takes 0.3 s and
-// 130 MB to load, so it is a module of its own, which is loaded with the first image that needs it.
+// An ImageCodec uses OpenImageIO and OpenColorIO. They need 260 libraries, 0.3 s and 130 MB to load, so the
+// codec is a module of its own, which is loaded with the first image that needs it.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace vitrail {
 
-// A picture as a file holds it, but for its pixels: those are interleaved, the top left one first.
+// A PictureFile is all that a file holds but its pixels. Those are interleaved, the top left one first.
 struct PictureFile {
   struct Channel {
     std::string name;
@@ -33,37 +33,39 @@ struct PictureFile {
   std::vector<std::pair<std::string, Value>> attributes;
 };
 
-// A file by its name, or the bytes of one where there are any: `file` then is a name that ends in its kind.
+// A PictureSource is a file by its name, or the bytes of a file where there are any: `file` then is a name
+// that ends in its kind.
 struct PictureSource {
   std::string file;
   std::span<const std::byte> bytes{};
 };
 
-// All return what went wrong, or nothing.
+// All functions of an ImageCodec return what went wrong, or nothing.
 struct ImageCodec {
   // Makes the library do what it does with the first file.
   void (*begin)();
-  // Without `image`, the layout alone.
+  // It reads the layout alone where `image` is null.
   std::string (*read)(const PictureSource& source, ImageLayout& layout, Image* image);
-  // What `visit` throws passes through.
+  // Exceptions of `visit` pass through it.
   std::string (*read_rows)(const PictureSource& source, ImageLayout& layout,
                            const std::function<void(Image)>& visit);
-  // The bytes of an EXR file.
+  // It makes the bytes of an EXR file.
   std::string (*encode_exr)(const Image& image, std::vector<std::byte>& bytes);
-  // The bytes of the format that the file's extension names.
+  // It makes the bytes of a file in the format that the extension of `file` names.
   std::string (*encode_picture)(const std::string& file, const PictureFile& picture, const void* pixels,
                                 std::vector<std::byte>& bytes);
-  // Any picture, integers taken to [0,1]. The caller names the attributes, and what they are where the file
-  // has none.
+  // It reads any picture and takes integers to [0,1]. The caller names the attributes, with the values that
+  // count where the file has none.
   std::string (*decode_picture)(const std::string& file, PictureFile& picture, std::vector<float>& values);
-  // ACES' output transform 1.x of colours whose 3 × 3 matrix to XYZ is given row by row (tone_map.h).
+  // It applies ACES' output transform 1.x to colours whose 3 × 3 matrix to XYZ is given row by row
+  // (tone_map.h).
   std::string (*map_tones)(Image& rgb, const std::array<double, 9>& to_xyz);
 };
 
 inline constexpr const char* image_codec_module = "vitrail-openimageio.so";
 inline constexpr const char* image_codec_symbol = "vitrail_image_codec";
 
-// Loads it. Throws MachineError where it cannot be.
+// Loads the module. Throws MachineError where it cannot be loaded.
 const ImageCodec& image_codec();
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of a plain JPEG file of 8 bits (ITU-T T.81), by libjpeg-turbo.
+// This file reads the rows of a plain JPEG file of 8 bits (ITU-T T.81), by libjpeg-turbo.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,8 @@
 
 namespace vitrail {
 
-// Nothing where it is no such file (byte_rows.h): grey and RGB alone, from one image in the file.
+// Returns nothing where it is no such file (byte_rows.h): it takes grey and RGB alone, from one image in the
+// file.
 std::optional<ByteRows> jpeg_rows(const std::filesystem::path& file);
 
 }  // namespace vitrail

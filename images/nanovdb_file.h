@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes of a NanoVDB file: segments of grids, each as it lies in memory, or deflated.
+// A NanoVDB file has segments of grids, each as it lies in memory, or deflated.
 #pragma once
 
 #include <nanovdb/util/IO.h>
@@ -16,13 +16,13 @@
 
 namespace vitrail::nanovdb_file {
 
-// A file that a stranger wrote.
+// It is a file that a stranger wrote.
 class File {
  public:
-  // Throws Error where it cannot be opened.
+  // Throws Error where the file cannot be opened.
   explicit File(const std::filesystem::path& path);
 
-  // So many bytes from that place. Throws Error where the file ends before.
+  // Reads to.size() bytes from `offset` on. Throws Error where the file ends before.
   void read(std::uint64_t offset, std::span<char> to) const;
   template <class T>
   T at(std::uint64_t offset) const {
@@ -39,16 +39,16 @@ class File {
   RegularFile file_;
 };
 
-// A grid in the file.
+// It is a grid in the file.
 struct StoredGrid {
   nanovdb::io::MetaData meta;
   std::uint64_t offset = 0;  // of its bytes, meta.fileSize of them
 };
 
-// The first grid of that name.
+// Returns the first grid of that name, or nothing.
 std::optional<StoredGrid> find_grid(const File& file, const std::string& name);
 
-// The first bytes of the grid as it lies in memory: `most`, or all.
+// Returns the first bytes of the grid as it lies in memory: `most` of them, or all if there are fewer.
 std::vector<char> unpacked(const StoredGrid& grid, std::uint64_t most, const File& file);
 
 }  // namespace vitrail::nanovdb_file

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree of a NanoVDB grid of floats: a root of tiles, 32³ nodes, 16³ nodes, leaves of 8³ voxels.
+// The tree of a NanoVDB grid of floats has a root of tiles, 32³ nodes, 16³ nodes, and leaves of 8³ voxels.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace vitrail::nanovdb_file {
 
-// Voxels by their indices, both ends included.
+// It bounds voxels by their indices; both ends belong to it.
 struct VoxelBox {
   std::array<std::int64_t, 3> first{}, last{};
   std::uint64_t extent(std::size_t axis) const {
@@ -18,8 +18,9 @@ struct VoxelBox {
   }
 };
 
-// All voxels of the box, x fastest: of leaves, of tiles, else the background. `grid`: its bytes as they lie
-// in memory. Each offset in them is checked; throws Error by the file where one leads out of them.
+// Returns all voxels of the box, x fastest: values of leaves, of tiles, else the background. `grid` is its
+// bytes as they lie in memory. Each offset in them is checked; where one leads out of them, it throws Error
+// by `file`.
 std::vector<float> dense_values(std::span<const char> grid, const VoxelBox& box, const File& file);
 
 }  // namespace vitrail::nanovdb_file

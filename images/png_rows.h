@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of a plain PNG file of 8 bits (ISO/IEC 15948).
+// This file reads the rows of a plain PNG file of 8 bits (ISO/IEC 15948).
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace vitrail {
 
-// Nothing where it is no such file (byte_rows.h).
+// Returns nothing where it is no such file (byte_rows.h).
 std::optional<ByteRows> png_rows(const std::filesystem::path& file);
 
 }  // namespace vitrail

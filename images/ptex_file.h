@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of Ptex: a texture for every face of a mesh (Ptex File Format Specification 1.3).
+// A Ptex file has a texture for every face of a mesh (Ptex File Format Specification 1.3).
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace vitrail {
 
-// Its numbers are as the file stores them; integers are taken to [0,1]. What cannot be read throws Error with
-// the file's name.
+// Its numbers are as the file stores them; integers are taken to [0,1]. Throws Error with the file's name
+// where the file cannot be read.
 class PtexFile {
  public:
   struct Face {
@@ -23,18 +23,18 @@ class PtexFile {
   explicit PtexFile(const std::filesystem::path& file);
 
   std::size_t channels() const { return channels_; }
-  // Of a mesh of triangles, whose texels are packed in another way.
+  // Returns whether the file is for a mesh of triangles, whose texels are packed in another way.
   bool is_of_triangles() const { return of_triangles_; }
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<float>& means() const { return means_; }  // [face][channel]
-  // [v][u][channel], from (u,v) = (0,0) on.
+  // Returns [v][u][channel], from (u,v) = (0,0) on.
   std::vector<float> texels(std::size_t face);
 
  private:
   struct Header;
   Header read_header();
   void read_means(std::uint64_t at, const Header& header);
-  // The word of each face's texels in the finest level; empty where no face has any.
+  // Returns the word of each face's texels in the finest level, or nothing where no face has any.
   std::vector<std::uint32_t> read_blocks(std::uint64_t& at, const Header& header);
   void place_faces(const std::vector<unsigned char>& infos, const std::vector<std::uint32_t>& blocks,
                    std::uint64_t at);

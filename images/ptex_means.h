@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Ptex's textures count as.
+// These functions evaluate Ptex's textures, one number at a time or by a mean over all faces.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace vitrail {
 
-// Of a number as its file has it. pbrt decodes what its filters make of the texels, from a gamma of 2.2
-// unless the scene says otherwise. What is not finite counts as 0.
+// Returns the value of a number as the file has it. pbrt decodes the filtered texels, from a gamma of 2.2
+// unless the scene says otherwise. A number that is not finite counts as 0.
 double ptex_value(double value, const PtexTexture& texture);
 
-// What stands for the texture where faces are not told apart: the mean of its faces, or grey where its file
-// cannot be read. `how` says which, and how far faces are from it:
-// `deviation` in the root mean square.
+// It stands for the texture where faces are not told apart: the mean of its faces, or grey where its
+// file cannot be read. `how` says which, and how far faces are from it: `deviation` in the root mean
+// square.
 struct PtexMean {
   RGB color;
   std::string how;

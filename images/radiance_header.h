@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the header of a Radiance picture (.hdr) says of its pixels, which OpenImageIO hands out as they are
-// stored.
+// The header of a Radiance picture (.hdr) says how its pixels are stored. OpenImageIO returns them as they
+// are stored.
 #pragma once
 
 #include <string_view>
@@ -15,7 +15,8 @@ struct RadianceHeader {
   bool is_turned() const { return is_transposed || from_right || from_below; }
 };
 
-// `bytes`: the beginning of the file. What is missing is as usual: exposure 1, "-Y height +X width".
+// Reads the header at the beginning of a file, `bytes`. Missing lines have the usual values: exposure 1, "-Y
+// height +X width".
 RadianceHeader radiance_header(std::string_view bytes);
 
 // Puts the pixels of a file of `width` × `height` into rows from the top, each from the left, and takes the
