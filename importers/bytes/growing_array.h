@@ -20,7 +20,7 @@
 
 namespace vitrail {
 
-// Plain records of which nobody knows yet how many will come. Unlike a std::vector it grows without a second
+// It holds plain records whose number is not known in advance. Unlike a std::vector it grows without a second
 // copy in memory (a large block is moved by its page table), and can be turned into one.
 template <class T>
 class GrowingArray {
@@ -59,8 +59,8 @@ class GrowingArray {
     size_ += values.size();
   }
 
-  // Calls visit(span) with all in order, in spans of a multiple of `group` but for the last, and lets go of
-  // the memory behind; the array is empty then.
+  // Calls visit(span) with all values in order, in spans of a multiple of `group` but for the last. It frees
+  // the memory behind them; the array is empty then.
   template <class Visit>
   void consume(Visit&& visit, std::size_t group = 1) {
     const std::size_t piece = (std::size_t{4} << 20) / (sizeof(T) * group) * group;
@@ -98,7 +98,7 @@ class GrowingArray {
     data_ = static_cast<T*>(grown);
     capacity_ = capacity;
   }
-  // The whole pages within: they read as zero from now on.
+  // Gives back the whole pages within: they read as zero from now on.
   static void release(std::span<const T> values) {
     static const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
     const auto begin = (reinterpret_cast<std::uintptr_t>(values.data()) + page - 1) / page * page;

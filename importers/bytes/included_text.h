@@ -11,15 +11,15 @@
 
 namespace vitrail {
 
-// Counts the text of files that are included more than once: forty that each include the next one twice are
-// small, and without end when they are read.
+// It counts the text of files that are included more than once. Forty files that each include the next one
+// twice are small, but do not end when they are read.
 class IncludedText {
  public:
   explicit IncludedText(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
 
-  // The file is about to be read, of so many bytes. False where that is too much.
+  // Says that `file` of so many bytes is about to be read. Returns false where that is too much.
   [[nodiscard]] bool add(const std::filesystem::path& file, std::uint64_t bytes);
-  // What to say then.
+  // Returns the message for that case.
   std::string refusal() const;
 
  private:

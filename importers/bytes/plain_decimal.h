@@ -8,10 +8,10 @@ namespace vitrail {
 
 inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
 
-// Reads a number as files are full of them: "-12.345", at most 15 digits, no exponent. Returns where it ends,
-// or nullptr if what stands there is something else, which a full parser has to look at. Exact: digits and
-// power are both doubles without rounding, so their quotient is the double nearest to the number (Clinger
-// 1990).
+// Reads a number of the form that most files use: "-12.345", at most 15 digits, no exponent. Returns where it
+// ends, or nullptr if what stands there is something else, which a full parser has to look at. The value is
+// exact: digits and power are both doubles without rounding, so their quotient is the double nearest to the
+// number (Clinger 1990).
 inline const char* plain_decimal(const char* at, const char* end, double& value) {
   constexpr std::array<double, 16> powers{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                           1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};

@@ -10,15 +10,15 @@
 
 namespace vitrail {
 
-// A piece of input as it can be shown in a message: about `longest` bytes of it, as well-formed UTF-8
+// Returns a piece of input as it can be shown in a message: about `longest` bytes of it, as well-formed UTF-8
 // (reports are JSON) without control characters.
 std::string printable(std::string_view text, std::size_t longest = 40);
 
-// Where the text begins behind the mark that some editors put before UTF-8.
+// Returns where the text begins behind the mark that some editors put before UTF-8.
 const char* after_byte_order_mark(const char* begin, const char* end);
 
 // Reads words and numbers of a text and knows where it is. Lines end with \n, \r\n or \r; a backslash before
-// the end of a line joins it with the next one if `continuations` is set. Cheap to copy; the text, of
+// the end of a line joins it with the next one if `continuations` is set. It is cheap to copy. The text, of
 // which `begin` starts a line, and the name outlive it.
 class TextCursor {
  public:
@@ -29,26 +29,26 @@ class TextCursor {
   const char* at() const { return at_; }
   const char* end() const { return end_; }
   int line() const { return line_; }
-  // True if `c` comes next.
+  // Returns whether `c` comes next.
   bool sees(char c) const { return at_ != end_ && *at_ == c; }
 
-  // What may follow a word or a number.
+  // Returns whether a word or a number may end here: at a blank, or where the line or the text ends.
   bool at_separator() const { return at_ == end_ || blank() || line_break() || continuation(); }
-  // Skips blanks; true if the line has ended there.
+  // Skips blanks. Returns true if the line has ended there.
   bool at_line_end();
-  // Skips blanks and ends of lines; false at the end of the text.
+  // Skips blanks and ends of lines. Returns false at the end of the text.
   bool skip_to_text();
   void skip_line();
 
-  // The characters up to the next blank; empty at the end of the line.
+  // Returns the characters up to the next blank; empty at the end of the line.
   std::string_view word();
-  // The rest of the line without the blanks around it.
+  // Returns the rest of the line without the blanks around it.
   std::string_view rest_of_line();
-  // A number that ends at a blank or the end of the line; anything else throws Error. `what` names it in the
-  // message. "nan", "inf" and what Microsoft's libraries wrote for them ("-1.#IND") are numbers.
+  // Returns a number that ends at a blank or the end of the line; anything else throws Error. `what` names it
+  // in the message. "nan", "inf" and what Microsoft's libraries wrote for them ("-1.#IND") are numbers.
   double number(const char* what);
-  // The next number if it is a plain one (plain_decimal.h) behind spaces and line feeds; its place goes to
-  // `begin`. Otherwise false, and perhaps blanks have been skipped.
+  // Reads the next number if it is a plain one (plain_decimal.h) behind spaces and line feeds; its place goes
+  // to `begin`. Otherwise it returns false, and may have skipped blanks.
   bool next_plain_number(double& value, const char*& begin) {
     for (; at_ != end_ && (*at_ == ' ' || *at_ == '\n'); ++at_) {
       if (*at_ != '\n') continue;
@@ -67,11 +67,11 @@ class TextCursor {
   }
   // Consumes `c` if it comes next.
   bool accept(char c);
-  // A decimal integer, which must fit; nothing is required to follow it.
+  // Returns a decimal integer, which must fit; nothing is required to follow it.
   std::int64_t integer(const char* what);
 
   SourceLocation location() const { return location(at_); }
-  // Of a position in the present line.
+  // Returns the place of a position in the present line.
   SourceLocation location(const char* position) const;
   // Throws Error at a position in the present line, with the line as the excerpt.
   [[noreturn]] void fail(const std::string& message, const char* position) const;
