@@ -6,7 +6,7 @@
 namespace vitrail {
 
 // Exporters of modellers whose faces have two materials (SketchUp, Mineways) write each face twice, back to
-// back in one place. A ray meets both at once, so that chance decides which of them shows. Here they become
+// back in one place. A ray meets both at once, so that chance decides which shows. This function makes them
 // one surface with a material for each side (TwoSidedMaterial), which is reported.
 //
 // A triangle is joined where triangles of one other shape cover it that face the other way, whatever their

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Glazing that the user gives to materials of a scene, whatever the format of the scene.
+// The user may give glazing to materials of a scene, whatever the format of the scene.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene leaves to those who load it.
+// A scene leaves these choices to those who load it.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace vitrail {
 
-// What a scene that is a program, as POV-Ray's are, may ask for before it is refused. Each has its option.
+// A scene that is a program, as POV-Ray's are, may ask for so much before it is refused. Each limit has its
+// option.
 struct ProgramLimits {
   std::uint64_t tokens = 2'000'000'000;     // --token-limit: read, again in each round of a loop
   std::uint64_t written_bytes = 256 << 20;  // --write-limit: by #write, kept in memory
@@ -17,10 +18,10 @@ struct ProgramLimits {
   int nested = 200;                         // --nesting-limit: objects and brackets within each other
 };
 
-// The options of a reader.
+// All readers take these options.
 struct ImportOptions {
-  // Values of a Mitsuba scene's parameters, as its command line's -D: they stand before the file's
-  // <default>s. Of a POV-Ray scene: what stands before it, as its command line's Declare=.
+  // They are values of a Mitsuba scene's parameters, as its command line's -D: they stand before the file's
+  // <default>s. For a POV-Ray scene they stand before it, as its command line's Declare=.
   std::map<std::string, std::string> definitions;
   bool replace_missing = false;  // go on without images and meshes that are not there (missing_files.h)
   std::string sky;  // in place of all light from infinitely far (given_sky.h); "": as the file says
@@ -30,8 +31,8 @@ struct ImportOptions {
   std::vector<std::string> include_folders;  // searched for files of a POV-Ray scene, after its own folder
   ProgramLimits program;
   bool all_media = false;  // also those that the scene's integrator passes by (pbrt's "path")
-  // For writers: what formats do not have (the film's working gamma, highlights that are not normalised) is
-  // said by what they have, the nearest to it.
+  // It is set for writers. Features that other formats do not have (the film's working gamma, highlights that
+  // are not normalised) are then replaced by the nearest that they have.
   bool for_export = false;
 };
 

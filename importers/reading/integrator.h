@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the integrators of other renderers come to here.
+// These functions map the integrators of other renderers to Vitrail's.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace vitrail {
 
-// What a scene's integrator asks for.
+// An AskedIntegrator is the integrator that a scene asks for.
 struct AskedIntegrator {
   enum class Kind {
     paths,       // from the camera, with connections to lights: the same picture
@@ -30,20 +30,20 @@ struct AskedIntegrator {
   std::string suggestion{};  // "; did you mean …?"
 };
 
-// A name of a format's integrators.
+// It is a name of a format's integrators, with its kind.
 using NamedIntegrator = std::pair<std::string_view, AskedIntegrator::Kind>;
 
-// The integrator of that name, of those that are `known`. Another is `other`, with the nearest name of these
-// and of the `also_named`, if one is near.
+// Returns the integrator of that name, of those that are `known`. Any other name gives `other`, with the
+// nearest of these names and of `also_named`, if one is near.
 AskedIntegrator asked_for(const std::string& name, std::span<const NamedIntegrator> known,
                           const std::vector<std::string>& also_named = {});
 
-// Says how the picture differs from that of the integrator, once the scene is read. Photon mapping becomes
-// path tracing where there are media, which photons do not cross here.
+// Returns how the picture differs from that of the integrator, once the scene is read. It turns photon
+// mapping into path tracing where there are media, which photons do not cross here.
 std::vector<std::string> settle_integrator(const AskedIntegrator& asked, Scene& scene);
 
-// Takes the media away from shapes and the camera, for integrators that ignore them. False where none had
-// one.
+// Takes the media away from shapes and the camera, for integrators that ignore them. Returns false where none
+// had one.
 bool leave_out_media(Scene& scene);
 
 }  // namespace vitrail

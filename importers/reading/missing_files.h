@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands for files that a scene names and nobody has, where the user asks for it: a scene with one lost
-// texture can be seen.
+// A scene may name files that nobody has. These functions refuse it, or replace them where the user asks for
+// it: then a scene with one lost texture can be seen.
 #pragma once
 
 #include "scene/records/scene.h"
 
 namespace vitrail {
 
-// The end of the message about such a file.
+// It is the end of the message about such a file.
 inline constexpr const char* how_to_replace_missing = "; --missing=replace continues without it";
 
 // Throws Error where an image or a table of the scene is missing, or is no file. The error has the place of

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files by the names that other files say, as people carry them between systems.
+// These functions find files by the names that other files say, as people carry them between systems.
 #pragma once
 
 #include <filesystem>
@@ -7,16 +7,17 @@
 
 namespace vitrail {
 
-// Of ASCII letters alone.
+// Lowers ASCII letters alone.
 char lower_case(char letter);
 
-// A file of `folder` by the name that another one says: as it stands, else with the separators of Windows,
-// else its last part alone; each also in other letter cases, as on systems that know none. Absolute; "" where
-// there is none. An example: "C:\models\Red.png" is red.png in `folder`.
+// Returns the absolute path of a file of `folder` by the name that another file says: as it stands, else with
+// the separators of Windows, else its last part alone; each also in other letter cases, as on systems that
+// ignore case. Returns "" where there is no such file. An example: "C:\models\Red.png" is red.png in
+// `folder`.
 std::string find_named_file(std::string name, const std::filesystem::path& folder);
 
-// The same; where there is none, the absolute place in `folder` where it would be as it stands, so that
-// missing_files.h finds it missing.
+// Returns the same. Where there is no such file it returns the absolute place in `folder` where it would be
+// as it stands, so that missing_files.h finds it missing.
 std::string named_file(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace vitrail

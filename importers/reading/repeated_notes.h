@@ -14,8 +14,8 @@
 
 namespace vitrail {
 
-// Notes that say the same of very many places, where memory is limited: each takes 300 bytes. The first of a
-// text are kept with their places, the others are counted.
+// It limits the notes that say the same of very many places, where memory is limited: each takes 300 bytes.
+// The first notes of a text are kept with their places, the others are counted.
 class RepeatedNotes {
  public:
   static constexpr std::uint64_t most_places = 1024;
@@ -29,7 +29,7 @@ class RepeatedNotes {
     return false;
   }
 
-  // Appends a note on each text that was counted: at the first place that is not kept.
+  // Appends a note on each text that was counted, at the first place that is not kept.
   void append_counts(Diagnostics& notes) {
     for (auto& [text, note] : std::exchange(beyond_, {})) {
       note.message += fmt::format(" (counted alone: {} places)", places_[text] - most_places);

@@ -6,7 +6,7 @@
 
 namespace vitrail {
 
-// For formats without sensors: what the first one sees ahead, at 90 degrees.
+// Returns a camera for formats without sensors: it shows what the first sensor sees ahead, at 90 degrees.
 inline PerspectiveCamera view_of(const SensorCamera& camera, const FilmSettings& film) {
   const Sensor sensor = camera.sensors.empty() ? Sensor{} : camera.sensors.front();
   const Vector3d z = sensor.normal;

@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// "; did you mean "perspective"?", or nothing where no known word is near.
+// Returns "; did you mean "perspective"?", or nothing where no known word is near.
 inline std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
   const std::string closest = closest_word(word, known);
   return closest.empty() ? "" : "; did you mean \"" + closest + "\"?";

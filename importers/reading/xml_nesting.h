@@ -7,8 +7,8 @@
 
 namespace vitrail {
 
-// The first element that lies deeper in others than a scene may have it, or none. pugixml itself parses any
-// depth, but goes through it by recursion when it lets go.
+// Returns the first element that lies deeper in others than a scene may have it, or none. pugixml itself
+// parses any depth, but frees its nodes by recursion.
 inline pugi::xml_node too_deep_element(pugi::xml_node document) {
   int depth = 0;
   for (pugi::xml_node node = document.first_child(); node;) {
