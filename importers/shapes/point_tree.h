@@ -10,23 +10,23 @@
 
 namespace vitrail {
 
-// Twice the signed area of a triangle in the plane.
+// Returns twice the signed area of a triangle in the plane.
 inline double orientation(Point2d a, Point2d b, Point2d c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Points in the plane of which some are asked for by triangle and removed one by one: a kd-tree whose nodes
-// know their bounds and how many of their points are left.
+// It holds points in the plane, of which some are asked for by triangle and removed one by one. It is a
+// kd-tree whose nodes know their bounds and how many of their points are left.
 class PointTree {
  public:
-  // The points of `indices`. They outlive the tree.
+  // Takes the points of `indices`. `points` outlive the tree.
   PointTree(std::span<const Point2d> points, std::vector<std::uint32_t> indices);
 
-  // Of a point that is in the tree. O(depth).
+  // Removes a point that is in the tree, in O(depth).
   void remove(std::uint32_t index);
 
-  // A point in the closed counter-clockwise triangle, but at none of its corners. In O(√n) for slender
-  // triangles.
+  // Returns a point in the closed counter-clockwise triangle, but at none of its corners. It takes O(√n) for
+  // slender triangles.
   std::optional<std::uint32_t> find_within(Point2d a, Point2d b, Point2d c) const;
 
  private:

@@ -8,20 +8,22 @@
 
 namespace vitrail {
 
-// A unit normal a vertex: of the triangles around it, weighted by their angles there (Thürmer and Wüthrich
-// 1998), on the side where they run counter-clockwise. +x where there are none, or where they cancel.
+// Returns a unit normal a vertex: of the triangles around it, weighted by their angles there (Thürmer and
+// Wüthrich 1998), on the side where they run counter-clockwise. It is +x where there are none, or where they
+// cancel.
 std::vector<Normal3f> smooth_normals(const TriangleMesh& mesh);
 
-// The unit normal of a triangle, counter-clockwise, times its angle at each corner; 0 where it has no area.
+// Returns the unit normal of a triangle, counter-clockwise, times its angle at each corner; 0 where it has no
+// area.
 std::array<Vector3d, 3> angle_weighted_normals(const std::array<Point3d, 3>& corners);
 
-// Of a sum of those: of unit length, or +x where they cancel.
+// Returns a sum of those at unit length, or +x where they cancel.
 Normal3f unit_normal(const Vector3d& sum);
 
-// Whether most shading normals point away from the side where the triangles run counter-clockwise.
+// Returns whether most shading normals point away from the side where the triangles run counter-clockwise.
 bool normals_oppose_winding(const TriangleMesh& mesh);
 
-// Whether a shading normal leans from that of a triangle by more than that, to either side.
+// Returns whether a shading normal leans by more than `degrees` from that of its triangle, to either side.
 bool normals_lean(const TriangleMesh& mesh, double degrees);
 
 }  // namespace vitrail
