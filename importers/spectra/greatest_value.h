@@ -5,7 +5,7 @@
 
 namespace vitrail {
 
-// At any wavelength; of a texture, what is likely.
+// Returns the greatest value at any wavelength; of a texture, which is not read, a likely value.
 double greatest_value(const SpectrumParameter& parameter);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of measured glass: docs/why/measured-glass.md says what is in them.
+// These functions read tables of measured glass: docs/why/measured-glass.md describes them.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ struct MeasuredSheetFile {
   std::vector<std::string> repairs;  // what was wrong and how it is read: for diagnostics
 };
 
-// Whether the file's first words are the header of such a table; false where there is no file.
+// Returns whether the file's first words are the header of such a table; false where there is no file.
 bool is_measured_sheet(const std::filesystem::path& file);
 
 // Throws Error with the line.

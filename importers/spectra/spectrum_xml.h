@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// Rows in the order of the file, which may be empty. `name` of the file is for errors.
+// Returns rows in the order of the file, which may be empty. `name` of the file is for errors.
 SpectrumFile parse_spectrum_xml(std::string_view text, const std::string& name);
 
 }  // namespace vitrail
