@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures that a format has no kind for, as images: mixes, products, checkerboards and the like, where they
-// are functions of (u,v) alone.
+// A format may have no kind for mixes, products, checkerboards and the like. Where they are functions of
+// (u,v) alone, they become images.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@
 
 namespace vitrail {
 
-// A texture as an image of linear values, or of 8 bits in a .png. Without smoothing where the texture has
-// edges alone.
+// It is a texture as an image of linear values, or of 8 bits in a .png. It is without smoothing where the
+// texture has edges alone.
 struct BakedTexture {
   ImageTexture image;
   std::string note;  // what is not quite as it was: "texture "t" (mix): an image of 512 × 512 texels"
@@ -28,8 +28,8 @@ class BakedTextures {
 
   // The image covers what repeats of the texture, up to 16 units of (u,v); what does not repeat, from 0 to 1.
   // Texels are as fine as the finest image of the texture, at least 512 and at most 4096 along each side.
-  // Cells of checkerboards begin and end with a texel where they begin at 0. Nothing where the texture goes
-  // by more than (u,v), or an image of it cannot be read. Throws MachineError.
+  // Cells of checkerboards begin and end with a texel where they begin at 0. Returns nothing where the
+  // texture depends on more than (u,v), or an image of it cannot be read. Throws MachineError.
   const BakedTexture* bake(Id<Texture> texture);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images that a writer puts beside its scene, where its format would take other values from those that the
-// Scene refers to.
+// A writer puts these images beside its scene, where its format would take other values from the images of
+// the Scene.
 #pragma once
 
 #include <filesystem>
@@ -13,26 +13,27 @@
 
 namespace vitrail {
 
-// What is done to the values of a texture besides.
+// An ImageChange says what else is done to the values of a texture.
 struct ImageChange {
   RGB tint{1, 1, 1};  // multiplies them
   UvMapping mapping;  // at (s,t) is what the texture has at mapping(s,t): turned, mirrored, repeated
   bool three_channels = false;  // also for greys
-  // Times cosⁿθ of the angle from the axis at which a point of the axis sees each texel: the image is
-  // ±half.x, ±half.y wide and high at distance 1, with at least 512 texels along its longer side. n = 0:
+  // It multiplies by cosⁿθ of the angle from the axis at which a point of the axis sees each texel. The image
+  // is ±half.x, ±half.y wide and high at distance 1, with at least 512 texels along its longer side. n = 0:
   // nothing.
   int cosine_power = 0;
   Point2d half;
-  // Times this light's falloff, over the square frame of its cutoff, of at least 512 × 512 texels.
+  // It multiplies by this light's falloff, over the square frame of its cutoff, of at least 512 × 512 texels.
   const SpotLight* spot = nullptr;
 };
 
-// The half width and height, at distance 1, of the image that a light throws: `aspect` is its width ÷ height.
+// Returns the half width and height, at distance 1, of the image that a light throws: `aspect` is its width ÷
+// height.
 Point2d half_size(const ProjectionLight& light, double aspect);
-// (s,t) → outer(inner(s,t)).
+// Returns (s,t) → outer(inner(s,t)).
 UvMapping composed(const UvMapping& outer, const UvMapping& inner);
 
-// An image times a colour: what products of the two and of such products come to.
+// It is an image times a colour. The product of the two becomes one, and so does a product of such products.
 struct TintedImage {
   ImageTexture image;
   bool is_number = false;  // which the colour multiplies
@@ -41,25 +42,26 @@ struct TintedImage {
 std::optional<TintedImage> tinted_image(const Scene& scene, const ProductTexture& product);
 std::optional<TintedImage> tinted_image(const Scene& scene, Id<Texture> texture);
 
-// Two that a product multiplies where they lie on each other: of one mapping, one wrap and one filter.
+// It holds two images that a product multiplies where they lie on each other: of one mapping, wrap and
+// filter.
 struct ImagePair {
   TintedImage first, second;
 };
 std::optional<ImagePair> image_pair(const Scene& scene, const ProductTexture& product);
 
-// The linear values of textures as EXR files. Equal ones are written once.
+// It writes the linear values of textures as EXR files. Equal ones are written once.
 class ConvertedImages {
  public:
-  // `new_file` gives the path of the next.
+  // `new_file` gives the path of the next file.
   explicit ConvertedImages(std::function<std::filesystem::path()> new_file)
       : new_file_(std::move(new_file)) {}
 
   // Throws Error where the texture's image cannot be read, and MachineError.
   std::filesystem::path write(const ImageTexture& texture, ImageUse use, const ImageChange& change = {});
-  // Their product, texel by texel of the finer one, along each side.
+  // Writes their product, texel by texel of the finer one, along each side.
   std::filesystem::path write(const ImagePair& pair);
 
-  // The path of a new image of the writer's own.
+  // Returns the path of a new image of the writer's own.
   std::filesystem::path new_file() const { return new_file_(); }
 
  private:
@@ -72,13 +74,14 @@ class ConvertedImages {
   std::map<Key, std::filesystem::path> written_;
 };
 
-// Of three channels, or one.
+// Multiplies an image of three channels, or of one.
 void multiply(Image& image, RGB tint);
-// Times cosⁿθ of each texel's middle, as ImageChange has it.
+// Multiplies by cosⁿθ of each texel's middle, as ImageChange has it.
 void multiply_by_cosine(Image& image, int power, Point2d half);
-// ∫ Y dω of a thrown image of colours, cos³θ times the intensity, over ±half at distance 1: dω = cos³θ dA.
+// Returns ∫ Y dω of a thrown image of colours, cos³θ times the intensity, over ±half at distance 1: dω =
+// cos³θ dA.
 double thrown_flux(const Image& image, Point2d half);
-// A grey image as one of colours; others as they are.
+// Returns a grey image as one of colours; others as they are.
 Image with_three_channels(Image image);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of all directions as six, on the faces of a cube around the origin.
+// This file cuts a picture of all directions into six, on the faces of a cube around the origin.
 #pragma once
 
 #include <vector>
@@ -15,8 +15,8 @@ struct CubeFace {
   Image image;           // square, the upper row at +y, the left column at −x
 };
 
-// Each pixel is the mean over its part of the face, times cosⁿθ of the angle from the face's middle. Faces
-// that are black are left out.
+// Returns the faces. Each pixel is the mean over its part of the face, times cosⁿθ of the angle from the
+// face's middle. Faces that are black are left out.
 std::vector<CubeFace> cube_faces(const Image& picture, EnvironmentProjection projection, int cosine_power);
 
 }  // namespace vitrail

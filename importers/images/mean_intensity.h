@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// What a goniometric light sends into its directions, as multiples of its `intensity`.
+// It is what a goniometric light sends into its directions, as multiples of its `intensity`.
 struct MeanIntensity {
   double mean = 1;      // over all directions: a point light of this intensity has the same flux
   double greatest = 1;  // in one direction
@@ -16,7 +16,7 @@ struct MeanIntensity {
 // Throws Error where the light's image cannot be read.
 MeanIntensity mean_intensity(const GoniometricLight& light);
 
-// The light as one that is equal in all directions.
+// It is the light as one that is equal in all directions.
 struct EvenLight {
   Spectrum intensity;  // of the same flux; the light's own where its image cannot be read
   std::string note;    // what that changes
