@@ -5,8 +5,8 @@
 
 namespace vitrail {
 
-// Whether only names and places tell the lights apart: where formats have the light in the material, one does
-// for both.
+// Returns whether only names and places tell the lights apart: where formats have the light in the material,
+// one does for both.
 inline bool shine_alike(AreaLight a, const AreaLight& b) {
   a.name = b.name;
   a.origin = b.origin;

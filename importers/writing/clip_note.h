@@ -10,7 +10,7 @@
 
 namespace vitrail {
 
-// What formats lose whose cameras have no planes; empty where these cut nothing away.
+// Returns what is lost in formats whose cameras have no planes; empty where these cut nothing away.
 inline std::string clip_note(const ClipRange& c) {
   std::string cut;
   if (c.near > 0) cut = fmt::format("nearer than {:g}", c.near);

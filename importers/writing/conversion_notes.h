@@ -10,13 +10,13 @@
 
 namespace vitrail {
 
-// What a written file does not say exactly of a scene, each message once a place and kind of record.
+// They say what a written file does not say exactly of a scene, each message once a place and kind of record.
 class ConversionNotes {
  public:
   explicit ConversionNotes(const Scene& of) : scene(of) {}
 
   const Scene& scene;
-  // What is being written: messages without an origin are of it.
+  // It is what is being written: messages without an origin are about it.
   Origin origin;
   RecordKind record = RecordKind::any;
   void begin(RecordKind of, const Origin& from) { record = of, origin = from; }
@@ -30,7 +30,7 @@ class ConversionNotes {
   void dropped(std::string message, const Origin& of, RecordKind kind = RecordKind::any) {
     note(Fidelity::dropped, std::move(message), of, kind);
   }
-  // All of them, in the order in which they were made.
+  // Returns all diagnostics, in the order in which they were made.
   Diagnostics take() { return std::move(diagnostics_); }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For formats whose film has no exposure: every light times the imaging ratio of the scene's film, which
-// gives the same picture.
+// Some formats have a film without exposure. ExposedLights has every light times the imaging ratio of the
+// scene's film, which gives the same picture.
 #pragma once
 
 #include <vector>

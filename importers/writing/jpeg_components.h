@@ -5,8 +5,8 @@
 
 namespace vitrail {
 
-// How many components a JPEG file has, by its frame header (T.81, B.2.2): 4 are inks, which few programs
-// read. 0 where it has no such header. Throws Error where the file cannot be opened.
+// Returns the number of components of a JPEG file, by its frame header (T.81, B.2.2): 4 are inks, which few
+// programs read. It is 0 where the file has no such header. Throws Error where the file cannot be opened.
 int jpeg_components(const std::string& filename);
 
 }  // namespace vitrail

@@ -10,16 +10,16 @@
 
 namespace vitrail {
 
-// The meshes that a written scene refers to: OUT.pbrt has them in OUT-meshes/000000.ply, 000001.ply … or
-// under names beside these that are free, each written once, when it is first asked for.
+// It names the meshes that a written scene refers to: OUT.pbrt has them in OUT-meshes/000000.ply, 000001.ply
+// … or under names beside these that are free. Each is written once, when it is first asked for.
 class MeshFiles {
  public:
   MeshFiles(const Scene& scene, const std::filesystem::path& scene_file);
 
-  // The file's path relative to the scene's; a quadric's has its triangles. Throws MachineError.
+  // Returns the file's path relative to the scene's; a quadric's has its triangles. Throws MachineError.
   const std::string& name(Id<TriangleMesh> mesh);
   bool has_name(Id<TriangleMesh> mesh) const { return !names_.at(mesh.value).empty(); }
-  // Where the format needs another form of the mesh.
+  // Returns the same, and writes `instead` where the format needs another form of the mesh.
   const std::string& name(Id<TriangleMesh> mesh, const TriangleMesh& instead);
 
  private:
@@ -29,8 +29,8 @@ class MeshFiles {
   std::vector<std::string> names_;
 };
 
-// `file` (absolute) as a scene in `directory` refers to it: relative where it is below or beside, with / on
-// every system.
+// Returns `file` (absolute) as a scene in `directory` refers to it: relative where it is below or beside,
+// with / on every system.
 std::string relative_name(const std::string& file, const std::filesystem::path& directory);
 
 }  // namespace vitrail

@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// A number or a texture as a key of maps.
+// It is a number or a texture as a key of maps.
 using OpacityKey = std::pair<std::uint32_t, float>;
 
 inline OpacityKey opacity_key(const FloatParameter& opacity) {

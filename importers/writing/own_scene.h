@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which scene files the writers made: each says so.
+// Each scene file of the writers says that it is theirs, so that they know it again.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene that can be moved: what it refers to lies beside it.
+// A packed scene can be moved: what it refers to lies beside it.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights that fade as POV-Ray's, in formats whose lights weaken as 1/d².
+// Lights that fade as POV-Ray's are written to formats whose lights weaken as 1/d².
 #pragma once
 
 #include <optional>
@@ -9,7 +9,8 @@
 
 namespace vitrail {
 
-// A light that weakens as 1/d² is as bright at the middle of the scene with `factor` times the intensity.
+// It holds the `factor` by which to multiply the intensity of a light that weakens as 1/d², so that it is as
+// bright at the middle of the scene.
 struct PhysicalLight {
   double factor = 1;
   std::string note;  // what that changes elsewhere; "" where nothing

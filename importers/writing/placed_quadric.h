@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What writers ask of quadrics.
+// Writers ask these functions about quadrics.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace vitrail {
 
-// A shape whose mesh is a quadric. Its front is outside, of a disk +z, unless the transform mirrors or
+// It is a shape whose mesh is a quadric. Its front is outside, of a disk +z, unless the transform mirrors or
 // `flip_orientation` holds, but not both.
 struct PlacedQuadric {
   Quadric quadric;
@@ -17,15 +17,15 @@ struct PlacedQuadric {
   bool flip_orientation = false;
 };
 
-// The shape as a quadric of this convention of (u,v), of which another sphere is a mirror image. Nothing
-// where its mesh is none, or where (u,v) show and the convention cannot say them.
+// Returns the shape as a quadric of this convention of (u,v), of which another sphere is a mirror image.
+// Returns nothing where its mesh is none, or where (u,v) show and the convention cannot say them.
 std::optional<PlacedQuadric> placed_quadric(const Scene& scene, const Shape& shape, QuadricUv uv,
                                             ShapeUvUses& uvs);
 
-// Without holes, and all the way round.
+// Returns whether the quadric has no holes and goes all the way round.
 bool is_whole(const Quadric& quadric);
 
-// Of a transform, the lengths of x, y and z, and whether they stay perpendicular, to 1e-6.
+// They are the lengths of x, y and z under a transform, and whether they stay perpendicular, to 1e-6.
 struct Axes {
   double x = 1, y = 1, z = 1;
   bool perpendicular = false;
@@ -35,7 +35,7 @@ struct Axes {
 };
 Axes axes_of(const Transform& transform);
 
-// For diagnostics: "a partial sphere becomes triangles, 256 for a full turn".
+// Returns a phrase for diagnostics: "a partial sphere becomes triangles, 256 for a full turn".
 std::string as_triangles(const Quadric& quadric);
 
 }  // namespace vitrail

@@ -6,7 +6,7 @@
 
 namespace vitrail {
 
-// Around all shapes and instances, in the world.
+// Returns the bounds of all shapes and instances, in the world.
 Bounds3d bounds_of_shapes(const Scene& scene);
 
 }  // namespace vitrail

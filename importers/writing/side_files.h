@@ -7,16 +7,17 @@
 
 namespace vitrail {
 
-// Names for what is written beside a scene. A file of such a name that the scene's file spoke of before is
-// replaced with it; any other, and one that was read, is somebody's: the name gets a number, as in
+// It gives names to files that are written beside a scene. A file of such a name that the scene's file spoke
+// of before is replaced; any other, and one that was read, belongs to somebody: the name gets a number, as in
 // OUT-meshes/000000-2.ply.
 class SideFiles {
  public:
   explicit SideFiles(const std::filesystem::path& scene_file);
 
-  // "OUT-KIND/000003.EXTENSION", relative to the scene's folder; OUT-KIND is created. Throws MachineError.
+  // Returns "OUT-KIND/000003.EXTENSION", relative to the scene's folder; creates OUT-KIND. Throws
+  // MachineError.
   std::string name(const std::string& kind, std::size_t number, const std::string& extension) const;
-  // "OUT.EXTENSION"
+  // Returns "OUT.EXTENSION".
   std::string name(const std::string& extension) const;
 
  private:

@@ -13,7 +13,7 @@
 
 namespace vitrail {
 
-// Formatted text, which goes to a file, if there is one, whenever a piece of it is full.
+// It takes formatted text, which goes to a file, if there is one, whenever a piece of it is full.
 class TextSink {
  public:
   explicit TextSink(AtomicFile* file = nullptr) : file_(file) {}

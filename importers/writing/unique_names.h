@@ -7,10 +7,10 @@
 
 namespace vitrail {
 
-// Names that are given once each, in about the same time however many are equal.
+// It gives each name once, in about the same time however many are equal.
 class UniqueNames {
  public:
-  // The wanted name where it is free, else the first of wanted_2, wanted_3 … that is.
+  // Returns the wanted name where it is free, else the first of wanted_2, wanted_3 … that is.
   std::string take(const std::string& wanted);
 
  private:
