@@ -13,7 +13,8 @@ namespace vitrail {
 // unknown format throws UsageError, a full disk and the like MachineError.
 Diagnostics export_scene(const Scene& scene, const std::filesystem::path& out);
 
-// Whether a surface has a material for each side in the format of `out`: in Mitsuba's and POV-Ray's.
+// Returns whether a surface has a material for each side in the format of `out`: it has in Mitsuba's and
+// POV-Ray's.
 bool has_materials_by_side(const std::filesystem::path& out);
 
 // Throws UsageError unless export_scene knows the format.

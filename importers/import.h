@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One door for all formats.
+// Scenes of all formats are read through these functions.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ namespace vitrail {
 ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
                            std::function<void(double)> progress = {}, const ImportOptions& options = {});
 
-// The two halves of import_scene: the file alone, and what is done to the scene that it holds.
+// They are the two halves of import_scene: the first reads the file alone, the second completes its scene.
 ImportedScene read_scene_file(const std::filesystem::path& file, MeshMemory memory,
                               std::function<void(double)> progress, const ImportOptions& options);
 void complete_scene(ImportedScene& imported, const ImportOptions& options);

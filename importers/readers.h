@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The formats that are read: a row each.
+// This table has a row for each format that is read.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace vitrail {
 
-// What a reader gets.
+// A reader gets a ReadRequest.
 struct ReadRequest {
   const std::filesystem::path& file;
   MeshMemory memory;
@@ -23,28 +23,29 @@ struct ReadRequest {
   const ImportOptions& options;
 };
 
-// A format that is read.
+// A Reader reads one format.
 struct Reader {
   std::string_view name;                   // "Mitsuba", for messages
   std::vector<std::string_view> suffixes;  // ".xml", in lower case
   bool gzipped;                            // .gz may follow
-  // Whether a file without a known suffix is one, by its first bytes (of a gzipped one as they are). Null:
-  // nothing tells.
+  // It tells whether a file without a known suffix is of this format, by its first bytes, of a gzipped file
+  // as they are. It is null where nothing tells.
   bool (*sniff)(std::string_view first_bytes);
   ImportedScene (*read)(ReadRequest request);
   bool adds_view;         // the reader itself adds a camera and light where the file has none
   bool has_definitions;   // ImportOptions::definitions mean something
   bool has_many_cameras;  // ImportOptions::camera does
-  // Models, which people hand on without their images more often than not: those are replaced unasked.
+  // It holds for formats of models. People hand those on without their images more often than not, so missing
+  // images are replaced unasked.
   bool goes_on_without_images = false;
-  // Null: the format has no reading without its long lists.
+  // It is null where the format cannot be read without its long lists.
   SkimmedScene (*skim)(const ReadRequest& request) = nullptr;
 };
 
-// All of them, in the order in which they are asked.
+// Returns all readers, in the order in which they are asked.
 const std::vector<Reader>& readers();
 
-// By the file's suffix, else by its first bytes. Throws Error that lists the suffixes.
+// Returns the reader for the file's suffix, else for its first bytes. Throws Error that lists the suffixes.
 const Reader& reader_of(const std::filesystem::path& file);
 
 }  // namespace vitrail
