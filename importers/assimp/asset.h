@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What assimp knows of a file, as plain values: of its own module, so that the programs start without assimp.
+// An Asset is what assimp knows of a file, as plain values. assimp is in a module of its own, so that the
+// programs start without it.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@
 
 namespace vitrail::assimp {
 
-// Triangles of one material. Normals and uvs are empty or have one entry a position.
+// It has the triangles of one material. Normals and uvs are empty or have one entry a position.
 struct AssetMesh {
   std::string name;
   std::size_t material = 0;
@@ -23,7 +24,7 @@ struct AssetMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-// An image of a material.
+// It is an image of a material.
 struct AssetImage {
   std::string name;        // as the file has it
   bool is_inside = false;  // in the file itself
@@ -31,7 +32,7 @@ struct AssetImage {
   bool clamps = false, mirrors = false;
 };
 
-// Of the classic models of shading. Colours as the file has them.
+// It has a classic model of shading. Colours are as the file has them.
 struct AssetMaterial {
   std::string name;
   bool is_shiny = false;  // its model has highlights
@@ -75,7 +76,8 @@ struct Asset {
   std::vector<AssetNode> nodes;
   std::vector<AssetLight> lights;
   std::vector<AssetCamera> cameras;
-  // Blender's units: a lamp's colour is in watts, a sun's in W/m²; so many of the file's units are a metre.
+  // Blender's units hold where it is set: a lamp's colour is in watts, a sun's in W/m². So many of the file's
+  // units are a metre.
   std::optional<double> units_of_blender;
   std::size_t animations = 0, bones = 0, points_and_lines = 0, colored_meshes = 0;
 };

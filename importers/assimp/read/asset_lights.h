@@ -8,7 +8,7 @@
 
 namespace vitrail::assimp {
 
-// What a light's colour is multiplied by, and how it weakens.
+// A light's colour is multiplied by `factor`; `fading` says how it weakens.
 struct LightScale {
   double factor = 1;
   std::optional<Fading> fading;  // none: as 1/d², or a light that is far

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cameras of COLLADA by the file's own words: assimp 5.2 loses the angles of those without a name or with
-// a yfov alone, and makes orthographic ones perspective.
+// The cameras of COLLADA are read by the file's own words: assimp 5.2 loses the angles of those without a
+// name or with a yfov alone, and makes orthographic ones perspective.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 namespace vitrail::assimp {
 
 // Returns the angles and widths of the cameras of all nodes, in the order of the file. Only these fields are
-// set. Empty where the file is no XML.
+// set. It is empty where the file is no XML.
 std::vector<AssetCamera> collada_cameras(const std::filesystem::path& file);
 
 }  // namespace vitrail::assimp

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facts of an FBX file that assimp does not hand on, of text and of binary files.
+// An FBX file, text or binary, has facts that assimp does not hand on.
 #pragma once
 
 #include <map>
@@ -9,7 +9,8 @@
 namespace vitrail::assimp {
 
 struct FbxFacts {
-  // The names of the nodes that cameras and lights look at (3ds Max), by the names of their own nodes.
+  // They are the names of the nodes that cameras and lights look at (3ds Max), by the names of their own
+  // nodes.
   std::map<std::string, std::string> targets;
   bool has_orthographic_camera = false;
   bool has_vertical_angles = false;  // the field of view of the last camera is that of the height
