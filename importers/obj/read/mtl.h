@@ -13,7 +13,7 @@
 
 namespace vitrail {
 
-// An image with the options that stand before its name.
+// It is an image with the options that stand before its name.
 struct MtlMap {
   std::string filename;  // absolute; the file exists
   UvMapping mapping;     // of -s and -o
@@ -23,7 +23,7 @@ struct MtlMap {
   std::optional<ImageNumber> number;  // of -imfchan
 };
 
-// What a library says of a material. Colours are linear sRGB.
+// It is what a library says of a material. Colours are linear sRGB.
 struct MtlMaterial {
   std::string name;
   SourceLocation location;
@@ -31,19 +31,19 @@ struct MtlMaterial {
   std::optional<double> d, tr, ni, ns;
   std::optional<double> pr, pm, ps, pc, pcr, aniso;  // the extension for physically based rendering
   std::int64_t illum = 2;
-  // By keyword: map_Kd map_Ks map_Ke map_d map_Pr map_Pm map_Ps bump norm.
+  // They are by keyword: map_Kd map_Ks map_Ke map_d map_Pr map_Pm map_Ps bump norm.
   std::map<std::string, MtlMap> maps;
 };
 
-// The materials of an MTL library, in its order. What would show and is not kept in them is reported, each
-// with its place. Throws Error on what is not a number where one has to be,
-// and where the file cannot be opened.
+// Returns the materials of an MTL library, in its order. Statements that would show and are not kept in them
+// are reported, each with its place. Throws Error on what is not a number where one has to be, and where the
+// file cannot be opened.
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path& file, Diagnostics& diagnostics);
 
 // Materials are named as text that can be shown: well-formed UTF-8, of about so many bytes.
 inline constexpr std::size_t longest_mtl_name = 200;
 
-// The textures of materials that were added, so that equal ones are one.
+// They are the textures of materials that were added, so that equal ones are one.
 using MtlTextures = std::unordered_multimap<std::size_t, Id<Texture>>;  // by what differs in most
 
 struct MtlSurface {

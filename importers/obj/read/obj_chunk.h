@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pieces of an OBJ file that threads read by themselves: nothing in them depends on what comes before.
+// Threads read pieces of an OBJ file by themselves: nothing in a piece depends on what comes before.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace vitrail::obj {
 
-// A face whose corners all have the same kinds of index.
+// It is a face whose corners all have the same kinds of index.
 struct ChunkFace {
   std::uint32_t offset;   // of its line in the chunk, in bytes
   std::uint32_t line;     // in the chunk, from 0
@@ -21,7 +21,7 @@ struct ChunkFace {
                          // file
 };
 
-// Vertices, then faces, then lines of anything else, which only the statement reader understands.
+// It has vertices, then faces, then lines of anything else, which only the statement reader understands.
 struct Segment {
   std::size_t positions = 0, uvs = 0, normals = 0, faces = 0;  // where they end in the chunk's
   std::size_t rare_begin = 0, rare_end = 0;                    // bytes of the chunk
@@ -41,8 +41,8 @@ struct Chunk {
   std::uint32_t lines = 0;
 };
 
-// Where a chunk that begins at `begin` ends: after the first line beyond `size` bytes that no backslash joins
-// with the next one; `end` if there is none.
+// Returns where a chunk that begins at `begin` ends: after the first line beyond `size` bytes that no
+// backslash joins with the next one; `end` if there is none.
 const char* chunk_end(const char* begin, const char* end, std::size_t size);
 
 // Reads the text from chunk.begin to chunk.end and replaces the rest of the record. Lines that are not plain

@@ -10,14 +10,14 @@
 
 namespace vitrail::obj {
 
-// Puts the triangles of faces into the groups of a Geometry.
+// It puts the triangles of faces into the groups of a Geometry.
 class FaceSink {
  public:
   explicit FaceSink(Geometry& geometry) : geometry_(geometry) {}
 
-  // At least three corners whose positions are there; `use`: of the Geometry's. The group has texture
-  // coordinates or normals if all corners have. Faces without normals get some where they are in a smoothing
-  // group, which is not 0.
+  // Adds a face of at least three corners whose positions are there; `use` is an index of the Geometry's. Its
+  // group has texture coordinates or normals if all corners have. Faces without normals get some where they
+  // are in a smoothing group, which is not 0.
   void add(std::span<Corner> corners, std::size_t use, bool has_uvs, bool has_normals,
            std::uint32_t smoothing_group);
 

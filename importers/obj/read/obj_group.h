@@ -17,15 +17,15 @@ struct Corner {
   bool operator==(const Corner&) const = default;
 };
 
-// Corners that agree in all indices become one vertex, numbered as they come. An array for each index, so
-// that each can go when its values have been gathered.
+// Corners that agree in all indices become one vertex, numbered as they come. Each index has an array of its
+// own, which can be freed when its values have been gathered.
 struct VertexTable {
   GrowingArray<std::uint32_t> positions, uvs, normals;  // the latter two where the group has them
   GrowingArray<std::uint32_t> next;                     // of the vertices with the same hash
   std::vector<std::uint32_t> first;                     // of each hash; as many as a power of two
 };
 
-// The triangles of one object and material that have texture coordinates and normals, or have not.
+// It has the triangles of one object and material that have texture coordinates and normals, or have not.
 struct Group {
   std::size_t object = 0, material = 0;
   bool has_uvs = false, has_normals = false;
@@ -39,7 +39,7 @@ struct Group {
   VertexTable vertices;
 };
 
-// Indices that the group's corners do not have are ignored.
+// Ignores indices that the group's corners do not have.
 void add_triangle(Group& group, const Corner& a, const Corner& b, const Corner& c);
 
 }  // namespace vitrail::obj

@@ -13,19 +13,19 @@
 
 namespace vitrail::obj {
 
-// A name in the file and where it stands first.
+// It is a name in the file and where it stands first.
 struct Mention {
   std::string name;
   SourceLocation location;
 };
 
-// Of faces that follow o or g.
+// It has the names of the faces that follow o or g.
 struct Object {
   std::string o, g;
   SourceLocation location;  // of the statement
 };
 
-// What statements say of the faces that follow them: indices of Geometry's.
+// Statements say it of the faces that follow them; it holds indices of Geometry's.
 struct Use {
   std::size_t object = 0, material = 0;
 };
@@ -43,7 +43,7 @@ struct Geometry {
   GrowingArray<Normal3f> normals;
   std::vector<float> colors;  // red, green, blue of the first positions, linear; white behind them
   Bounds3d bounds;            // of the positions in the file
-  // Those of one material and kind one after the other, otherwise in the order of their first face.
+  // Groups of one material and kind follow one another, otherwise they are in the order of their first face.
   std::vector<Group> groups;
   std::vector<Mention> materials;  // of usemtl; the first stands for faces without one
   std::vector<Object> objects;     // the first stands for faces before any o or g
@@ -56,12 +56,12 @@ struct Geometry {
 // More objects than these are one: each takes about 2 kB while the file is read, and its own mesh.
 inline constexpr std::size_t most_objects = 20'000;
 
-// What an object is called: by o where the file has several of those, else by g where there is one. (Programs
-// write one o for all and a g for each object, or an o for each and a g for parts of them.)
+// Returns the name of an object: by o where the file has several of those, else by g where there is one.
+// (Programs write one o for all and a g for each object, or an o for each and a g for parts of them.)
 std::string name_of(const Object& object, const Geometry& geometry);
 
-// Nothing if indices count from 1 and a face has vertex index 0. The result does not depend on the number of
-// threads. Throws Error.
+// Returns nothing if indices count from 1 and a face has vertex index 0. The result does not depend on the
+// number of threads. Throws Error.
 std::optional<Geometry> parse(InputBytes& bytes, const std::string& file, const ParseOptions& options);
 
 }  // namespace vitrail::obj

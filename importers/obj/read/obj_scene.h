@@ -7,7 +7,7 @@
 
 namespace vitrail::obj {
 
-// One mesh and shape a group, with the materials that are used; `offset` is what was subtracted from
+// Makes one mesh and shape a group, with the materials that are used; `offset` is what was subtracted from
 // positions. Libraries are sought beside `file`; those that are not there are reported.
 ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesystem::path& file);
 

@@ -14,7 +14,7 @@
 
 namespace vitrail::obj {
 
-// Understands every statement of OBJ, one after the other, and says where something is wrong.
+// It understands every statement of OBJ, one after the other, and says where something is wrong.
 class StatementReader {
  public:
   StatementReader(const std::string& file, const ParseOptions& options, Geometry& geometry);
@@ -22,22 +22,22 @@ class StatementReader {
   // Reads the statements from `begin`, where line `line` begins, to `end`, where one ends; returns the line
   // there.
   int read(const char* begin, const char* end, int line);
-  // After the whole file: faces that came before their vertices, and what only the whole shows.
+  // Reads, after the whole file, faces that came before their vertices; reports what only the whole shows.
   void finish();
 
-  // A face with vertex index 0 came where indices count from 1: nothing more is read.
+  // Returns whether a face with vertex index 0 came where indices count from 1: nothing more is read.
   bool counts_from_zero() const { return counts_from_zero_; }
   std::size_t use() const { return use_; }
   std::uint32_t smoothing_group() const { return smoothing_group_; }  // 0: none
   FaceSink& faces() { return faces_; }
 
  private:
-  // How many positions, uvs and normals have been read.
+  // They count the positions, uvs and normals that have been read.
   struct Counts {
     std::size_t positions, uvs, normals;
   };
 
-  // A face that refers to what has not been read yet.
+  // It is a face that refers to what has not been read yet.
   struct ForwardFace {
     TextCursor at;
     Counts counts;
@@ -57,7 +57,7 @@ class StatementReader {
   void choose_use();
 
   double finite_number(const char* what);
-  // Of a normal or of texture coordinates: what is not finite is 0, and the rest of the file is kept.
+  // Reads a number of a normal or of texture coordinates: one that is not finite is 0, and the rest is kept.
   float component();
   void read_position();
   void add_color(std::span<const double> rgb);

@@ -13,10 +13,10 @@
 
 namespace vitrail {
 
-// The statements of MTL materials, and what they do not say exactly.
+// It writes the statements of MTL materials, and notes what they do not say exactly.
 class MtlText {
  public:
-  // The text of `file`, with images beside it.
+  // Makes the text of `file`, with images beside it.
   MtlText(const std::filesystem::path& file, ConversionNotes& of_record)
       : notes(of_record), scene_(of_record.scene), folder_(file.parent_path()), side_files_(file) {}
 
@@ -28,15 +28,15 @@ class MtlText {
   void line(const char* keyword, double value);
   void line(const char* keyword, float value);  // by the digits that a float needs
 
-  // "keyword options name" of an image, its scale as `scale_option` if there is one.
+  // Writes "keyword options name" of an image, its scale as `scale_option` if there is one.
   void map(const char* keyword, const ImageTexture& image, ImageUse use, const char* scale_option);
-  // False where the texture is no image.
+  // Returns false where the texture is no image.
   bool map(const char* keyword, Id<Texture> id, ImageUse use, const char* scale_option);
-  // A colour, with the image that it multiplies.
+  // Writes a colour, with the image that it multiplies.
   void color(const char* keyword, const char* map_keyword, const SpectrumParameter& parameter,
              RGB (*rgb)(const Spectrum&) = factor_rgb, double factor = 1);
   void number(const char* keyword, const char* map_keyword, const FloatParameter& parameter);
-  // The value, or 0.5 and a note where it is a texture.
+  // Returns the value, or 0.5 and a note where it is a texture.
   double constant(const FloatParameter& parameter, const char* what);
 
  private:

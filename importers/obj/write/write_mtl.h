@@ -22,13 +22,13 @@ inline MtlKey surface_key(const Shape& shape) {
           opacity_key(shape.opacity)};
 }
 
-// The colours of a mesh that OBJ can say, one a vertex; null where it has none.
+// Returns the colours of a mesh that OBJ can say, one a vertex; null where it has none.
 const MeshAttribute* vertex_colors(const TriangleMesh& mesh);
 
-// Writes the materials of these shapes, and says what they are called there: by their own name, if no other
-// has it. What read_mtl makes (mtl.h has the table) is written so that it makes it again; other materials
-// become the nearest of those, with diagnostics. What is diffuse by the colours of its vertices is left out:
-// readers take them where no library defines the material. Smooth surfaces have Ns 10⁶. Throws MachineError.
+// Writes the materials of these shapes, and returns their names there: their own names, if no other has them.
+// What read_mtl makes (mtl.h has the table) is written so that it makes it again; other materials become the
+// nearest of those, with diagnostics. Materials that are diffuse by the colours of vertices are left out:
+// readers take those where no library defines the material. Smooth surfaces have Ns 10⁶. Throws MachineError.
 MtlNames write_mtl(const std::vector<FlatShape>& shapes, const std::filesystem::path& file,
                    ConversionNotes& notes);
 
