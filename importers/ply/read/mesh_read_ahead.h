@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads meshes before they are asked for, on the threads of the current arena.
+// This class reads meshes before they are asked for, on the threads of the current arena.
 #pragma once
 
 #include <tbb/task_group.h>
@@ -19,8 +19,8 @@
 
 namespace vitrail {
 
-// What the reader of a scene gets, and when, is as if it read each mesh itself when it asks for it: errors
-// too.
+// The reader of a scene gets the same, at the same time, as if it read each mesh itself when it asks for it.
+// That holds for errors too.
 class MeshReadAhead {
  public:
   struct Result {
@@ -29,13 +29,14 @@ class MeshReadAhead {
   };
   using Reader = std::function<Result(const std::filesystem::path&)>;  // from any thread
 
-  // Of files that are not asked for yet, at most so many bytes are read.
+  // Reads at most so many bytes of files that are not asked for yet.
   MeshReadAhead(Reader reader, std::uint64_t most_bytes)
       : reader_(std::move(reader)), most_bytes_(most_bytes) {}
   ~MeshReadAhead();
 
   bool has_room() const { return bytes_ < most_bytes_; }
-  // This file will be asked for next but for those expected before; perhaps. False where there is no room.
+  // Says that this file may be asked for next but for those expected before. Returns false where there is no
+  // room.
   bool expect(const std::filesystem::path& file);
   // Throws what the reader throws. Files that were expected before this one are forgotten.
   Result take(const std::filesystem::path& file);

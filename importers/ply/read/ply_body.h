@@ -10,8 +10,8 @@
 
 namespace vitrail::ply {
 
-// Which property of the vertex element has each of x y z, nx ny nz, u v. The first three are always set, the
-// others as complete groups or not at all.
+// It says which property of the vertex element has each of x y z, nx ny nz, u v. The first three are always
+// set, the others as complete groups or not at all.
 struct VertexLayout {
   static constexpr std::size_t slots = 8, first_normal = 3;
   std::array<std::optional<std::size_t>, slots> property;
@@ -22,7 +22,7 @@ struct VertexLayout {
 struct BodyPlan {
   std::size_t vertex_element = 0;
   VertexLayout vertex;
-  // Faces or strips of triangles or both.
+  // They are faces or strips of triangles; a file may have both.
   struct Faces {
     std::size_t element = 0;
     std::size_t corner_list = 0;  // property of the element
@@ -40,7 +40,7 @@ struct Body {
   std::uint64_t lost_numbers = 0;   // of normals, (u,v) and attributes: not finite in the file, 0 in the mesh
 };
 
-// `cursor` stands at the first byte of the body.
+// Reads the body, at whose first byte `cursor` stands.
 Body read_body(const InputBytes& bytes, const TextCursor& cursor, const Header& header, const BodyPlan& plan,
                std::optional<PbrtQuads> quads = {});
 

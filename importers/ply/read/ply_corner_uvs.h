@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texture coordinates of the corners of faces, as MeshLab writes them: a list "texcoord", two numbers a
+// MeshLab writes texture coordinates of the corners of faces: a list "texcoord", two numbers a
 // corner.
 #pragma once
 
@@ -9,10 +9,11 @@
 
 namespace vitrail::ply {
 
-// The property of the faces' element; nothing where the file has none, or has (u,v) of vertices or strips.
+// Returns the property of the faces' element; nothing where the file has none, or has (u,v) of vertices or
+// strips.
 std::optional<std::size_t> corner_uvs_of(const Header& header, const BodyPlan& plan);
 
-// Gives the mesh that was read of the same body (u,v). A vertex whose corners differ in theirs becomes
+// Gives (u,v) to the mesh that was read from the same body. A vertex whose corners differ in theirs becomes
 // several, with its attributes. Faces whose list has another length have (0,0).
 void read_corner_uvs(const InputBytes& bytes, const TextCursor& cursor, const Header& header,
                      const BodyPlan& plan, std::size_t property, Body& body);

@@ -8,7 +8,7 @@
 
 namespace vitrail::ply {
 
-// Takes corners that are in range.
+// It takes corners that are in range.
 class FaceSink {
  public:
   explicit FaceSink(Body& body) : body_(body) {}
@@ -54,17 +54,17 @@ inline std::string out_of_range(double index, std::size_t vertices) {
                      vertices);
 }
 
-// One list of 32-bit indices with its length in a byte, scalars before and after it: what nearly all files
-// have.
+// It is one list of 32-bit indices with its length in a byte, with scalars before and after it. Nearly all
+// files have this.
 struct CommonFaces {
   std::size_t before = 0, after = 0;  // bytes of the scalars
   std::size_t triangle_row() const { return before + 1 + 3 * sizeof(std::uint32_t) + after; }
 };
 
-// Nothing if the element is of another kind.
+// Returns nothing if the element is of another kind.
 std::optional<CommonFaces> common_faces(const Element& element, std::size_t list);
 
-// False if one of the rows has not three corners or refers to more than `vertices`.
+// Returns false if one of the rows has not three corners or refers to more than `vertices`.
 template <bool swapped>
 bool load_triangles(const char* row, std::size_t row_size, std::size_t count, std::uint32_t vertices,
                     std::array<std::uint32_t, 3>* to) {
@@ -83,7 +83,7 @@ bool load_triangles(const char* row, std::size_t row_size, std::size_t count, st
 }
 
 // Reads triangles as long as whole chunks of rows hold nothing else and refer to vertices that are there.
-// Returns how many.
+// Returns their number.
 template <class Source>
 std::uint64_t read_triangles(Source& source, const CommonFaces& faces, std::uint64_t rows,
                              std::uint32_t vertices, std::vector<std::array<std::uint32_t, 3>>& triangles) {
@@ -105,7 +105,7 @@ std::uint64_t read_triangles(Source& source, const CommonFaces& faces, std::uint
   return done;
 }
 
-// The rows from `row` to `stop`, of any number of corners.
+// Reads the rows from `row` to `stop`, of any number of corners.
 template <class Source>
 void read_common_faces(Source& source, const Element& element, std::size_t list, const CommonFaces& faces,
                        std::uint64_t row, std::uint64_t stop, Body& body) {
@@ -137,8 +137,8 @@ void read_common_faces(Source& source, const Element& element, std::size_t list,
   source.release_read();
 }
 
-// Strips of triangles, each turned the other way round than the one before it; a negative index begins the
-// next strip. Triangles with a corner twice only lead from one part of a strip to another.
+// Reads strips of triangles, each turned the other way round than the one before it; a negative index begins
+// the next strip. Triangles with a corner twice only lead from one part of a strip to another.
 template <class Source>
 void read_strips(Source& source, const Element& element, std::size_t list, Body& body) {
   source.require_room(element);
@@ -186,7 +186,7 @@ void read_face_rows(Source& source, const Element& element, std::size_t list, Bo
       });
 }
 
-// As many as there could be triangles, each with three indices.
+// Reserves for as many as there could be triangles, each with three indices.
 template <class Source>
 void reserve_triangles(const Source& source, const Element& element, std::size_t list, Body& body) {
   const std::size_t least =
@@ -195,7 +195,7 @@ void reserve_triangles(const Source& source, const Element& element, std::size_t
           body.mesh.triangles.size() + std::min<std::uint64_t>(element.count, source.left() / least + 1));
 }
 
-// The first `row` rows have been read.
+// Reads the faces behind the first `row` rows, which have been read.
 template <class Source>
 void read_faces(Source& source, const Element& element, std::size_t list, std::uint64_t row, Body& body) {
   if constexpr (Source::binary) {

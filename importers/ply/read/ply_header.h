@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the header of a PLY file says about its body.
+// The header of a PLY file describes its body.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ struct Element {
   SourceLocation location;
   std::string excerpt;
 
-  // Bytes of a binary row; of the shortest one where there are lists.
+  // Returns the bytes of a binary row; of the shortest one where there are lists.
   std::size_t row_size() const;
   bool has_list() const;
 };
@@ -42,7 +42,7 @@ struct Element {
 struct Header {
   Format format = Format::ascii;
   std::vector<Element> elements;
-  // Images that comments name, as MeshLab writes them: "comment TextureFile wood.png".
+  // They are images that comments name, as MeshLab writes them: "comment TextureFile wood.png".
   std::vector<std::string> texture_files;
 };
 

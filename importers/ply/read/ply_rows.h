@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of an element, value by value.
+// These functions go through the rows of an element, value by value.
 #pragma once
 
 #include <vector>

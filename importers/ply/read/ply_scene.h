@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A PLY file that is a scene by itself, but for its view.
+// A PLY file is a scene by itself, but for its view.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace vitrail {
 
-// One diffuse mesh. Its reflectance is the first of: the image that "comment TextureFile NAME" names, which
-// is sought beside the file and needs (u,v); the colours of vertices or faces; 0.5.
+// Returns one diffuse mesh. Its reflectance is the first of: the image that "comment TextureFile NAME" names,
+// which is sought beside the file and needs (u,v); the colours of vertices or faces; 0.5.
 ImportedScene read_ply_scene(const std::filesystem::path& file, MeshMemory memory);
 
 // Counts the mesh by the file's header.

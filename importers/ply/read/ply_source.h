@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The values of a PLY body in their order, from bytes or from text. Both kinds have the same members.
+// A source gives the values of a PLY body in their order, from bytes or from text. Both kinds have the same
+// members.
 #pragma once
 
 #include <fmt/format.h>
@@ -56,7 +57,7 @@ class BinarySource {
 
   double number(const Element& element, const Property& property) { return next(element, property.type); }
 
-  // Of a list whose items the file has room for.
+  // Returns the length of a list whose items the file has room for.
   std::uint64_t list_length(const Element& element, const Property& property) {
     const double length = next(element, *property.count_type);
     if (length < 0 || length * static_cast<double>(size_of(property.type)) > static_cast<double>(left())) {
@@ -70,7 +71,7 @@ class BinarySource {
     const std::size_t size = element.row_size();
     return size == 0 || element.count <= left() / size;
   }
-  // Before memory is claimed for the rows of an element.
+  // Checks the room before memory is claimed for the rows of an element.
   void require_room(const Element& element) const {
     if (!has_room(element)) {
       fail(element,
@@ -89,7 +90,7 @@ class BinarySource {
     throw Error(fmt::format("{} (byte {} of the file)", message, position - bytes_->begin()),
                 element.location, element.excerpt);
   }
-  // At the value that was read last.
+  // Fails at the value that was read last.
   [[noreturn]] void fail(const Element& element, const std::string& message) const {
     fail(element, message, last_);
   }

@@ -10,7 +10,7 @@
 
 namespace vitrail::ply {
 
-// Rows of floats on their way into a mesh: slots 0–2 position, 3–5 normal, 6–7 uv.
+// It has rows of floats on their way into a mesh: slots 0–2 position, 3–5 normal, 6–7 uv.
 struct VertexChunk {
   std::array<float, 3 * chunk_rows> positions, normals;
   std::array<float, 2 * chunk_rows> uvs;
@@ -48,7 +48,7 @@ void load_column(const char* from, std::size_t row_size, std::size_t count, Vert
   }
 }
 
-// `width` columns side by side.
+// Loads `width` columns side by side.
 template <std::size_t width, bool swapped>
 void load_floats(const char* from, std::size_t row_size, std::size_t count, float* to) {
   for (std::size_t i = 0; i < count; ++i, from += row_size, to += width) {
@@ -66,7 +66,7 @@ bool all_finite(const std::array<float, size>& values, std::size_t count) {
   return finite;
 }
 
-// Puts 0 in the place of what is not finite; says how often.
+// Puts 0 in the place of numbers that are not finite. Returns how many there were.
 template <std::size_t size>
 std::uint64_t make_finite(std::array<float, size>& values, std::size_t count) {
   if (all_finite(values, count)) return 0;
@@ -80,7 +80,7 @@ inline std::string not_finite(const Property& property, std::uint64_t row) {
   return fmt::format("{} of vertex {} is not a finite single-precision number", property.name, row);
 }
 
-// Rows of a fixed size, in chunks that stay in the cache.
+// It reads rows of a fixed size, in chunks that stay in the cache.
 template <class Source>
 class VertexColumns {
  public:
@@ -91,7 +91,7 @@ class VertexColumns {
     }
   }
 
-  // How many numbers were not finite and are 0.
+  // Returns how many numbers were not finite and are 0.
   std::uint64_t read(Source& source, TriangleMesh& mesh) {
     std::uint64_t lost = 0;
     for (std::uint64_t row = 0; row < element_.count; row += chunk_rows) {
@@ -110,7 +110,7 @@ class VertexColumns {
   }
 
  private:
-  // The slots from `first` on.
+  // Loads the slots from `first` on.
   template <std::size_t width, std::size_t size>
   void load_group(const char* from, std::size_t first, std::size_t count, std::array<float, size>& to) {
     if (!layout_.property[first]) return;
@@ -132,7 +132,7 @@ class VertexColumns {
     }
   }
 
-  // Some position of the chunk is not finite.
+  // Fails by the first position of the chunk that is not finite.
   void refuse(const Source& source, std::uint64_t row, std::size_t count) {
     for (std::size_t slot = 0; slot < VertexLayout::first_normal; ++slot) {
       const auto column = chunk_.column(slot);
@@ -201,7 +201,8 @@ void prepare_vertices(const Source& source, const Element& element, const Vertex
   if (layout.has_uvs()) reserve(mesh.uvs, element.count);
 }
 
-// Positions have to be finite. How many numbers of normals and (u,v) were not, and are 0.
+// Reads positions, which have to be finite, normals and (u,v). Returns how many numbers of these two were
+// not, and are 0.
 template <class Source>
 std::uint64_t read_vertices(Source& source, const Element& element, const VertexLayout& layout,
                             TriangleMesh& mesh) {
