@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bodies that a solid is made of.
+// These functions split a solid into the bodies that it is made of.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace vitrail::solids {
 
-// Parts that hang together, each a solid, if their boxes overlap and each encloses a volume of its own: such
-// parts may intersect. Else the solid as it is: parts may be holes of others.
+// Returns parts that hang together, each a solid, if their boxes overlap and each encloses a volume of its
+// own: such parts may intersect. Else it returns the solid as it is: parts may be holes of others.
 std::vector<Solid> bodies_of(const Solid& solid);
 
-// Bodies whose boxes do not touch, put into one solid: an operation on it is as good as one on each.
+// Puts bodies whose boxes do not touch into one solid: an operation on it is as good as one on each.
 std::vector<Solid> grouped(const std::vector<Solid>& bodies);
 
 }  // namespace vitrail::solids

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constructive solid geometry (Requicha 1980): sets of points made of others.
+// Constructive solid geometry (Requicha 1980) makes sets of points from others.
 //
 //   Csg bored = difference({solid(box({0, 0, 0}, {1, 1, 1}), 0), half_space({{0, 1, 0}, 0.5}, 1)});
 //   CsgResult result = evaluate(bored, {.reach = 100});
@@ -15,17 +15,18 @@
 
 namespace vitrail::solids {
 
-// Where dot(normal, p) ≤ distance · |normal|: POV-Ray's plane {normal, distance} and its inside.
+// It is the set where dot(normal, p) ≤ distance · |normal|: POV-Ray's plane {normal, distance} and its
+// inside.
 struct HalfSpace {
   Vector3d normal;
   double distance = 0;
 };
 
-// A set that no closed mesh encloses: at least its part in the box that is asked for, closed by `unseen`
-// triangles that are not in its faces.
+// It is a set that no closed mesh encloses. It gives at least its part in the box that is asked for, closed
+// by `unseen` triangles that are not in its faces.
 using Unbounded = std::function<Solid(const Bounds3d& within)>;
 
-// A tree of sets. What it holds depends on the kind; build it by the functions below.
+// It is a tree of sets. What it holds depends on the kind; build it by the functions below.
 struct Csg {
   enum class Kind {
     solid,         // closed, of bodies that may overlap; inside is what any of them holds
@@ -44,14 +45,14 @@ struct Csg {
       bounds;  // a box that holds the set: sets without end in it are looked at there alone
 };
 
-// `surface` is the number that the triangles get, wherever they end up.
+// These functions make sets; `surface` is the number that the triangles get, wherever they end up.
 Csg solid(Solid solid, std::uint32_t surface);
 Csg unbounded(Unbounded within, std::uint32_t surface);
 Csg half_space(const HalfSpace& half_space, std::uint32_t surface);
 Csg unite(std::vector<Csg> operands);
 Csg merge(std::vector<Csg> operands);
 Csg intersection(std::vector<Csg> operands);
-// The first without all others.
+// Returns the first set without all others.
 Csg difference(std::vector<Csg> operands);
 Csg complement(Csg operand);
 // `object` may be open: a patch, a disc. The others are closed or unbounded, or made of such.
@@ -67,11 +68,11 @@ struct CsgOptions {
 
 struct CsgResult {
   Solid solid;  // `closed` says whether it is; empty where nothing is left
-  // An operation each that could not be carried out, with the reason. What was to be cut off then remains,
+  // Each is an operation that could not be carried out, with the reason. What was to be cut off then remains,
   // what was to be merged stays a body of its own.
   std::vector<std::string> refused;
-  // Operands were moved by at most this fraction of their size, because as they were their result touches
-  // itself along an edge or at a vertex. 0: none was.
+  // Operands were moved by at most this fraction of their size, because without that their result touches
+  // itself along an edge or at a vertex. It is 0 where none was moved.
   double perturbation = 0;
   bool reaches_infinity = false;  // where the cube was met; those sides are `unseen`
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces over a rectangle of parameters.
+// These surfaces lie over a rectangle of parameters.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace vitrail::solids {
 
-// POV-Ray's height field in the unit cube, y up.
+// It is POV-Ray's height field in the unit cube, y up.
 struct HeightField {
   int columns = 0, rows = 0;    // at least 2 each, along x and along z
   std::vector<double> heights;  // 0 … 1, a row of x after the other, from z = 0 (an image's last row) on
@@ -21,10 +21,11 @@ struct HeightField {
 };
 Solid height_field(const HeightField& field);
 
-// Bézier patch of 4 × 4 points, a row of u after the other. Not closed. Its front is where ∂u × ∂v points.
+// Makes a Bézier patch of 4 × 4 points, a row of u after the other. It is not closed. Its front is where ∂u ×
+// ∂v points.
 Solid bicubic_patch(const std::array<Point3d, 16>& points, const Tessellation& tessellation = {});
 
-// Places by (u,v). Not closed, and cut where it leaves the container.
+// It gives places by (u,v). The surface is not closed, and is cut where it leaves the container.
 struct Parametric {
   std::function<Point3d(double u, double v)> place;
   std::array<double, 2> from{0, 0}, to{1, 1};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles halved until they are near enough to the surface that they stand for.
+// Triangles are halved until they are near enough to the surface that they stand for.
 #pragma once
 
 #include <functional>
@@ -9,10 +9,11 @@
 
 namespace vitrail::solids {
 
-// On what a triangle lies: bits that the caller chooses. An edge lies on what both of its triangles do.
+// It says on which parts of the surface a triangle lies, in bits that the caller chooses. An edge lies on
+// what both of its triangles lie on.
 using Lies = std::uint32_t;
 
-// The nearest point of all that a point near it shall lie on; nothing where none is found.
+// It returns the nearest point of all that a point near it shall lie on; nothing where none is found.
 using Projection = std::function<std::optional<Point3d>(const Point3d& p, Lies on)>;
 
 struct Halving {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The zero of a function in a container, from a lattice of its values.
+// This function finds the zero of a function in a container, from a lattice of its values.
 #pragma once
 
 #include "importers/solids/halving.h"
@@ -7,7 +7,7 @@
 
 namespace vitrail::solids {
 
-// What a triangle lies on: the zero, or what closes it. A box has a bit a side, lower before upper.
+// They say on what a triangle lies: the zero, or what closes it. A box has a bit a side, lower before upper.
 inline constexpr Lies on_zero = 1, on_sphere = 2, on_first_side = 2;
 
 struct March {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outlines of a font's letters, by FreeType, which is loaded with the first font.
+// FreeType gives the outlines of a font's letters. It is loaded with the first font.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ struct Glyph {
   double advance = 0;                          // to the next letter, with the kerning between the two
 };
 
-// One a letter; those that the font has not are empty and have no width. Throws Error where FreeType is not
-// installed or does not read the file.
+// Returns one a letter; those that the font has not are empty and have no width. Throws Error where FreeType
+// is not installed or does not read the file.
 std::vector<Glyph> outlines(const std::string& font_file, std::string_view utf8);
 
 }  // namespace vitrail::solids

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What contours enclose in the plane, and solids swept of it.
+// Contours enclose regions in the plane, and solids are swept of these.
 #pragma once
 
 #include <span>
@@ -10,11 +10,11 @@
 
 namespace vitrail::solids {
 
-// Which points contours enclose: `even_odd` those with an odd number of crossings on the way to infinity,
-// `non_zero` those around which the contours turn.
+// It says which points contours enclose: `even_odd` those with an odd number of crossings on the way to
+// infinity, `non_zero` those around which the contours turn.
 enum class FillRule { even_odd, non_zero };
 
-// A boundary edge with what it encloses on its left, and the tangents of the contour at both ends.
+// It is a boundary edge with what it encloses on its left, and the tangents of the contour at both ends.
 struct RegionEdge {
   std::uint32_t from, to;
   Point2d tangent_from, tangent_to;
@@ -26,11 +26,11 @@ struct Region {
   std::vector<RegionEdge> edges;
 };
 
-// By a constrained Delaunay triangulation. Contours may cross themselves and each other.
+// Finds the region by a constrained Delaunay triangulation. Contours may cross themselves and each other.
 Region region_of(std::span<const PlaneCurve> contours, FillRule rule);
 
-// From z = low, where (x,y) are multiplied by scale_low, to z = high > low. A scale may be 0: a point; the
-// two have no different signs. Caps get the surface `cap`.
+// Sweeps a region from z = low, where (x,y) are multiplied by scale_low, to z = high > low. A scale may be 0:
+// a point; the two have no different signs. Caps get the surface `cap`.
 Solid swept(const Region& region, double low, double scale_low, double high, double scale_high,
             std::uint32_t cap);
 

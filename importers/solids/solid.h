@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles that enclose a volume: what all shapes of this room are made as.
+// A Solid has triangles that enclose a volume. All shapes of this folder are made as such.
 #pragma once
 
 #include <array>
@@ -14,13 +14,14 @@
 
 namespace vitrail::solids {
 
-// How near triangles are to the shape's true surface: a fraction of the greatest edge of its bounding box.
+// It says how near triangles are to the shape's true surface, as a fraction of the greatest edge of its
+// bounding box.
 struct Tessellation {
   double deviation = 5e-4;
 };
 
-// The number of a surface whose triangles close a solid but are not to be seen: the caps of an open cylinder,
-// the sides of a cube that stands for infinity. `mesh_of` leaves them out.
+// It is the number of a surface whose triangles close a solid but are not to be seen: the caps of an open
+// cylinder, the sides of a cube that stands for infinity. `mesh_of` leaves them out.
 inline constexpr std::uint32_t unseen = 0xffffffff;
 
 // Vertices are shared by place alone: each edge of a closed solid has two triangles that run along it in
@@ -36,38 +37,38 @@ struct Solid {
   bool empty() const { return triangles.empty(); }
 };
 
-// All triangles of the surfaces that are seen, or of one of them. Corners share a vertex where place and
-// normal are equal. Throws Error where a position is not finite in single precision.
+// They return all triangles of the surfaces that are seen, or of one of them. Corners share a vertex where
+// place and normal are equal. They throw Error where a position is not finite in single precision.
 TriangleMesh mesh_of(const Solid& solid);
 TriangleMesh mesh_of(const Solid& solid, std::uint32_t surface);
 
-// The numbers of the surfaces that are seen, in ascending order.
+// Returns the numbers of the surfaces that are seen, in ascending order.
 std::vector<std::uint32_t> surfaces_of(const Solid& solid);
 
 // Gives a number to all surfaces that are seen.
 void set_surface(Solid& solid, std::uint32_t surface);
 
-// Mirrors keep fronts outside. A transform without an inverse throws Error.
+// Keeps fronts outside under mirrors. Throws Error for a transform without an inverse.
 Solid transformed(Solid solid, const Transform& to);
 
-// The complement: fronts and normals turned round.
+// Returns the complement: fronts and normals are turned round.
 Solid inverted(Solid solid);
 
-// Both as bodies of one solid, which may overlap.
+// Appends `other` as further bodies of one solid, which may overlap.
 void append(Solid& solid, const Solid& other);
 
 Bounds3d bounds_of(const Solid& solid);
-// Neither is empty, and they have a point in common.
+// Returns whether neither is empty, and they have a point in common.
 bool boxes_meet(const Bounds3d& a, const Bounds3d& b);
 
-// The normal at a point in a triangle: that of a corner, bit for bit, where the point is one, so that
+// Returns the normal at a point in a triangle: that of a corner, bit for bit, where the point is one, so that
 // neighbours go on sharing it.
 Normal3f normal_at(const Solid& solid, std::size_t triangle, Point3d p);
 
-// Positive where fronts are outside; the sum of its bodies.
+// Returns the sum of the volumes of its bodies, positive where fronts are outside.
 double volume(const Solid& solid);
 
-// Whether each edge has two triangles, in opposite directions.
+// Returns whether each edge has two triangles, in opposite directions.
 bool is_watertight(const Solid& solid);
 
 }  // namespace vitrail::solids

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plane curves of prisms and lathes, as POV-Ray lists their points.
+// Prisms and lathes have these plane curves, as POV-Ray lists their points.
 #pragma once
 
 #include <span>
@@ -16,8 +16,8 @@ enum class SplineKind {
   bezier,     // four points a segment
 };
 
-// A point of a curve, with the unit vectors along which the curve arrives there and leaves: equal where it is
-// smooth.
+// It is a point of a curve, with the unit vectors along which the curve arrives there and leaves. They are
+// equal where it is smooth.
 struct CurvePoint {
   Point2d place;
   Point2d arriving, leaving;
@@ -32,11 +32,11 @@ struct PlaneCurve {
 // where points are too few or not finite.
 PlaneCurve plane_curve(SplineKind kind, std::span<const Point2d> points, double tolerance);
 
-// The contours of a prism: one ends where its first point (of quadratic and cubic splines, its second) comes
-// again. The last is closed by a line if it does not. Throws Error as `plane_curve` does.
+// Returns the contours of a prism: one ends where its first point (of quadratic and cubic splines, its
+// second) comes again. The last is closed by a line if it does not. Throws Error as `plane_curve` does.
 std::vector<PlaneCurve> contours(SplineKind kind, std::span<const Point2d> points, double tolerance);
 
-// The greatest edge of the points' box, by which a tolerance is taken.
+// Returns the greatest edge of the points' box, by which a tolerance is taken.
 double greatest_edge(std::span<const Point2d> points);
 
 }  // namespace vitrail::solids
