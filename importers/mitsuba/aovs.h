@@ -10,8 +10,8 @@
 
 namespace vitrail::mitsuba {
 
-// How a film's layers differ from what Mitsuba's integrator `aov` gives under their names; empty where they
-// do not.
+// Returns how a film's layers differ from what Mitsuba's integrator `aov` gives under their names; empty
+// where they do not.
 inline std::string difference_from_mitsuba(const FilmLayers& layers) {
   std::vector<std::string> all;
   if (layers.has(Layer::albedo))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Near and far planes between our camera and Mitsuba's, for its reader and its writer.
+// Mitsuba's reader and writer convert near and far planes between our camera and Mitsuba's.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace vitrail::mitsuba {
 
-// Lengths in the world of one along the camera's axis; 1 where it is nearly that.
+// Returns the length in the world of one along the camera's axis; 1 where it is nearly that.
 inline double depth_unit(const Camera& camera) {
   const double unit = std::visit(
       [](const auto& c) {
@@ -18,8 +18,8 @@ inline double depth_unit(const Camera& camera) {
   return std::abs(unit - 1) <= 1e-6 || !(unit > 0) ? 1 : unit;
 }
 
-// A perspective camera of Mitsuba 3 has no scale. Of an orthographic one `near_clip` is in the camera's
-// space, and the two are as far apart in the world as they say (3.9.1, measured).
+// A perspective camera of Mitsuba 3 has no scale. An orthographic one has `near_clip` in its own space, and
+// the two planes are as far apart in the world as they say (3.9.1, measured).
 inline ClipRange to_mitsuba(const ClipRange& c, const Camera& camera) {
   const auto unit = static_cast<float>(depth_unit(camera));
   if (unit == 1) return c;
@@ -27,7 +27,7 @@ inline ClipRange to_mitsuba(const ClipRange& c, const Camera& camera) {
   return {c.near * unit, c.far * unit};
 }
 
-// Of a camera as it is read, whose scale is kept.
+// Takes a camera as it is read, whose scale is kept.
 inline ClipRange from_mitsuba(const ClipRange& c, const Camera& camera) {
   const auto unit = static_cast<float>(depth_unit(camera));
   if (unit == 1 || !std::holds_alternative<OrthographicCamera>(camera)) return c;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window that a perspective camera of Mitsuba shows, in one order of operations for its reader and its
-// writer: what one writes the other reads to the bit.
+// Mitsuba's reader and writer compute the window that a perspective camera shows in one order of operations:
+// what one writes the other reads to the bit.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace vitrail::mitsuba {
 
-// Half of the screen's width and height in the plane z = 1.
+// It is half of the screen's width and height in the plane z = 1.
 struct HalfScreen {
   double x = 1, y = 1;
 };

@@ -7,8 +7,8 @@
 
 namespace vitrail::mitsuba {
 
-// The text in UTF-8, where it is in another encoding: UTF-16 that begins with its byte order mark, or ISO
-// 8859-1 (Windows-1252) by the declaration of an XML file. Half a surrogate pair becomes U+FFFD.
+// Returns the text in UTF-8, where it is in another encoding: UTF-16 that begins with its byte order mark, or
+// ISO 8859-1 (Windows-1252) by the declaration of an XML file. Half a surrogate pair becomes U+FFFD.
 std::optional<std::string> in_utf8(std::string_view text);
 
 }  // namespace vitrail::mitsuba

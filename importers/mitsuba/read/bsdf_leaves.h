@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes to the material inside of an adapter.
+// These functions change the material inside of an adapter.
 #pragma once
 
 #include <unordered_map>
@@ -8,7 +8,7 @@
 
 namespace vitrail::mitsuba {
 
-// Changes the material, or where it is made of others a copy of each of them, once: the file may refer to
+// It changes the material, or where it is made of others a copy of each of them, once: the file may refer to
 // them elsewhere, too, and more than once.
 template <class Change>
 class LeafChanger {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kinds of BSDF. Each function takes the <bsdf> and gives what it is, without its place and name.
+// These functions read the kinds of BSDF. Each takes the <bsdf> and gives what it is, without its place and
+// name.
 #pragma once
 
 #include <string>
@@ -25,13 +26,13 @@ MaterialModel polarizing(Builder& builder, const Object& bsdf);  // polarizer, r
 MaterialModel conductor(Builder& builder, const Object& bsdf);  // conductor, roughconductor, mirror
 MaterialModel hair(Builder& builder, const Object& bsdf);
 MaterialModel principled(Builder& builder, const Object& bsdf);  // principled, principledthin
-// 0.6's Hanrahan and Krueger: of the measured media it takes the first by default.
+// It is 0.6's Hanrahan and Krueger model, which takes the first of the measured media by default.
 MaterialModel slab(Builder& builder, const Object& bsdf);
 MaterialModel measured(Builder& builder, const Object& bsdf);  // measured, measured_polarized
-// A system of panes in a file, in the state that the object gives.
+// It is a system of panes in a file, in the state that the object gives.
 MaterialModel glazing_system(Builder& builder, const Object& bsdf, std::string file);
 
-// ---- bsdf_mixtures.cpp: of others, which stay as they are.
+// ---- bsdf_mixtures.cpp: they are made of other materials, which stay as they are.
 MaterialModel mask(Builder& builder, const Object& bsdf);
 MaterialModel blend(Builder& builder, const Object& bsdf);
 MaterialModel mixture(Builder& builder, const Object& bsdf);  // 0.6's
@@ -44,21 +45,21 @@ Material normal_map(Builder& builder, const Object& adapter);
 Material coated(Builder& builder, const Object& adapter);  // 0.6's coating, roughcoating
 
 // ---- bsdfs.cpp
-// The material inside of an adapter, not yet of the scene; without one throws Error.
+// Returns the material inside of an adapter, not yet of the scene; without one throws Error.
 Material inner_material(Builder& builder, const Object& adapter);
 
 // ---- bsdf_parameters.cpp
-// A reflectance in [0,1], and a factor, which is 1 where it is absent.
+// They return a reflectance in [0,1], and a factor, which is 1 where it is absent.
 SpectrumParameter reflectance(Builder& builder, const Object& bsdf, const char* name, double otherwise);
 SpectrumParameter factor(Builder& builder, const Object& bsdf, const char* name);
-// Of microfacets; α is 0.1 where nothing is said.
+// Returns the roughness of microfacets; α is 0.1 where nothing is said.
 Roughness roughness_of(Builder& builder, const Object& bsdf);
-// The product; of a texture, a texture of the scene at `origin`.
+// Returns the product; of a texture, a texture of the scene at `origin`.
 SpectrumParameter times(Builder& builder, const SpectrumParameter& value, const Spectrum& factor,
                         const Origin& origin);
 SpectrumParameter times(Builder& builder, const SpectrumParameter& value, double factor,
                         const Origin& origin);
-// The nested <bsdf>s, in order; less than `least` or more than `most` throw Error.
+// Returns the nested <bsdf>s, in order; fewer than `least` or more than `most` throw Error.
 std::vector<Id<Material>> nested_materials(Builder& builder, const Object& bsdf, std::size_t least,
                                            std::size_t most);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the records of the Scene from the objects of a file. Each kind of object has its file.
+// A Builder makes the records of the Scene from the objects of a file. Each kind of object has its file.
 #pragma once
 
 #include <array>
@@ -19,11 +19,11 @@
 
 namespace vitrail::mitsuba {
 
-// What a colour is for: a reflectance in [0,1], a factor without bound, or emission (rgb v is D65 of
-// luminance v).
+// It says what a colour is used as: a reflectance in [0,1], a factor without bound, or emission (rgb v is D65
+// of luminance v).
 enum class Quantity { reflectance, unbounded, emission };
 
-// Mitsuba's own planes where the file gives its camera none.
+// They are Mitsuba's own planes where the file gives its camera none.
 struct Clipping {
   double near_clip = 1e-2, far_clip = 1e4;
 };
@@ -35,7 +35,7 @@ struct Builder {
   // These are given to shapes without a bsdf: 1 to those that shine, 2 to those that bound a medium in old
   // files.
   std::array<std::optional<Id<Material>>, 3> default_materials{};
-  // One for each of the scene's materials (scene/records/material_traits.h).
+  // These three have an entry for each of the scene's materials (scene/records/material_traits.h).
   std::vector<MaterialTraits> traits;
   std::vector<bool> sided;
   std::vector<MaterialParts> parts;
@@ -56,13 +56,13 @@ struct Builder {
 };
 
 // ---- spectra.cpp, textures.cpp
-// The property as a spectrum or texture; `otherwise` where it is absent. Numbers, <rgb>, <spectrum>, nested
-// <texture> and <spectrum type="…"> plugins.
+// Returns the property as a spectrum or texture; `otherwise` where it is absent. It takes numbers, <rgb>,
+// <spectrum>, nested <texture> and <spectrum type="…"> plugins.
 SpectrumParameter spectrum_parameter(Builder& builder, const Object& object, std::string_view name,
                                      Quantity quantity, const Spectrum& otherwise);
 FloatParameter float_parameter(Builder& builder, const Object& object, std::string_view name,
                                double otherwise);
-// The same where a texture cannot be: its mean stands for it, with a diagnostic.
+// Returns the same where a texture cannot be: its mean stands for it, with a diagnostic.
 Spectrum spectrum_value(Builder& builder, const Object& object, std::string_view name, Quantity quantity,
                         const Spectrum& otherwise);
 Id<Texture> add_texture(Builder& builder, const Object& texture, bool as_float);
@@ -76,33 +76,35 @@ void keep_clipping(Builder& builder);
 // ---- bsdfs.cpp
 // Adds a record that is made here; those that it refers to have been added.
 Id<Material> append(Builder& builder, Material material);
-// The material of a <bsdf>; the same object gives the same material.
+// Returns the material of a <bsdf>; the same object gives the same material.
 Id<Material> add_material(Builder& builder, const Object& bsdf);
 
 // ---- media.cpp
 Id<Medium> add_medium(Builder& builder, const Object& medium);
-// g of the phase function inside of an object.
+// Returns g of the phase function inside of an object.
 float read_phase(const Object& around, Report& report);
 
 // ---- emitters.cpp
-// A light of the scene (not "area"). Unknown kinds are reported and dropped.
+// Adds a light of the scene (not "area"). Unknown kinds are reported and dropped.
 void add_emitter(Builder& builder, const Object& emitter);
-// An "area" or "directionalarea" emitter of a shape; nothing where it is of another kind, which is reported.
+// Adds an "area" or "directionalarea" emitter of a shape. Returns nothing where it is of another kind, which
+// is reported.
 std::optional<Id<AreaLight>> add_area_light(Builder& builder, const Object& emitter);
 
 // ---- shapes.cpp (and serialized.cpp, curves.cpp …)
-// A shape of the scene, or an instance of a shapegroup; shapegroups themselves are made when an instance
+// Adds a shape of the scene, or an instance of a shapegroup; shapegroups themselves are made when an instance
 // asks.
 void add_shape(Builder& builder, const Object& shape);
 
 // ---- sensor.cpp
-// Of keyframes in order; nothing, and reported, where they do not make one.
+// Returns the motion of keyframes in order. Returns nothing where there are none, or where they make no
+// motion, which is reported.
 std::optional<Motion> motion_of(Builder& builder, std::vector<Keyframe> keys, const Origin& place);
-// Camera, film, filter, sampler.
+// Reads camera, film, filter and sampler.
 void read_sensor(Builder& builder, const Object& sensor);
-// max_depth and what the integrator leaves out.
+// Reads max_depth and what the integrator leaves out.
 void read_integrator(Builder& builder, const Object& integrator);
-// Once the scene is read.
+// Settles the integrator once the scene is read.
 void finish_integrator(Builder& builder, bool all_media);
 
 }  // namespace vitrail::mitsuba

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands for $name in attributes.
+// Definitions give the values that stand for $name in attributes.
 #pragma once
 
 #include <filesystem>
@@ -17,17 +17,17 @@ class Definitions {
   Definitions(const std::map<std::string, std::string>& given, const Report& report)
       : report_(report), given_(given), values_(given) {}
 
-  // A <default>. The first of a name counts.
+  // Takes a <default>. The first of a name counts.
   void add(const std::string& name, const std::string& value);
 
-  // The name of the first variable in the text that has no value; "" where all have one.
+  // Returns the name of the first variable in the text that has no value; "" where all have one.
   std::string undefined_in(const std::string& text) const;
 
-  // The text with a value for each $name: the longest known name that follows a "$". One that is not known,
-  // and a text that grows without bound, throw Error.
+  // Returns the text with a value for each $name: the longest known name that follows a "$". Throws Error for
+  // a name that is not known, and for a text that grows without bound.
   std::string expanded(const std::string& text, const Origin& place);
 
-  // The value of a name, which does not count as asked for; null where it has none.
+  // Returns the value of a name, which does not count as asked for; null where it has none.
   const std::string* find(const std::string& name) const;
 
   // Throws Error where the scene never asks for one of those that were given.

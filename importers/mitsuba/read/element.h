@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An element of a Mitsuba file.
+// An Element is an element of a Mitsuba file.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace vitrail::mitsuba {
 
-// Where the lines of a text begin.
+// They hold where the lines of a text begin.
 class Lines {
  public:
   Lines(const char* begin, const char* end) {
@@ -31,7 +31,7 @@ class Lines {
   std::vector<std::ptrdiff_t> starts_;
 };
 
-// A file that is being read.
+// It is a file that is being read.
 struct Source {
   std::uint32_t number;
   Lines lines;
@@ -40,7 +40,7 @@ struct Source {
   Origin origin(pugi::xml_node node) const { return lines.origin(number, node.offset_debug() - 1); }
 };
 
-// With its place and its attributes, in which definitions are put in.
+// It knows its place and its attributes, in which definitions are put in.
 class Element {
  public:
   Element(pugi::xml_node node, const Source& source, Definitions& definitions, const Report& report)
@@ -67,7 +67,7 @@ class Element {
   Fail failing() const {
     return [this](const std::string& message) { fail(message); };
   }
-  // Of a tag that there is not.
+  // Reports a tag that Mitsuba does not have.
   [[noreturn]] void fail_unknown() const;
 
  private:

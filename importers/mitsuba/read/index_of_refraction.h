@@ -5,11 +5,12 @@
 
 namespace vitrail::mitsuba {
 
-// The property as a number, or by the name of a substance; `otherwise` names the one where it is absent.
+// Returns the property as a number, or by the name of a substance; `otherwise` names the one where it is
+// absent.
 float index_of(Builder& builder, const Object& object, const char* name, const char* otherwise);
 
-// The mean reflectance of a smooth interface for diffuse light from within, 2∫F(μ)μ dμ; eta: index within /
-// outside.
+// Returns the mean reflectance of a smooth interface for diffuse light from within, 2∫F(μ)μ dμ; eta is the
+// index within / outside.
 double internal_reflectance(double eta);
 
 }  // namespace vitrail::mitsuba

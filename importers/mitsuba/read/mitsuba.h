@@ -10,9 +10,9 @@
 namespace vitrail {
 
 // Reads a scene of Mitsuba 3, or of its versions 0.5 to 2: plugins become records of the Scene, analytic
-// shapes and curves triangles. A scene without a sensor gets a view of all of it. What is not exact is in the
-// diagnostics; malformed files and references throw Error with their place.
-// A sensor that the scene has not throws UsageError.
+// shapes and curves triangles. A scene without a sensor gets a view of all of it. Diagnostics say what is not
+// exact. Throws Error with their place for malformed files and references, and UsageError where the scene
+// does not have the sensor.
 ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
                            const ImportOptions& options = {});
 

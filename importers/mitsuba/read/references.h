@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects that are named, and those that refer to them, also before they come.
+// Objects have names; others refer to them, also before they come.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace vitrail::mitsuba {
 
-// An object while its file is read.
+// It is an object while its file is read.
 struct MutableObject : Object {
   struct Reference {
     std::size_t property;  // of this object
@@ -25,7 +25,7 @@ class References {
  public:
   explicit References(const Report& report) : report_(report) {}
 
-  // The object may be referred to by its id, if it has one. The same id twice throws Error.
+  // Takes an object, which may be referred to by its id, if it has one. The same id twice throws Error.
   void add(const MutablePtr& object);
   void add_alias(const std::string& alias, const std::string& id) { aliases_[alias] = id; }
 

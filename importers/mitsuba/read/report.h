@@ -12,13 +12,13 @@
 
 namespace vitrail::mitsuba {
 
-// Diagnostics and errors with their places.
+// It collects diagnostics and throws errors, with their places.
 class Report {
  public:
   explicit Report(const std::vector<std::string>& files) : files_(files) {}
 
-  // What comes is about the object there, of which a record of that kind is made. Gives what it was about
-  // before.
+  // Diagnostics that follow are about the object at `origin`, of which a record of that kind is made. Returns
+  // what they were about before.
   struct Item {
     Origin origin;
     RecordKind kind = RecordKind::any;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the files are that a scene names.
+// A scene names files, which are sought in these folders.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@ class SearchFolders {
 
   void add(std::filesystem::path folder) { folders_.push_back(std::move(folder)); }  // searched first
 
-  // Where there is no such file: where it would be beside the scene. A path of Windows counts with slashes
-  // where there is no file of its name.
+  // Returns the path of the file. Where there is no such file, it is where it would be beside the scene. A
+  // path of Windows counts with slashes where there is no file of its name.
   std::filesystem::path resolve(const std::string& name) const;
 
  private:

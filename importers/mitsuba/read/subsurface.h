@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What 0.6 says of the insides of things.
+// Mitsuba 0.6 describes the insides of things by these objects.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace vitrail::mitsuba {
 
-// Those of the measured medium that "material" names, "Skin1" where it names none; per unit of the scene's
-// length a hundred times what is measured per mm.
+// Returns the coefficients of the measured medium that "material" names, "Skin1" where it names none; per
+// unit of the scene's length a hundred times what is measured per mm.
 AbsorptionScattering measured_coefficients(Builder& builder, const Object& object);
 
-// The material of a shape that has a <subsurface> inside of its surface, which is of the material `surface`;
-// nothing where it has none.
+// Returns the material of a shape that has a <subsurface> inside of its surface, which is of the material
+// `surface`; nothing where it has none.
 std::optional<Id<Material>> subsurface_material(Builder& builder, const Object& shape, Id<Material> surface);
 
 }  // namespace vitrail::mitsuba

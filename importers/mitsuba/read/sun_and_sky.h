@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mitsuba's models of daylight: 0.6's "sky", "sun" and "sunsky", 3's "sunsky". They become a SkyLight.
+// Mitsuba's models of daylight are 0.6's "sky", "sun" and "sunsky", and 3's "sunsky". They become a SkyLight.
 #pragma once
 
 #include "importers/mitsuba/read/builder.h"

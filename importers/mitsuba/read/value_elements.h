@@ -6,8 +6,8 @@
 
 namespace vitrail::mitsuba {
 
-// The value of a property of `owner`: <float>, <rgb>, <transform> … Names of files become absolute while it
-// is known which folders are searched. Malformed values and tags that there are not throw Error.
+// Reads the value of a property of `owner`: <float>, <rgb>, <transform> … Names of files become absolute
+// while it is known which folders are searched. Malformed values and unknown tags throw Error.
 Value read_value(const Element& element, const Object& owner, const SearchFolders& folders);
 
 }  // namespace vitrail::mitsuba

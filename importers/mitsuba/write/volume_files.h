@@ -7,7 +7,8 @@
 
 namespace vitrail::mitsuba_writer {
 
-// The grid's values as one of Mitsuba's volume files (.vol, version 3, 32-bit floats). Throws MachineError.
+// Writes the grid's values as one of Mitsuba's volume files (.vol, version 3, 32-bit floats). Throws
+// MachineError.
 void write_volume_file(const std::filesystem::path& path, const Grid& grid);
 
 }  // namespace vitrail::mitsuba_writer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of the Mitsuba writer share: the state of one document, and elements with exact numbers.
+// The parts of the Mitsuba writer share the state of one document, and elements with exact numbers.
 #pragma once
 
 #include <fmt/format.h>
@@ -35,10 +35,11 @@ struct Overloaded : F... {
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;
 
-// A texture as Mitsuba can say it: an element of its own, by id, or one value for all of the surface.
+// It is a texture as Mitsuba can say it: an element of its own, by id, or one value for all of the surface.
 using WrittenTexture = std::variant<std::string, Spectrum>;
 
-// What materials take textures for that are written otherwise than colours and numbers: by texture.
+// It says, by texture, which ones materials take for heights or normals. These are written otherwise than
+// colours and numbers.
 struct TextureRoles {
   explicit TextureRoles(const Scene& scene);
   std::vector<bool> height, normal_map;
@@ -75,19 +76,19 @@ struct Context : ConversionNotes {
 
   UniqueNames ids;  // Mitsuba has one name space for everything
   std::vector<std::string> material_ids, medium_ids, prototype_ids;
-  // Of the meshes with each bsdf: whether the first is turned, and the bsdf for those that are not as it is.
+  // It holds, for the meshes with each bsdf, whether the first is turned, and the bsdf for those that differ.
   struct Facing {
     bool turned = false;
     std::string other{};
   };
   std::map<std::string, Facing> facings{};
-  // Masks around materials, by the material and the opacity of a shape.
+  // They are masks around materials, by the material and the opacity of a shape.
   std::map<std::pair<std::uint32_t, OpacityKey>, std::string> masks;
   std::vector<WrittenTexture> textures;
   mutable std::unordered_map<std::uint32_t, RGB> means;  // of the textures whose mean was asked for
   std::unordered_map<std::size_t, std::string>
       interiors;  // media inside of subsurface materials, by material
-  // Files of the images that lamps have, by texture and scale: many shapes may shine by one.
+  // They are files of the images that lamps have, by texture and scale: many shapes may shine by one.
   std::map<std::pair<std::uint32_t, float>, std::string> lamp_images, lamp_grids;
   bool colored_extinction = false;  // of a medium that was written
   std::size_t unseen_lamps = 0;     // of the written scene (is_unseen_lamp), with those of instances
@@ -95,11 +96,11 @@ struct Context : ConversionNotes {
   ConvertedImages images{[this] { return file.parent_path() / new_file("images", "exr", derived_images); }};
   BakedTextures baked{scene, [this] { return images.new_file(); }};
 
-  // An id for a record called `name`; a record without a name gets one that starts with "_unnamed_".
+  // Returns an id for a record called `name`; a record without a name gets one that starts with "_unnamed_".
   std::string new_id(const std::string& name, const char* kind, std::size_t index);
-  // A file as the scene refers to it.
+  // Returns a file as the scene refers to it.
   std::string relative(const std::string& other);
-  // The path of a new file in OUT-`kind`/, which is created; relative to the scene's.
+  // Returns the path of a new file in OUT-`kind`/, which it creates; relative to the scene's.
   std::string new_file(const char* kind, const char* extension, std::size_t& counter) const;
 };
 
@@ -111,7 +112,8 @@ void add_value(Element parent, const char* tag, const std::string& name, const s
 void add_string(Element parent, const std::string& name, const std::string& value);
 void add_integer(Element parent, const std::string& name, int value);
 void add_boolean(Element parent, const std::string& name, bool value);
-// The fewest digits that give the same bits back. What is not finite becomes the nearest number, NaN zero.
+// Writes the fewest digits that give the same bits back. A value that is not finite becomes the nearest
+// number, NaN zero.
 template <class T>
 void add_float(Element parent, const std::string& name, T value) {
   constexpr T largest = static_cast<T>(std::numeric_limits<float>::max());
@@ -120,7 +122,7 @@ void add_float(Element parent, const std::string& name, T value) {
 }
 void add_reference(Element parent, const std::string& id, const std::string& name = "");
 void add_transform(Element parent, const Transform& transform, const std::string& name = "to_world");
-// The vector's or point's three coordinates as attributes.
+// Adds the vector's or point's three coordinates as attributes.
 template <class T>
 void add_coordinates(Element parent, const char* tag, const std::string& name, const T& v) {
   Element element = parent.append_child(tag);

@@ -7,7 +7,7 @@ namespace vitrail::mitsuba_writer {
 
 void write_lights(Context& context, Element root);
 
-// The emission of a shape, inside of its element.
+// Writes the emission of a shape, inside of its element.
 void write_area_light(Context& context, Element element, const AreaLight& light, const Shape& shape);
 
 }  // namespace vitrail::mitsuba_writer

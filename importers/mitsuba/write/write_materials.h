@@ -5,10 +5,10 @@
 
 namespace vitrail::mitsuba_writer {
 
-// One element with an id for each material, in order; others refer to it.
+// Writes one element with an id for each material, in order; others refer to it.
 void write_materials(Context& context, Element root);
 
-// The element of the model alone.
+// Writes the element of the model alone.
 void write_model(Context& context, Element parent, const Material& material, const std::string& id);
 
 }  // namespace vitrail::mitsuba_writer

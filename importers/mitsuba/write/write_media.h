@@ -5,10 +5,10 @@
 
 namespace vitrail::mitsuba_writer {
 
-// One element with an id for each medium, in order, then those inside of subsurface materials.
+// Writes one element with an id for each medium, in order, then those inside of subsurface materials.
 void write_media(Context& context, Element root);
 
-// The medium inside of a subsurface material: "" where there is none.
+// Returns the medium inside of a subsurface material: "" where there is none.
 std::string interior_of(const Context& context, Id<Material> material);
 
 }  // namespace vitrail::mitsuba_writer

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights whose intensity goes by an image, which Mitsuba has as projectors of irradiance.
+// Some lights have an intensity that goes by an image. Mitsuba has them as projectors of irradiance.
 #pragma once
 
 #include "importers/mitsuba/write/write_context.h"
 
 namespace vitrail::mitsuba_writer {
 
-// A projector as it is, or of pbrt's: its image times cos³θ.
+// Writes a projector as it is, or pbrt's with its image times cos³θ.
 void write_projector(Context& context, Element root, const ProjectionLight& light);
 
-// Six projectors, one to each face of a cube, of 90°: the intensity in every direction is the image's there.
+// Writes six projectors, one to each face of a cube, of 90°: the intensity in every direction is the image's
+// there.
 void write_goniometric(Context& context, Element root, const GoniometricLight& light);
 
 }  // namespace vitrail::mitsuba_writer

@@ -5,7 +5,7 @@
 
 namespace vitrail::mitsuba_writer {
 
-// Shapes and prototypes in the order in which they first use a mesh, then the instances.
+// Writes shapes and prototypes in the order in which they first use a mesh, then the instances.
 void write_shapes(Context& context, Element root);
 
 }  // namespace vitrail::mitsuba_writer

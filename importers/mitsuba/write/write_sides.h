@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which side of a mesh is its front. In the Scene the winding says it; in Mitsuba the geometric normal
-// follows the winding too, but BSDFs and area lights go by the shading normal.
+// A mesh has a front. In the Scene the winding says which side it is; in Mitsuba the geometric normal follows
+// the winding too, but BSDFs and area lights go by the shading normal.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ struct MeshFile {
   bool flip_normals = false;
 };
 
-// The mesh of `shape` so that Mitsuba sees the same front; `sides_matter` where that can be seen. It is a
-// mesh of the Scene, unless shading normals point behind the front.
+// Returns the mesh of `shape` so that Mitsuba sees the same front; `sides_matter` where that can be seen. It
+// is a mesh of the Scene, unless shading normals point behind the front.
 MeshFile mesh_file(Context& context, const Shape& shape, bool sides_matter);
 
-// A copy of the mesh right behind it that faces backwards.
+// Returns a copy of the mesh right behind it that faces backwards.
 MeshFile back_of(Context& context, const Shape& shape);
 
 }  // namespace vitrail::mitsuba_writer

@@ -6,19 +6,19 @@
 
 namespace vitrail::mitsuba_writer {
 
-// What Mitsuba takes a colour for, which differs by the place where it stands.
+// It says what Mitsuba takes a colour for, which differs by the place where it stands.
 enum class Meaning { reflectance, unbounded, emission };
 
 void add_spectrum(Element parent, const std::string& name, const Spectrum& spectrum, Meaning meaning);
 
-// The linear sRGB colour of a reflectance or factor under D65.
+// Returns the linear sRGB colour of a reflectance or factor under D65.
 RGB color_of(const Spectrum& spectrum);
-// One number for a spectrum where Mitsuba takes no more: the value itself, or the luminance.
+// Returns one number for a spectrum where Mitsuba takes no more: the value itself, or the luminance.
 double number_of(Context& context, const Spectrum& spectrum, const char* what);
-// The index of refraction at the sodium D line, 589.3 nm, by which glasses are named.
+// Returns the index of refraction at the sodium D line, 589.3 nm, by which glasses are named.
 double index_of_refraction(Context& context, const Spectrum& spectrum);
 
-// f at every wavelength of the tables.
+// Returns f at every wavelength of the tables.
 template <class F>
 Spectrum tabulated(F&& f) {
   TabulatedSpectrum table;
