@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The directives before WorldBegin that say how the picture is taken.
+// These functions read the directives before WorldBegin that say how the picture is taken.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace vitrail::pbrt {
 
-// Of the realistic camera. Its film is at the camera's place.
+// It is the lens system of the realistic camera. Its film is at the camera's place.
 struct LensSystem {
   std::vector<LensSurface> surfaces;
   double focus_distance = 10;  // from the film, in the scene's units, which are metres
@@ -22,8 +22,8 @@ struct LensSystem {
   Place place;
 };
 
-// What Camera, Film, PixelFilter, Sampler and Integrator said. The camera's screen depends on the film's
-// resolution and the film's exposure on the camera's shutter, so both are completed at the end.
+// They hold what Camera, Film, PixelFilter, Sampler and Integrator said. The camera's screen depends on the
+// film's resolution and the film's exposure on the camera's shutter, so both are completed at the end.
 struct ViewSettings {
   enum class Projection { perspective, orthographic, spherical };
   bool has_camera = false;
@@ -46,7 +46,7 @@ struct ViewSettings {
   std::optional<int> iterations{};  // of photons, each a sample of every pixel; empty: the sampler's samples
 };
 
-// The defaults of a version.
+// Returns the defaults of a version.
 ViewSettings default_view(Version version);
 
 void read_camera(const std::string& kind, ParameterSet& parameters, const Transform& ctm, Context& context,
@@ -55,7 +55,8 @@ void read_film(const std::string& kind, ParameterSet& parameters, Context& conte
 void read_filter(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view);
 void read_sampler(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view);
 void read_integrator(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view);
-// Whether pbrt's integrator of this name ignores media: it takes what is between surfaces for vacuum.
+// Returns whether pbrt's integrator of this name ignores media: it takes the space between surfaces for
+// vacuum.
 bool passes_media_by(const std::string& integrator);
 bool has_subsurface(const Scene& scene);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every part of the import of one file shares.
+// Every part of the import of one file shares this context.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace vitrail::pbrt {
 
-// Counts of what a reading without the long lists leaves out.
+// They count what a reading without the long lists leaves out.
 struct SkimCounts {
   std::uint64_t grid_bytes = 0;       // of values of grids
   std::uint64_t statement_bytes = 0;  // most that is held while one statement is read
@@ -32,7 +32,7 @@ struct Context {
   std::optional<SkimCounts> skim;                         // the long lists are counted alone
   std::function<std::string_view(std::size_t)> upcoming;  // text of the file, up to so many bytes
 
-  // Said of what v3 and v4 take differently, in a file that does not tell which it is.
+  // Reports what v3 and v4 take differently, in a file that does not tell which it is.
   void note_version(const char* what, const Place& place) {
     if (!version_is_certain)
       report.approximated(
@@ -40,8 +40,8 @@ struct Context {
           place);
   }
 
-  // Where a file that the scene names is: beside the main file, or in the working directory. A name of
-  // Windows that no file has is taken with slashes.
+  // Returns where a file that the scene names is: beside the main file, or in the working directory. A name
+  // of Windows that no file has is taken with slashes.
   std::filesystem::path resolve(const std::string& name) const;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Executes the directives of a pbrt file, one after the other, on the graphics state and the scene.
+// The Interpreter executes the directives of a pbrt file, one after the other, on the graphics state and the
+// scene.
 #pragma once
 
 #include <functional>
@@ -29,7 +30,7 @@ class Interpreter {
   // Reads everything.
   Scene run();
 
-  // Of what was read:
+  // They describe the file that was read:
   bool had_world() const { return world_ != World::before; }
   bool had_camera() const { return view_.has_camera; }
 
@@ -37,20 +38,20 @@ class Interpreter {
   using Handler = void (Interpreter::*)(const Place&);
   static const std::map<std::string, Handler, std::less<>>& handlers();
 
-  // What opened a saved state, and where.
+  // It says which directive opened a saved state. A Saved also says where.
   enum class Block { attribute, transform, object, import };
   struct Saved {
     Block block;
     Place place;
     GraphicsState state;
-    // v3: what takes back the names that were defined in it, the last first.
+    // They take back, in v3, the names that were defined in the block, the last first.
     std::vector<std::function<void()>> undo = {};
   };
   enum class World { before, inside, ended };
 
   void execute(const Token& directive);
 
-  // Reading arguments.
+  // These functions read arguments.
   std::string read_text(const char* what);
   std::vector<double> read_numbers(std::size_t count, const Place& directive);
   ParameterSet read_set(const std::string& directive, const std::string& kind, const Place& place,
@@ -60,7 +61,7 @@ class Interpreter {
   }
   Origin origin(const Place& place);
 
-  // Transforms.
+  // These execute directives on transforms.
   void identity(const Place&);
   void translate(const Place&);
   void scale(const Place&);
@@ -79,7 +80,7 @@ class Interpreter {
   bool is_moving() const { return state_.ctm != state_.ctm_end; }
   Motion motion_between(const Transform& start, const Transform& end, const Place& place);
   void report_held(const char* what, const Place& place);
-  // Where what the current transforms place is when the shutter opens, and what moves it.
+  // It holds the transform of what the current transforms place, when the shutter opens, and its motion.
   struct Placing {
     Transform at_open;
     std::optional<Id<Motion>> motion;
@@ -88,7 +89,7 @@ class Interpreter {
   Id<Prototype> moving_prototype(const Placing& placing, const Place& place);
   Transform read_matrix(const Place& place);
 
-  // Blocks.
+  // These execute directives on blocks.
   void attribute_begin(const Place&);
   void attribute_end(const Place&);
   void transform_begin(const Place&);
@@ -103,12 +104,12 @@ class Interpreter {
   template <class Table>
   void define_texture(Table& table, const std::string& name, typename Table::mapped_type value);
 
-  // Files.
+  // These execute directives on files.
   void include(const Place&);
   void import(const Place&);
   void end_import(const Place&);
 
-  // Settings before the world.
+  // These execute settings before the world.
   void camera(const Place&);
   void film(const Place&);
   void pixel_filter(const Place&);
@@ -119,7 +120,7 @@ class Interpreter {
   void option(const Place&);
   void color_space(const Place&);
 
-  // The world.
+  // These execute the directives of the world.
   void attribute(const Place&);
   void reverse_orientation(const Place&);
   void material(const Place&);
@@ -149,12 +150,12 @@ class Interpreter {
   bool meets_hair(Id<Material> material) const;
   void add_shape(const ShapeGeometry& geometry, const FloatParameter& opacity, const Place& place);
   std::optional<Id<Medium>> medium_named(const std::string& name, const Place& place);
-  // Of an image that shines; nothing where its light is not known.
+  // Returns the mean luminance of an image that shines; nothing where its light is not known.
   std::optional<double> mean_of_image(Id<Texture> texture);
   std::optional<Id<AreaLight>> shape_light(const ShapeGeometry& geometry, const Place& place);
   double area_per_part(const ShapeGeometry& geometry, const Place& place);
 
-  // The end.
+  // These complete the scene at the end.
   void check_blocks_are_closed();
   void resolve_materials();
   void resolve_deferred(bool all);
@@ -191,7 +192,7 @@ class Interpreter {
   std::map<std::uint32_t, std::optional<double>> image_means_;  // by the texture
   std::vector<Place> area_light_places_;                        // one for each of the scene's area lights
 
-  // Materials by number; named ones may be used before they are defined.
+  // Materials have numbers; named ones may be used before they are defined.
   struct DeferredMaterial {
     std::uint32_t slot;
     std::string kind, color_space;

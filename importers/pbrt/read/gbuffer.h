@@ -5,7 +5,7 @@
 
 namespace vitrail::pbrt {
 
-// What pbrt's film "gbuffer" keeps of the first surfaces.
+// Returns the layers that pbrt's film "gbuffer" keeps of the first surfaces.
 constexpr FilmLayers gbuffer_layers() {
   FilmLayers layers;
   for (const Layer layer :

@@ -13,13 +13,13 @@
 
 namespace vitrail::pbrt {
 
-// An AreaLightSource; the record of the scene is made for the first shape that has it.
+// It is an AreaLightSource; the record of the scene is made for the first shape that has it.
 struct AreaLightState {
   AreaEmission emission;
   std::optional<Id<AreaLight>> id;
 };
 
-// What AttributeBegin saves and AttributeEnd restores.
+// A GraphicsState holds what AttributeBegin saves and AttributeEnd restores.
 struct GraphicsState {
   Transform ctm, ctm_end;                             // at the two TransformTimes
   bool transform_start = true, transform_end = true;  // which of them change: ActiveTransform
@@ -28,7 +28,8 @@ struct GraphicsState {
   std::optional<Id<Medium>> interior, exterior;
   std::shared_ptr<AreaLightState> area_light;
   std::string color_space = "srgb";
-  // Attribute: defaults of the parameters of "shape", "light", "material", "medium" and "texture".
+  // They are defaults that Attribute sets for the parameters of "shape", "light", "material", "medium" and
+  // "texture".
   std::shared_ptr<const std::map<std::string, std::vector<Parameter>>> defaults;
 };
 

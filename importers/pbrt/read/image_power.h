@@ -7,8 +7,8 @@
 
 namespace vitrail::pbrt {
 
-// The mean luminance of all pixels of a light's image, which pbrt-v4 divides a `power` by; nothing where it
-// cannot be read, or is black.
+// Returns the mean luminance of all pixels of a light's image, by which pbrt-v4 divides a `power`; nothing
+// where it cannot be read, or is black.
 std::optional<double> mean_luminance(const ImageTexture& image);
 
 }  // namespace vitrail::pbrt

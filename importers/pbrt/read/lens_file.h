@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lens of pbrt's realistic camera.
+// This file reads and focusses the lens of pbrt's realistic camera.
 #pragma once
 
 #include <filesystem>
@@ -9,16 +9,16 @@
 
 namespace vitrail::pbrt {
 
-// Of a file that has, from the scene to the film, each surface's radius of curvature (0: the stop), distance
-// to the next, index behind it and diameter, in mm. In metres. `aperture_mm`, if it is less than the file's,
-// is the stop's diameter. Throws Error for files that are no such list, and for lenses that do not gather
-// light.
+// Reads a file that has, from the scene to the film, each surface's radius of curvature (0: the stop),
+// distance to the next, index behind it and diameter, in mm. The result is in metres. `aperture_mm`, if it is
+// less than the file's, is the stop's diameter. Throws Error for files that are no such list, and for lenses
+// that do not gather light.
 std::vector<LensSurface> read_lens(const std::filesystem::path& file, double aperture_mm);
 
-// The lens so far from the film that what is `focus_distance` from the film is sharp, and what its film of
-// `film_diagonal` sees. All in metres. `by_area`: samples count by the size of the rectangle that they are
-// of, as in pbrt-v4 (and in v3 without simpleweighting), else they all count alike. Throws Error where
-// nothing so near is sharp, or where no light comes to the middle of the film.
+// It is the lens so far from the film that what is `focus_distance` from the film is sharp, and what its film
+// of `film_diagonal` sees. All lengths are in metres. `by_area`: samples count by the size of the rectangle
+// that they are of, as in pbrt-v4 (and in v3 without simpleweighting), else they all count alike. Throws
+// Error where nothing so near is sharp, or where no light comes to the middle of the film.
 struct FocussedLens {
   std::vector<LensSurface> surfaces;
   std::vector<ExitPupil> pupils;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words of a pbrt file: quoted strings, brackets, and words (directives, numbers, true, false).
+// A Lexer reads the words of a pbrt file: quoted strings, brackets, and words (directives, numbers, true,
+// false).
 #pragma once
 
 #include <string>
@@ -10,7 +11,7 @@
 
 namespace vitrail::pbrt {
 
-// Where a token begins. The name outlives every place: it belongs to the TokenStream.
+// A Place is where a token begins. The name outlives every place: it belongs to the TokenStream.
 struct Place {
   const std::string* file = nullptr;
   int line = 0;
@@ -30,10 +31,10 @@ struct Token {
   Place place;
 };
 
-// How a token is called in a message: the text itself, shortened, or "the end of the file".
+// Returns the name of a token in a message: the text itself, shortened, or "the end of the file".
 std::string describe(const Token& token);
 
-// Reads one buffer. Comments run from # to the end of the line.
+// It reads one buffer. Comments run from # to the end of the line.
 class Lexer {
  public:
   Lexer(const std::string* file, const char* begin, const char* end);
@@ -41,8 +42,8 @@ class Lexer {
   Token next();
   // Reads a number if one comes next. Numbers that are malformed or not finite throw Error.
   bool next_number(double& value);
-  // The same for numbers as most are: plain decimals (plain_decimal.h) behind and before spaces, line feeds
-  // and brackets. False for others, perhaps after some blanks.
+  // Reads numbers of the most frequent form alone: plain decimals (plain_decimal.h) behind and before spaces,
+  // line feeds and brackets. Returns false for others, and may have skipped some blanks.
   bool next_plain_number(double& value) {
     for (; at_ != end_ && (*at_ == ' ' || *at_ == '\n'); ++at_)
       if (*at_ == '\n') new_line();
@@ -51,7 +52,7 @@ class Lexer {
     at_ = stop;
     return true;
   }
-  // Skips blanks and comments; the next character, or 0 at the end.
+  // Skips blanks and comments. Returns the next character, or 0 at the end.
   char peek();
   // Skips to after the next ] that is not in a comment. Places are not kept.
   void skip_list();

@@ -14,12 +14,12 @@ namespace vitrail::pbrt {
 // over it.
 inline constexpr float sky_per_illuminance = 2;
 
-// A light of a LightSource directive; nothing where its kind is unknown and it is dropped.
+// Makes the light of a LightSource directive; nothing where its kind is unknown and it is dropped.
 std::optional<Light> make_light(const std::string& kind, ParameterSet& parameters, const Transform& ctm,
                                 const Scope& scope);
 
-// An AreaLightSource directive. If `power` is above 0, radiance is 1 / (π · area), times 1/2 if two-sided,
-// for the unit of power; the area is that of the shape which has the light.
+// It is an AreaLightSource directive. If `power` is above 0, radiance is 1 / (π · area), times 1/2 if
+// two-sided, for the unit of power; the area is that of the shape which has the light.
 struct AreaEmission {
   AreaLight light;
   double power = 0;

@@ -8,7 +8,7 @@
 
 namespace vitrail::pbrt {
 
-// Numbers that were counted alone (skim_pbrt in pbrt.h).
+// They are numbers that were counted alone (skim_pbrt in pbrt.h).
 class SkippedNumbers {
  public:
   std::size_t size() const { return size_; }
@@ -22,8 +22,8 @@ class SkippedNumbers {
   std::size_t size_ = 0;
 };
 
-// The numbers of a parameter that has very many, as narrow as what they are for: whole numbers, floats, or
-// doubles where positions are still to be moved to the origin.
+// It has the numbers of a parameter that has very many, as narrow as their use allows: whole numbers, floats,
+// or doubles where positions are still to be moved to the origin.
 using LongList =
     std::variant<GrowingArray<double>, GrowingArray<float>, GrowingArray<std::int32_t>, SkippedNumbers>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the makers of v3's and v4's materials share.
+// The makers of v3's and v4's materials share these functions.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,13 +25,13 @@ struct MaterialMaker {
   FloatParameter number(std::string_view name, double otherwise) const {
     return float_parameter(parameters, {name}, otherwise, scope);
   }
-  // An index of refraction; v3 calls it index.
+  // Reads an index of refraction; v3 calls it index.
   Spectrum index(std::initializer_list<std::string_view> names, double otherwise) const {
     return spectrum_value(parameters, names, Quantity::refraction, grey(otherwise), scope);
   }
-  // "roughness", "uroughness", "vroughness" after `prefix`.
+  // Reads "roughness", "uroughness", "vroughness" after `prefix`.
   Roughness roughness(double otherwise, const std::string& prefix = "") const;
-  // By eta and k, or the reflectance, after `prefix`; copper where nothing is given.
+  // Reads a metal by eta and k, or the reflectance, after `prefix`; it is copper where nothing is given.
   Metal metal(const std::string& prefix = "") const;
   CoatingVolume coating() const;
 
@@ -45,7 +45,7 @@ struct MaterialMaker {
   static Spectrum grey(double value) { return ConstantSpectrum{static_cast<float>(value)}; }
 };
 
-// The models of pbrt-v3; empty where v3 has no such kind, or v4 has the same.
+// Makes the models of pbrt-v3; nothing where v3 has no such kind, or v4 has the same.
 std::optional<MaterialModel> make_v3_material(const MaterialMaker& maker);
 
 }  // namespace vitrail::pbrt

@@ -7,7 +7,8 @@
 
 namespace vitrail::pbrt {
 
-// Whether a measured medium is known by the name, which is a value of `parameters`; reports where none is.
+// Returns whether a measured medium is known by the name, which is a value of `parameters`; reports it where
+// none is.
 bool is_measured(const std::string& name, const ParameterSet& parameters, const Scope& scope);
 
 }  // namespace vitrail::pbrt

@@ -12,18 +12,18 @@
 
 namespace vitrail::pbrt {
 
-// Numbers for names that may be used before they are defined.
+// It gives numbers to names that may be used before they are defined.
 class NamedSlots {
  public:
   explicit NamedSlots(std::string what) : what_(std::move(what)) {}
 
-  // The number that the name has now; `next_free` if it has none yet.
+  // Returns the number that the name has now; `next_free` if it has none yet.
   std::uint32_t use(const std::string& name, const Place& place, std::uint32_t next_free) {
     const auto [entry, added] = entries_.try_emplace(name, Entry{next_free, place, false});
     return entry->second.slot;
   }
 
-  // The number to define the name under: that of its uses, or `next_free` if it was defined before
+  // It has the number to define the name under: that of its uses, or `next_free` if it was defined before
   // (`redefined`), which later uses then get.
   struct Definition {
     std::uint32_t slot;
@@ -37,7 +37,7 @@ class NamedSlots {
     return {entry.slot, redefined};
   }
 
-  // What `end` needs to undo the definition that comes next.
+  // `end` needs it to undo the definition that comes next.
   struct Before {
     std::string name;
     std::optional<std::uint32_t> slot;
@@ -47,7 +47,7 @@ class NamedSlots {
     const bool defined = entry != entries_.end() && entry->second.defined;
     return {name, defined ? std::optional(entry->second.slot) : std::nullopt};
   }
-  // The name is what it was then.
+  // Makes the name what it was then.
   void end(const Before& before) {
     const auto entry = entries_.find(before.name);
     if (before.slot) {
@@ -57,7 +57,7 @@ class NamedSlots {
       entries_.erase(entry);
     }
   }
-  // Whether it had a definition and has none now.
+  // Returns whether it had a definition and has none now.
   bool has_ended(const std::string& name) const { return ended_.contains(name) && !entries_.contains(name); }
 
   // Gives each name that is used and never defined, by its number, to `define(name, slot, place)`.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameter lists: "type name" followed by one value or by values in brackets.
+// A parameter list has "type name" followed by one value or by values in brackets.
 #pragma once
 
 #include <array>
@@ -47,10 +47,11 @@ void consume_numbers(Parameter& parameter, std::size_t group, Visit&& visit) {
 // vector or normal of any size is a tuple. Malformed values throw Error.
 std::vector<Parameter> read_parameters(TokenStream& tokens, Report& report);
 
-// What follows Option: a name and a bare value, as pbrt-v4 has it ("seed" 3), or a list as of any directive.
+// Reads what follows Option: a name and a bare value, as pbrt-v4 has it ("seed" 3), or a list as of any
+// directive.
 std::vector<Parameter> read_options(TokenStream& tokens, Report& report);
 
-// The parameters of one directive. Remembers which were used and which names were asked for.
+// It has the parameters of one directive. It remembers which were used and which names were asked for.
 class ParameterSet {
  public:
   // `owner` and `place` are the directive's: "Shape \"sphere\"". Of parameters with one name the last counts;
@@ -58,14 +59,14 @@ class ParameterSet {
   ParameterSet(std::string owner, const Place& place, std::vector<Parameter> parameters,
                const std::vector<Parameter>* defaults = nullptr);
 
-  // The parameter of that name if its type is one of those given, else nothing. Marks it as used.
+  // Returns the parameter of that name if its type is one of those given, else nothing. Marks it as used.
   Parameter* find(std::string_view name, std::initializer_list<ParameterType> types);
   Parameter* find_spectrum(std::string_view name);  // number, rgb, xyz, blackbody or spectrum
   Parameter* find_numbers(std::string_view name);   // numbers, integers or tuples
   Parameter* find_list(std::string_view name);      // the same, as a long list if it is one
   Parameter* find_grid(std::string_view name);      // of numbers or colours, as a long list if it is one
 
-  // One value; the default where there is none. A wrong count throws Error.
+  // They return one value; the default where there is none. A wrong count throws Error.
   double number(std::string_view name, double otherwise);
   int integer(std::string_view name, int otherwise);
   bool boolean(std::string_view name, bool otherwise);
@@ -74,7 +75,7 @@ class ParameterSet {
 
   // Marks parameters that change nothing in the picture as used.
   void ignore(std::initializer_list<std::string_view> names);
-  // A diagnostic for each parameter that was neither used nor ignored.
+  // Adds a diagnostic for each parameter that was neither used nor ignored.
   void report_unused(Report& report) const;
 
   const std::string& owner() const { return owner_; }

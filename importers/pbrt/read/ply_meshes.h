@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pbrt makes of the faces of a PLY file.
+// These functions make pbrt's meshes of the faces of a PLY file.
 #pragma once
 
 #include "importers/pbrt/read/version.h"
@@ -15,8 +15,9 @@ struct PlyMesh {
   bool tessellated = false;  // of curved patches
 };
 
-// The mesh of the triangles and that of the patches: at least one of them. Fronts follow the normals.
-// `faces_show`: whether their numbers are kept. `differs`, if given, gets whether it depends on the two.
+// Returns the mesh of the triangles and that of the patches: at least one of them. Fronts follow the normals.
+// `faces_show` says whether their numbers are kept. `differs`, if given, gets whether the result depends on
+// `uvs_show` and `faces_show`.
 std::vector<PlyMesh> meshes_of(PbrtPly ply, bool uvs_show, bool faces_show, bool* differs = nullptr);
 
 // Gives a mesh that was made of so many faces their face_indices: each has as many of the triangles.

@@ -9,7 +9,7 @@
 
 namespace vitrail::pbrt {
 
-// Collects diagnostics in the order of the file.
+// It collects diagnostics in the order of the file.
 class Report {
  public:
   void approximated(const std::string& message, const Place& place) {
@@ -19,7 +19,7 @@ class Report {
     add({Fidelity::dropped, message, location(place), {}});
   }
   void add(Diagnostic diagnostic);
-  // What comes is about the directive there, of which a record of that kind is made.
+  // Diagnostics that follow are about the directive at `place`, of which a record of that kind is made.
   void begin_item(const Place& place, RecordKind kind = RecordKind::any) { item_ = place, kind_ = kind; }
 
   // Makes the report count most of very many notes of one text alone.

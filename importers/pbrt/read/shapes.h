@@ -18,32 +18,34 @@
 
 namespace vitrail::pbrt {
 
-// The surface of a Shape directive.
+// It is the surface of a Shape directive.
 struct ShapeGeometry {
   Id<TriangleMesh> mesh;
-  // Analytic shapes: their front under a mirroring transform is on the other side than that of meshes.
+  // It holds for analytic shapes: their front under a mirroring transform is on the other side than that of
+  // meshes.
   bool quadric = false;
-  // The sizes of a quadric; where a mesh lies that is far from the origin.
+  // It has the sizes of a quadric; for a mesh that is far from the origin, it says where that is.
   Transform mesh_to_object;
-  // How many shapes pbrt makes of it, each with the whole `power` of an area light: triangles, patches, or 1.
+  // It counts the shapes that pbrt makes of it, each with the whole `power` of an area light: triangles,
+  // patches, or 1.
   std::size_t parts = 1;
   bool curve = false;
 };
 
-// Makes meshes and keeps those that come again (the same file, any sphere).
+// It makes meshes and keeps those that come again (the same file, any sphere).
 class ShapeMaker {
  public:
   ShapeMaker(Context& context, std::vector<TriangleMesh>& meshes);
 
-  // Nothing where the kind cannot be represented and is dropped with a diagnostic, or where nothing of it
-  // shows; two of a PLY file of triangles and quadrilaterals. The triangles' own orientation is pbrt's front
-  // side before ReverseOrientation and the transform. What may matter: `uvs_show`,
-  // (u,v); `faces_show`, the numbers of faces.
+  // Makes the surfaces of a Shape directive. Returns none where the kind cannot be represented and is dropped
+  // with a diagnostic, or where nothing of it shows; two of a PLY file of triangles and quadrilaterals. The
+  // triangles' own orientation is pbrt's front side before ReverseOrientation and the transform. `uvs_show`
+  // says whether (u,v) matter, `faces_show` whether the numbers of faces do.
   std::vector<ShapeGeometry> make(const std::string& kind, ParameterSet& parameters, bool uvs_show,
                                   bool faces_show);
 
  private:
-  // What a Shape directive asks for.
+  // A Shape directive asks for this.
   struct Asked {
     const std::string& kind;
     ParameterSet& parameters;
@@ -73,14 +75,14 @@ class ShapeMaker {
   std::vector<float> face_numbers(ParameterSet& parameters, std::size_t faces, bool show);
   void report_shadow_alpha(ParameterSet& parameters);
   void report_patches(const Place& place);
-  // Has the meshes read that the text to come names.
+  // Has those meshes read that the text to come names.
   void read_ahead();
 
   using QuadricKey = std::tuple<QuadricKind, double, double, double>;  // low, high, phi_max_rad
   Context& context_;
   std::vector<TriangleMesh>& meshes_;
-  // The shapes of a file where (u,v) do not show and where they do, and likewise the numbers of faces: the
-  // same but for patches, for triangles of which some are turned, and for those numbers.
+  // It holds the shapes of a file where (u,v) do not show and where they do, and likewise the numbers of
+  // faces. They are the same but for patches, for triangles of which some are turned, and for those numbers.
   struct PlyFile {
     bool differs = false;
     std::array<std::vector<ShapeGeometry>, 4> shapes;

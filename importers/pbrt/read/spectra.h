@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters that are spectra: numbers, rgb, xyz, blackbody, samples, files, names.
+// These parameters are spectra: numbers, rgb, xyz, blackbody, samples, files, names.
 #pragma once
 
 #include <string>
@@ -15,21 +15,21 @@ struct SpectrumScope {
   const std::string& color_space;  // of rgb values
 };
 
-// In [0,1] where it is given as a colour.
+// Reads a reflectance, which is in [0,1] where it is given as a colour.
 Spectrum read_reflectance(const Parameter& parameter, SpectrumScope scope);
 
-// A factor or coefficient: as above, but colours may exceed 1.
+// Reads a factor or coefficient as read_reflectance does, but colours may exceed 1.
 Spectrum read_unbounded(const Parameter& parameter, SpectrumScope scope);
 
-// Emission times `factor`, in the units of the version. v4 divides every light by its own luminance, so that
-// only `scale` and the like set it: spectra and blackbodies get luminance 1, rgb keeps its magnitude. v3
+// Reads emission times `factor`, in the units of the version. v4 divides every light by its own luminance, so
+// that only `scale` and the like set it: spectra and blackbodies get luminance 1, rgb keeps its magnitude. v3
 // keeps spectra as they are and normalises blackbodies to a maximum of 1, times their second value.
 Spectrum read_emission(const Parameter& parameter, double factor, SpectrumScope scope);
 
-// An index of refraction; held constant outside of its samples.
+// Reads an index of refraction; it is held constant outside of its samples.
 Spectrum read_refraction(const Parameter& parameter, SpectrumScope scope);
 
-// Where the file that a parameter names has to be (missing_files.h asks whether it is there).
+// Returns where the file that a parameter names has to be (missing_files.h asks whether it is there).
 std::string find_file(const Parameter& parameter, Context& context);
 
 }  // namespace vitrail::pbrt

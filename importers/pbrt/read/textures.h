@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texture directives, and parameters that may be textures.
+// These functions read Texture directives, and parameters that may be textures.
 #pragma once
 
 #include <initializer_list>
@@ -12,7 +12,7 @@
 
 namespace vitrail::pbrt {
 
-// Textures by name. A constant one is its value.
+// It has textures by name. A constant one is its value.
 struct TextureTable {
   std::unordered_map<std::string, SpectrumParameter> spectra;
   std::unordered_map<std::string, FloatParameter> numbers;
@@ -24,30 +24,30 @@ struct Scope : SpectrumScope {
   Origin origin;               // of what is being read
 };
 
-// unbounded: a factor or coefficient, whose colour may exceed 1.
+// `unbounded` is a factor or coefficient, whose colour may exceed 1.
 enum class Quantity { reflectance, unbounded, refraction };
 
-// The first of `names` that the parameters have, as a value or a texture; else `otherwise`. A texture that is
-// not defined throws Error.
+// They return the first of `names` that the parameters have, as a value or a texture; else `otherwise`. A
+// texture that is not defined throws Error.
 SpectrumParameter spectrum_parameter(ParameterSet& parameters, std::initializer_list<std::string_view> names,
                                      Quantity quantity, const Spectrum& otherwise, const Scope& scope);
 FloatParameter float_parameter(ParameterSet& parameters, std::initializer_list<std::string_view> names,
                                double otherwise, const Scope& scope);
-// Where a texture cannot be: it is an Error.
+// Returns a value where a texture cannot be: a texture throws Error.
 Spectrum spectrum_value(ParameterSet& parameters, std::initializer_list<std::string_view> names,
                         Quantity quantity, const Spectrum& otherwise, const Scope& scope);
 
-// True if every texture that the parameters refer to is in the table.
+// Returns whether every texture that the parameters refer to is in the table.
 bool textures_are_known(const ParameterSet& parameters, const TextureTable& textures);
 
-// The texture of a Texture directive: `kind` is its third word, `name` its first; `ctm` takes texture space
-// to the world.
+// They make the texture of a Texture directive: `kind` is its third word, `name` its first; `ctm` takes
+// texture space to the world.
 SpectrumParameter make_spectrum_texture(const std::string& kind, const std::string& name,
                                         ParameterSet& parameters, const Transform& ctm, const Scope& scope);
 FloatParameter make_float_texture(const std::string& kind, const std::string& name, ParameterSet& parameters,
                                   const Transform& ctm, const Scope& scope);
 
-// An image that a material or light names by its file alone; a new texture without a name.
+// Adds an image that a material or light names by its file alone, as a new texture without a name.
 Id<Texture> add_image(const Parameter& filename, Encoding encoding, const Scope& scope);
 
 }  // namespace vitrail::pbrt

@@ -14,8 +14,8 @@
 
 namespace vitrail::pbrt {
 
-// The tokens of a file and of all that it includes, as one text. The end of an imported file is a token of
-// its own.
+// It gives the tokens of a file and of all that it includes, as one text. The end of an imported file is a
+// token of its own.
 class TokenStream {
  public:
   TokenStream(const std::filesystem::path& file, std::uint64_t include_limit);
@@ -28,14 +28,14 @@ class TokenStream {
   bool next_number(double& value) {
     return sources_.back()->lexer.next_plain_number(value) || current().next_number(value);
   }
-  // True if the next token is a quoted string.
+  // Returns whether the next token is a quoted string.
   bool text_follows();
-  // The text that comes, up to so many bytes of the file that is being read.
+  // Returns the text that comes, up to so many bytes of the file that is being read.
   std::string_view upcoming(std::size_t bytes) const;
-  // Long lists of numbers are to be counted alone.
+  // Has long lists of numbers counted alone.
   void skip_lists() { skips_lists_ = true; }
   bool skips_lists() const { return skips_lists_; }
-  // How much of the main file is read.
+  // Returns which share of the main file is read.
   double fraction_read() const;
   // Lets go of the memory of what has been read.
   void release();
@@ -49,7 +49,7 @@ class TokenStream {
     bool import;
   };
 
-  // The lexer that has something left, or the outermost one; stops at the end of an import.
+  // Returns the lexer that has something left, or the outermost one; stops at the end of an import.
   Lexer& current();
 
   std::deque<std::string> names_;

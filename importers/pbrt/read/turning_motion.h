@@ -10,7 +10,7 @@
 
 namespace vitrail::pbrt {
 
-// Says whether it does more than move along a line.
+// Returns whether the motion does more than move along a line.
 inline bool turns(const Motion& motion) {
   const auto at_origin = [](Transform t) {
     for (std::size_t i = 0; i < 3; ++i) t.m[i][3] = 0;

@@ -9,14 +9,14 @@ namespace vitrail::pbrt {
 
 enum class Version { v3, v4 };
 
-// Which version's meaning a file has where the two differ.
+// It is the version whose meaning a file has where the two differ.
 struct DetectedVersion {
   Version version = Version::v4;
   bool certain = false;
 };
 
-// By the first word in the main file that only one of them knows (Film "image", WorldEnd, matte, color …
-// against Film "rgb", ColorSpace, diffuse …). Where there is none it is v4, and not certain.
+// Tells the version by the first word in the main file that only one of them knows (Film "image", WorldEnd,
+// matte, color … against Film "rgb", ColorSpace, diffuse …). Where there is none it is v4, and not certain.
 DetectedVersion detect_version(const std::filesystem::path& file);
 
 }  // namespace vitrail::pbrt

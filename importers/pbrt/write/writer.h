@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of the pbrt writer share.
+// The parts of the pbrt writer share a Writer.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,14 +26,14 @@ struct Writer : ConversionNotes {
   MeshFiles meshes;
   std::string text;
   std::vector<std::string> materials, textures, media, objects;  // names
-  // Of materials, as write_coverage finds it: which share of a surface is there, and of a blend the weight of
-  // its second material in that share. Textures may be new ones, which only `textures` knows.
+  // They are of materials, as write_coverage finds them: which share of a surface is there, and of a blend
+  // the weight of its second material in that share. Textures may be new ones, which only `textures` knows.
   std::vector<FloatParameter> coverage, amounts;
-  // Media that stand for the colour of glass, by the shapes of the scene that have it; materials of which all
-  // shapes have one.
+  // They are media that stand for the colour of glass, by the shapes of the scene that have it, and the
+  // materials of which all shapes have one.
   std::map<const Shape*, std::string> tints;
   std::set<std::uint32_t> tinted;
-  // What has been written already: names of materials, and the product of two opacities.
+  // They have been written already: names of materials, and the product of two opacities.
   std::string sheer, nothing, black;
   std::map<std::uint32_t, std::string> shining;  // by the material of a shape
   std::map<std::pair<OpacityKey, OpacityKey>, FloatParameter> alphas;
@@ -46,14 +46,14 @@ struct Writer : ConversionNotes {
   void begin(std::string_view block) { line(block), indent += 4; }
   void end(std::string_view block) { indent -= 4, line(block); }
   void transform(const Transform& t);  // nothing for the identity
-  // Of what moves: at both of `transform_times_s`, the inverse where it is a camera's.
+  // Writes a motion: its transforms at both of `transform_times_s`, inverted where it is a camera's.
   void transforms(const Motion& motion, const Origin& of, RecordKind kind);
   std::array<double, 2> transform_times_s{0, 1};
   int indent = 0;
 
-  // A name that no other record of the names has; it is added to them.
+  // Returns a name that no other record of the names has, and adds it to them.
   static std::string add_name(std::vector<std::string>& names, std::string_view wanted);
-  // The path of a new file in OUT-KIND/, which is created, relative to the scene's folder.
+  // Returns the path of a new file in OUT-KIND/, which it creates, relative to the scene's folder.
   std::string new_file(const std::string& kind, const char* extension);
   std::filesystem::path new_image() { return directory / new_file("images", "exr"); }
   ConvertedImages images{[this] { return std::filesystem::absolute(new_image()); }};
@@ -65,7 +65,7 @@ struct Writer : ConversionNotes {
 
 std::string in_quotes(std::string_view text);
 
-// A parameter list that is being written; `owner` is what its diagnostics are about.
+// It is a parameter list that is being written; `owner` is what its diagnostics are about.
 class Parameters {
  public:
   Parameters(Writer& writer, std::string owner, const Origin& origin, RecordKind kind)
@@ -85,11 +85,11 @@ class Parameters {
   Parameters& number(std::string_view name, const FloatParameter& value);
   Parameters& texture(std::string_view name, std::string_view texture);
   Parameters& spectrum(std::string_view name, const SpectrumParameter& value);
-  // The same where pbrt refuses an rgb above 1.
+  // Writes the same where pbrt refuses an rgb above 1.
   Parameters& albedo(std::string_view name, const SpectrumParameter& value);
-  // An input of a texture of the kind that `is_float` says.
+  // Writes an input of a texture of the kind that `is_float` says.
   Parameters& input(std::string_view name, const SpectrumParameter& value, bool is_float);
-  // Of a light: pbrt sets spectra and blackbodies to luminance 1, times "scale".
+  // Writes the emission of a light: pbrt sets spectra and blackbodies to luminance 1, times "scale".
   Parameters& emission(std::string_view name, const Spectrum& value);
 
   void approximated(std::string_view how) {
@@ -119,8 +119,8 @@ void write_materials(Writer& writer);
 void write_lights(Writer& writer);
 void write_shapes(Writer& writer);
 
-// What a shape is made of: the name of its material, and which share of it is there. pbrt's masks are the
-// "alpha" of shapes. Writes what it needs for that: to be called outside of blocks of attributes.
+// A shape has the name of its material, and the share of it that is there. pbrt's masks are the "alpha" of
+// shapes. surface_of writes what it needs for that: it is called outside of blocks of attributes.
 struct ShapeSurface {
   std::string material;
   FloatParameter alpha = 1.0f;
