@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The structs of tinygltf as its definitions in tinygltf.cpp have them.
+// This file gives the structs of tinygltf as its definitions in tinygltf.cpp have them.
 #pragma once
 
 #define TINYGLTF_NO_STB_IMAGE

@@ -8,11 +8,11 @@
 
 namespace vitrail::gltf {
 
-// What the film multiplies by, so that it shows cd/m².
+// The film multiplies radiance by it, so that the picture shows cd/m².
 inline constexpr double shown_per_radiance = photometric(1);
 
-// Light of D65's white times the colour (linear sRGB), of so many photometric units where the colour has
-// luminance 1.
+// Returns light of D65's white times the colour (linear sRGB), of so many photometric units where the colour
+// has luminance 1.
 inline Spectrum emission(RGB color, double photometric_units) {
   const double f = photometric_units / shown_per_radiance;
   return emission_from_rgb({color.r * f, color.g * f, color.b * f});

@@ -6,9 +6,9 @@
 
 namespace vitrail::gltf {
 
-// "a%20b.png" as the file "a b.png" in a folder.
+// Returns the file "a b.png" in a folder for "a%20b.png".
 std::filesystem::path file_from_uri(const std::string& uri, const std::filesystem::path& folder);
-// And back, of a relative name.
+// Turns a relative name into a URI.
 std::string uri_of(const std::string& name);
 
 }  // namespace vitrail::gltf

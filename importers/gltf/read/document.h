@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A glTF file with its buffers, as tinygltf has it, and where its parts stand.
+// A Document is a glTF file with its buffers, as tinygltf has it. It knows where the parts of the file stand.
 #pragma once
 
 #include <filesystem>
@@ -14,24 +14,24 @@
 
 namespace vitrail::gltf {
 
-// Whether a file is a .glb by its first bytes, or a .gltf.
+// Returns whether a file is a .glb by its first bytes, or a .gltf.
 bool is_gltf(std::string_view first_bytes);
 
 class Document {
  public:
-  // Throws Error: what is no glTF 2.0, a buffer that is not there or too short, an extension that is required
-  // and not known here, with what to do where a tool takes it away.
+  // Throws Error for a file that is no glTF 2.0, a buffer that is not there or too short, and an extension
+  // that is required and not known here, with what to do where a tool takes it away.
   explicit Document(const std::filesystem::path& file);
 
   const tinygltf::Model& model() const { return model_; }
   const std::filesystem::path& file() const { return file_; }
 
-  // `array` as JsonPlaces has it: "meshes".
+  // `array` is a path as JsonPlaces has it: "meshes".
   SourceLocation place(const std::string& array, int index) const { return places_.at(array, index); }
   Origin origin(const std::string& array, int index) const;
-  // "meshes[3]: what", at its place.
+  // Throws Error "meshes[3]: what", at its place.
   [[noreturn]] void fail(const std::string& array, int index, const std::string& what) const;
-  // The element, where there is one; else fails as `user` that refers to it.
+  // Returns the element, where there is one; else fails as `user` that refers to it.
   template <class T>
   const T& element(const std::vector<T>& all, int index, const char* name, const std::string& array,
                    int user) const {
@@ -42,11 +42,11 @@ class Document {
     return all[static_cast<std::size_t>(index)];
   }
 
-  // The name by which a record refers to an image: of its file, or of the part that holds it
+  // Returns the name by which a record refers to an image: of its file, or of the part that holds it
   // (images/file_part.h).
   std::string image_file(int image) const;
 
-  // Extensions that are used and mean nothing here, by name.
+  // Returns the extensions that are used and mean nothing here, by name.
   std::vector<std::string> unknown_extensions() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Members of an extension's object, with their defaults.
+// These functions read members of an extension's object, with their defaults.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace vitrail::gltf {
 
-// The extension of that name, or nullptr.
+// Returns the extension of that name, or nullptr.
 inline const tinygltf::Value* extension(const tinygltf::ExtensionMap& all, const char* name) {
   const auto found = all.find(name);
   return found == all.end() || !found->second.IsObject() ? nullptr : &found->second;
@@ -31,12 +31,12 @@ inline RGB color(const tinygltf::Value& object, const char* name, RGB otherwise)
   return {list.Get(0).GetNumberAsDouble(), list.Get(1).GetNumberAsDouble(), list.Get(2).GetNumberAsDouble()};
 }
 
-// −1 where there is none.
+// Returns −1 where there is none.
 inline int index(const tinygltf::Value& object, const char* name) {
   return object.Has(name) && object.Get(name).IsInt() ? object.Get(name).GetNumberAsInt() : -1;
 }
 
-// A textureInfo.
+// Returns a textureInfo.
 inline std::optional<tinygltf::TextureInfo> texture_info(const tinygltf::Value& object, const char* name) {
   if (!object.Has(name) || !object.Get(name).IsObject()) return {};
   const tinygltf::Value& value = object.Get(name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the records of a glTF file stand in its JSON, which its parser does not keep.
+// JsonPlaces knows where the records of a glTF file stand in its JSON, which the parser does not keep.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@ namespace vitrail::gltf {
 
 class JsonPlaces {
  public:
-  // Of the elements of all arrays that lie at most two objects deep, as "nodes" and
-  // "extensions/KHR_lights_punctual/lights" do: `array` is such a path. What is nested deeper than
-  // `most_nested` throws Error with its place. Other mistakes are left to the parser.
+  // Finds the elements of all arrays that lie at most two objects deep, as "nodes" and
+  // "extensions/KHR_lights_punctual/lights" do: `array` is such a path. Throws Error with its place for JSON
+  // that is nested deeper than `most_nested`. Other mistakes are left to the parser.
   JsonPlaces(std::string_view json, std::string file);
 
-  // Line and column from 1, of the JSON; the file alone where there is no such element.
+  // Returns line and column from 1, of the JSON; the file alone where there is no such element.
   SourceLocation at(const std::string& array, int index) const;
 
-  // The base64 of the data URI of that element: its offset in the JSON and its length; {0, 0} where it has
-  // none.
+  // Returns where the base64 of that element's data URI is: its offset in the JSON and its length; {0, 0}
+  // where it has none.
   std::pair<std::uint64_t, std::uint64_t> base64_of(const std::string& array, int index) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// KHR_lights_punctual and cameras.
+// These functions read KHR_lights_punctual and cameras.
 #pragma once
 
 #include "importers/gltf/read/document.h"
@@ -7,7 +7,7 @@
 
 namespace vitrail::gltf {
 
-// The light of that node, if it has one. Candela, lux (units.h); a node's scale does not count.
+// Adds the light of that node, if it has one, in candela or lux (units.h); a node's scale does not count.
 void add_light(const Document& document, int node, const Transform& to_world, ImportedScene& imported);
 
 // Takes the camera of that node, and a film of its proportions: 1280 pixels on the longer side.

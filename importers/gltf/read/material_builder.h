@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One material of a glTF file (materials.h).
+// A MaterialBuilder makes one material of a glTF file (materials.h).
 #pragma once
 
 #include <string>
@@ -18,11 +18,11 @@ class MaterialBuilder {
  private:
   void note(Fidelity fidelity, const std::string& what) const;
   void approximated(const std::string& what) const { note(Fidelity::approximated, what); }
-  // The number within [low, high], reported where it is not.
+  // Returns the number within [low, high], and reports it where it is not.
   double held(const char* name, double value, double low, double high) const;
   int uv_set() const;
 
-  // `map` times `factor`, or the factor.
+  // Returns `map` times `factor`, or the factor.
   FloatParameter number(const tinygltf::TextureInfo* map, double factor, ImageNumber channel) const;
   SpectrumParameter tinted(const tinygltf::TextureInfo& map, Encoding encoding, RGB factor) const;
   SpectrumParameter base_color() const;

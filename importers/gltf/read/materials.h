@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF's materials. What each becomes:
+// glTF's materials become these models:
 //   metallic-roughness            principled, GGX of width roughness² over Lambert's diffuse part, which gets
 //                                 what is not reflected (docs/why/converting.md)
 //   KHR_materials_specular of 0   Lambert's, where nothing is metal or coated
@@ -18,7 +18,7 @@
 
 namespace vitrail::gltf {
 
-// What a shape gets of a material.
+// A shape gets this of a material.
 struct Surface {
   Id<Material> material;
   std::optional<Id<AreaLight>> light;
@@ -28,7 +28,7 @@ struct Surface {
   bool has_color_map = false;
 };
 
-// Names of the attributes of COLOR_0.
+// They are the names of the attributes of COLOR_0.
 inline constexpr const char* vertex_color = "vertex_color";
 inline constexpr const char* vertex_alpha = "vertex_alpha";
 
@@ -40,11 +40,11 @@ class Materials {
         diagnostics_(diagnostics),
         textures_(document, scene, diagnostics) {}
 
-  // Of a primitive of `mesh` without a material: glTF's default. `color_channels`: 0, or 3 or 4 of COLOR_0,
-  // which multiplies the base colour.
+  // Returns the surface of a material; without one it is glTF's default, for a primitive of `mesh`.
+  // `color_channels` is 0, or 3 or 4 of COLOR_0, which multiplies the base colour.
   const Surface& surface(int material, int color_channels, int mesh);
 
-  // Materials whose doubleSided is false, of those that were asked for.
+  // Returns how many materials have doubleSided false, of those that were asked for.
   int single_sided() const { return single_sided_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The primitives of glTF's meshes.
+// Meshes makes meshes of the primitives of glTF's meshes.
 #pragma once
 
 #include <map>
@@ -14,14 +14,14 @@
 
 namespace vitrail::gltf {
 
-// A primitive as a mesh and what it looks like.
+// It is a primitive as a mesh and what it looks like.
 struct Part {
   Id<TriangleMesh> mesh;
   Surface surface;
   AgainstAxes against;  // where its normal map is to be turned
 };
 
-// What bends a mesh where a node uses it.
+// A node that uses a mesh bends it by a Pose.
 struct Pose {
   std::vector<double> weights;    // of morph targets; none: the mesh's own
   std::vector<Transform> joints;  // from the mesh at rest to the world; none: it has no skin
@@ -37,8 +37,9 @@ class Meshes {
         materials_(document, scene, diagnostics),
         turned_materials_(scene) {}
 
-  // Triangles, strips and fans of them; points and lines are reported and left out. A mesh without normals
-  // has flat ones. Wrong indices, and attributes of another length than the positions, throw Error.
+  // They make triangles of triangles, strips and fans; points and lines are reported and left out. A mesh
+  // without normals has flat ones. Wrong indices, and attributes of another length than the positions, throw
+  // Error.
   const std::vector<Part>& parts(int mesh);
   std::vector<Part> posed_parts(int mesh, const Pose& pose);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The attributes and triangles of one primitive.
+// A PrimitiveReader reads the attributes and triangles of one primitive.
 #pragma once
 
 #include <array>
@@ -17,22 +17,22 @@ class PrimitiveReader {
       : document_(document), mesh_(mesh), primitive_(primitive) {}
 
   bool has(const std::string& attribute) const { return primitive_.attributes.contains(attribute); }
-  // Whether there are numbers for it, plain ones.
+  // Returns whether the attribute has a bufferView, so that there are plain numbers for it.
   bool has_data(const std::string& attribute) const;
-  // Of COLOR_0: 3 or 4, or 0 without it.
+  // Returns the channels of COLOR_0: 3 or 4, or 0 without it.
   int color_channels() const;
 
-  // As read_floats; fails where there are not as many elements as positions.
+  // Reads as read_floats; fails where there are not as many elements as positions.
   std::vector<float> attribute(const std::string& name, int components) const;
   std::size_t vertices() const;
 
-  // Of triangles, strips and fans; empty for points and lines.
+  // Returns those of triangles, strips and fans; none for points and lines.
   std::vector<std::array<std::uint32_t, 3>> triangles() const;
 
   // Adds the morph targets' differences of POSITION or NORMAL, each times its weight.
   void morph(const std::string& attribute, const std::vector<double>& weights,
              std::vector<float>& values) const;
-  // For each vertex, the transform that the joints' weights come to.
+  // Returns, for each vertex, the transform that the joints' weights come to.
   std::vector<Transform> skin(const std::vector<Transform>& joints) const;
 
   [[noreturn]] void fail(const std::string& what) const { document_.fail("meshes", mesh_, what); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which way the axes of normal maps run by glTF's TANGENT (T, w): T, and B = (N × T)·w. A Scene's maps have
-// ∂p/∂u and N × ∂p/∂u there.
+// glTF's TANGENT (T, w) says how the axes of normal maps run: T, and B = (N × T)·w. A Scene's maps have ∂p/∂u
+// and N × ∂p/∂u there.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace vitrail::gltf {
 
-// Returns the triangles in parts by the axes that are against those of a Scene's maps. `tangents`: four
+// Returns the triangles in parts by the axes that are against those of a Scene's maps. `tangents` has four
 // numbers a vertex.
 std::vector<UvPart> parts_by_tangents(const TriangleMesh& mesh, const std::vector<float>& tangents);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// textureInfos as textures of the Scene.
+// Textures makes textures of the Scene from textureInfos.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace vitrail::gltf {
 
-// What a material takes from an image.
+// It says what a material takes from an image.
 struct TextureUse {
   Encoding encoding = Encoding::linear;
   ImageNumber number = ImageNumber::mean;  // of numbers
@@ -21,13 +21,14 @@ class Textures {
   Textures(const Document& document, Scene& scene, Diagnostics& diagnostics)
       : document_(document), scene_(scene), diagnostics_(diagnostics) {}
 
-  // As a colour or as a number. `material` uses it, whose meshes have as (u,v) those of the set `uv_set`.
+  // They add an image as a colour or as a number. `material` uses it, whose meshes have as (u,v) those of the
+  // set `uv_set`.
   Id<Texture> color(const tinygltf::TextureInfo& info, TextureUse use, int material, int uv_set);
   Id<Texture> number(const tinygltf::TextureInfo& info, TextureUse use, int material, int uv_set);
-  // Any, once.
+  // Adds any texture, once.
   Id<Texture> add(TextureModel model, bool is_float, int material);
 
-  // The set of (u,v) of a textureInfo, as its KHR_texture_transform may have it.
+  // Returns the set of (u,v) of a textureInfo, as its KHR_texture_transform may have it.
   static int uv_set_of(const tinygltf::TextureInfo& info);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one buffer of a written glTF, and accessors of it.
+// Binary makes the one buffer of a written glTF, and accessors of it.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ class Binary {
  public:
   explicit Binary(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }
 
-  // Each gives the index of a new accessor or bufferView. Throws Error beyond 4 GiB, which a .glb cannot
-  // hold.
+  // Each function returns the index of a new accessor or bufferView. Throws Error beyond 4 GiB, which a .glb
+  // cannot hold.
   int floats(std::span<const float> values, int type, bool with_bounds = false);
   int indices(const std::vector<std::uint32_t>& corners, std::size_t vertices);
   int bytes(std::span<const std::byte> content);

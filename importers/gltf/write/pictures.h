@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The images of a written glTF: files as they are where they are PNG or JPEG and mean the same there, else
-// new PNG of 8 bits.
+// Pictures adds the images of a written glTF: files as they are where they are PNG or JPEG and mean the same
+// there, else new PNG of 8 bits.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace vitrail::gltf {
 
-// What one channel of a composed image is: a number of a texture, a channel of its colours, or a constant.
+// It is one channel of a composed image: a number of a texture, a channel of its colours, or a constant.
 struct Channel {
   const ImageTexture* texture = nullptr;
   int of_color = -1;  // 0 to 2; −1: the texture's number
@@ -26,10 +26,10 @@ class Pictures {
   Pictures(tinygltf::Model& model, Binary& binary, ConversionNotes& notes)
       : model_(model), binary_(binary), notes_(notes) {}
 
-  // The file's colours, or its data where it is `linear`, without the texture's scale.
+  // Adds the file's colours, or its data where it is `linear`, without the texture's scale.
   tinygltf::TextureInfo colors(const ImageTexture& texture, bool linear);
-  // A PNG of three or four channels, laid out as the first texture; the first three encoded as sRGB where
-  // they are `colors`.
+  // Adds a PNG of three or four channels, laid out as the first texture; the first three are encoded as sRGB
+  // where they are `colors`.
   tinygltf::TextureInfo composed(const std::vector<Channel>& channels, bool colors);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small things of a tinygltf model that writers put together.
+// Writers put together small parts of a tinygltf model by these functions.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ inline void use(tinygltf::Model& model, const std::string& extension) {
   if (std::ranges::count(model.extensionsUsed, extension) == 0) model.extensionsUsed.push_back(extension);
 }
 
-// A float by the fewest decimals that give it back, so that files are short.
+// Returns a float by the fewest decimals that give it back, so that files are short.
 inline double short_number(float value) { return std::stod(fmt::format("{}", value)); }
 
 }  // namespace vitrail::gltf

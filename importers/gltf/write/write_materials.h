@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Scene's materials as glTF's: metallic-roughness and KHR extensions. What is none of these becomes the
-// nearest, with a note.
+// The Scene's materials are written as glTF's: metallic-roughness and KHR extensions. Other materials become
+// the nearest of these, with a note.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ namespace vitrail::gltf {
 
 class MaterialWriter {
  public:
-  // `area_lights` as the film exposes them (exposed_lights.h).
+  // `area_lights` are as the film exposes them (exposed_lights.h).
   MaterialWriter(tinygltf::Model& model, Binary& binary, ConversionNotes& notes,
                  const std::vector<AreaLight>& area_lights)
       : model_(model),
@@ -27,8 +27,8 @@ class MaterialWriter {
         area_lights_(area_lights),
         pictures_(model, binary, notes) {}
 
-  // Of a surface: its material with its light, opacity and interior. `attribute`: the name of the mesh's
-  // colours that it shows as COLOR_0; "" for none.
+  // Writes the material of a surface with its light, opacity and interior. The attribute of a material is the
+  // name of the mesh's colours that it shows as COLOR_0; "" for none.
   int write(const Shape& shape);
   const std::string& color_attribute(int material) const { return attributes_.at(material); }
 
@@ -44,7 +44,7 @@ class MaterialWriter {
   Color color(const SpectrumParameter& parameter, const char* what);
   double number(const FloatParameter& parameter, const char* what);
   const ImageTexture* image_of(const FloatParameter& parameter) const;
-  // The same, also of a texture that an image can stand for.
+  // Returns the same, also of a texture that an image can stand for.
   const ImageTexture* image_of_numbers(const FloatParameter& parameter);
   void base(const SpectrumParameter& parameter);
   void roughness(const Roughness& roughness);
@@ -96,7 +96,7 @@ class MaterialWriter {
   std::map<Key, int> known_;
   std::map<int, std::string> attributes_;
 
-  // Of the one that is being written.
+  // They are of the material that is being written.
   tinygltf::Material out_;
   std::map<std::string, tinygltf::Value::Object> extensions_;
   std::string attribute_;

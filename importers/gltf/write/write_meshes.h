@@ -9,16 +9,17 @@
 
 namespace vitrail::gltf {
 
-// Shapes as meshes of glTF. What several use is written once.
+// It writes shapes as meshes of glTF. Data that several shapes use are written once.
 class MeshWriter {
  public:
   MeshWriter(tinygltf::Model& model, Binary& binary, ConversionNotes& notes, MaterialWriter& materials);
 
-  // A mesh of these shapes, a primitive each; −1 where they have no triangles. All stand under one transform.
+  // Writes a mesh of these shapes, a primitive each; returns −1 where they have no triangles. All stand under
+  // one transform.
   int write(const std::vector<const Shape*>& shapes);
 
  private:
-  // Of one mesh of the Scene.
+  // They are the accessors of one mesh of the Scene.
   struct Accessors {
     std::map<std::string, int> attributes;
     int indices = -1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera and the lights of a written glTF.
+// These functions write the camera and the lights of a glTF.
 #pragma once
 
 #include "importers/gltf/tinygltf.h"
@@ -7,13 +7,14 @@
 
 namespace vitrail::gltf {
 
-// Where the picture is mirrored, as glTF's cameras cannot be, all is written mirrored.
+// Returns whether the camera mirrors its picture. glTF's cameras cannot do that: all is then written
+// mirrored.
 bool is_mirrored(const Camera& camera);
 
 tinygltf::Node node_at(const Transform& to_parent);
 
-// Each adds a node to the model and gives its index, or −1 where glTF has no such thing. `mirror`: from the
-// Scene's world to the file's.
+// Each adds a node to the model and gives its index, or −1 where glTF has no such thing. `mirror` goes from
+// the Scene's world to the file's.
 int write_camera(tinygltf::Model& model, ConversionNotes& notes, const Transform& mirror);
 int write_light(tinygltf::Model& model, ConversionNotes& notes, const Scene& scene, const Light& light,
                 const Transform& mirror);
