@@ -7,8 +7,8 @@
 
 namespace vitrail::pov {
 
-// Contours in a plane as polygons without holes: a hole (inside of an odd number of others) is joined to what
-// is around it by a cut that is passed both ways. Contours do not cross.
+// Returns contours in a plane as polygons without holes: a hole (inside of an odd number of others) is joined
+// to what is around it by a cut that is passed both ways. Contours do not cross.
 std::vector<std::vector<Point3d>> joined_contours(const std::vector<std::vector<Point3d>>& contours);
 
 }  // namespace vitrail::pov

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The values of a density_file: POV-Ray's DF3, a grid over the unit cube.
+// It has the values of a density_file: POV-Ray's DF3, a grid over the unit cube.
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@ namespace vitrail::pov {
 
 class DensityValues {
  public:
-  // `smooth`: linear between the corners of cells that repeat beyond the cube, as povray shows them; else of
-  // the cell. Throws Error where the file is not read, or its size does not fit its head.
+  // Values are linear between the corners of cells that repeat beyond the cube if `smooth`, as povray shows
+  // them; else of the cell. Throws Error where the file is not read, or its size does not fit its head.
   DensityValues(const std::filesystem::path& file, bool smooth);
 
-  // 0 … 1; 0 outside of the cube.
+  // Returns 0 … 1; 0 outside of the cube.
   double at(Point3d p) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What scenes ask of objects while they are read.
+// Scenes ask for these boxes of objects while they are read.
 #pragma once
 
 #include "importers/povray/read/token.h"
@@ -10,15 +10,15 @@ namespace vitrail::pov {
 
 class Reader;
 
-// The box of what the object is made of, before its transformation; of what has no end, ±1e7.
+// Returns the box of the object's shape before its transformation; of a shape without end, ±1e7.
 const Bounds3d& own_box(const Object& object);
-// That box under the transformation: min_extent() and max_extent(). What is inverse keeps it.
+// Returns that box under the transformation: min_extent() and max_extent(). Inverse objects keep it.
 Bounds3d extents_of(const Object& object);
 
-// What of the space around its parent the object may fill: of a plane across an axis its half.
+// Returns where around its parent the object may lie: of a plane across an axis the half of the space.
 Bounds3d region_of(const Object& object);
 
-// The box of a box that is transformed; nothing of nothing.
+// Returns the box of a box that is transformed; an empty one stays empty.
 Bounds3d moved_box(const Bounds3d& box, const Transform& t);
 
 }  // namespace vitrail::pov

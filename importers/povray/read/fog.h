@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// fog {}.
+// These functions read and evaluate fog {}.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 
 namespace vitrail::pov {
 
-// Over a distance d, what is seen becomes T·seen + (1 − T)·color with T = e^(−d/distance). Ground fog is as
-// dense up to the height `offset` along `up`, and 1/(1 + ((y − offset)/alt)²) of that at a height y above it,
-// as povray shows it (its documentation has another law).
+// Fog changes what is seen over a distance d to T·seen + (1 − T)·color with T = e^(−d/distance). Ground fog
+// is as dense up to the height `offset` along `up`, and 1/(1 + ((y − offset)/alt)²) of that at a height y
+// above it, as povray shows it (its documentation has another law).
 struct Fog {
   Place place;
   bool ground = false;
@@ -26,15 +26,15 @@ struct Fog {
 
 Shared<Fog> read_fog_block(Reader& reader);
 
-// By what its density is multiplied to be on the whole as dense as it is with its turbulence. As povray shows
-// it, an optical depth x becomes x·(1 − s·e⁻ˣ), with s = min(turb_depth·turbulence, 1) at a point of the ray:
-// thinner near the eye. The sums of noise have a mean of ½·Σ omegaⁱ.
+// Returns the factor of its density that makes it on the whole as dense as it is with its turbulence. As
+// povray shows it, an optical depth x becomes x·(1 − s·e⁻ˣ), with s = min(turb_depth·turbulence, 1) at a
+// point of the ray: thinner near the eye. The sums of noise have a mean of ½·Σ omegaⁱ.
 double turbulent_share(const Fog& fog);
 
-// The mean density between two heights, low < high; 1 where one of them is −∞.
+// Returns the mean density between two heights, low < high; 1 where `low` is −∞.
 double mean_density(const Fog& fog, double low, double high);
 
-// What a color filters: what is behind is multiplied by it, however near it is.
+// Returns the filter of its color: what is behind is multiplied by it, however near it is.
 std::array<double, 3> filter_of(const Fog& fog);
 
 // Fog that transmits t of what is behind weakens it to t, and no more: as if fog ended where e^(−depth) is t.
@@ -45,7 +45,7 @@ struct FogEdge {
   const Fog& fog;
   double eye = 0;  // its height
 
-  // From the axis, at a height between them; ∞ without `transmit`.
+  // Returns the distance from the axis, at a height between `low` and `high`; ∞ without `transmit`.
   double radius(double height) const;
 };
 FogEdge edge_of(const Fog& fog, double eye_height);

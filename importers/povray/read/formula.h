@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patterns that the Scene has no kind for, as its formulas (scene/records/pattern_formula.h).
+// The Scene has no kind for these patterns. They become its formulas (scene/records/pattern_formula.h).
 #pragma once
 
 #include <optional>
@@ -9,18 +9,18 @@
 
 namespace vitrail::pov {
 
-// The pattern in its own space, without a map and warps: of a kind of the Scene, or a formula. None where a
-// formula cannot hold it: images, solids that are triangles, what is very long.
+// Returns the pattern in its own space, without a map and warps: of a kind of the Scene, or a formula.
+// Returns none where no formula holds it: images, solids that are triangles, and very long ones.
 std::optional<PatternTexture> pattern_record(const Pattern& pattern);
 
 // Returns the pattern within a formula that has no turbulence, repetition and place yet: they are those of
 // the formula, before the pattern's own.
 PatternTexture carried(PatternTexture pattern);
 
-// Whether the Scene has a kind for it, and needs no formula.
+// Returns whether the Scene has a kind for it, and needs no formula.
 bool has_kind(const Pattern& pattern);
 
-// How many colours, textures or normals the kind takes in a list: of `object` two. 0: it has a map.
+// Returns how many colours, textures or normals the kind takes in a list: of `object` two. 0: it has a map.
 std::size_t places_of_list(Word kind);
 
 // A formula has (place + ½)/places; the map of its numbers has the value of a place from here to the next.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compiler of functions, pigments and solids to the steps of a formula. Calls are put in place: the stack
-// is as deep at each step whatever its numbers are, and a place in it is known here.
+// It compiles functions, pigments and solids to the steps of a formula. Calls are put in place: the stack is
+// as deep at each step whatever its numbers are, and a place in it is known here.
 #pragma once
 
 #include <span>
@@ -18,12 +18,12 @@ class FormulaMaker {
 
   explicit FormulaMaker(PatternTexture& formula) : t_(formula) {}
 
-  // False: something cannot be held; what was made is then of no use.
+  // Returns false where something cannot be held; the formula is then of no use.
   bool is_held() const { return held_; }
   void refuse() { held_ = false; }
 
-  // Each puts one number on the stack. Of a pattern before its frequency, phase and wave; of a list the
-  // place.
+  // Each puts one number on the stack. For a pattern it is that before its frequency, phase and wave; for a
+  // list, the place.
   void pattern(const Pattern& pattern, Slot point);
   void pigment(const Pigment& pigment, std::uint8_t component, Slot point);
   void function(const Function& function, Slot arguments);
@@ -33,11 +33,11 @@ class FormulaMaker {
   void constant(double value) { emit(Op::constant, 0, value); }
   void pick(Slot slot) { emit(Op::pick, slot); }
   void op(Op op) { emit(op); }
-  // An operation with a number.
+  // Emits an operation with a number.
   void op(Op with, double value) { constant(value), op(with); }
   void pick_and(Slot slot, Op with) { pick(slot), op(with); }
   Slot top() const { return top_; }
-  // The topmost number moves down to that place, and those between go.
+  // Moves the topmost number down to that place, and drops those between.
   void keep_at(Slot slot);
 
  private:
@@ -53,7 +53,7 @@ class FormulaMaker {
   void square(Slot point);
   void triangular(Slot point);
   void fractal(const Pattern& pattern, Slot point);
-  // Of entries of a map, by what `part` has at the three numbers from `number` on; `places`: of a list.
+  // Blends a map's entries by what `part` has at the three numbers from `number` on; `places` is a list's.
   void blend(PatternTexture part, const std::vector<BlendEntry>& entries, std::uint8_t component,
              std::size_t places, Slot number, Slot point);
   void average(const std::vector<BlendEntry>& entries, std::uint8_t component, Slot point);

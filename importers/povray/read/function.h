@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `function {}`: a formula of numbers, compiled to the code of a stack machine.
+// A `function {}` is a formula of numbers, compiled to the code of a stack machine.
 #pragma once
 
 #include <optional>
@@ -62,7 +62,7 @@ struct Function {
   int number = 0;         // of `built_in` in functions.inc
   bool unknown = false;   // a formula that is not known here: 0
   std::size_t depth = 0;  // of the stack
-  // In place of code:
+  // These stand in place of code:
   std::shared_ptr<const PatternField> pattern, pigment;  // a number or a colour at a point
   Shared<Pigment> source;                                // of `pattern` or `pigment`
   Shared<Placement> placement;                           // a point moved
@@ -75,19 +75,19 @@ struct Function {
   std::size_t arguments() const { return built_in ? count : spline ? 1 : parameters.size(); }
 };
 
-// Components that a colour has beside its five numbers: grey, and the height that red and green code.
+// A colour has these components beside its five numbers: grey, and the height that red and green code.
 inline constexpr std::uint8_t grey_component = 5, height_component = 6;
 
-// The value for `arguments()` numbers; of a colour its grey, of a vector the first. Thread-safe; never
-// throws.
+// Returns the value for `arguments()` numbers; of a colour its grey, of a vector the first. It is thread-safe
+// and never throws.
 double evaluate(const Function& function, const double* arguments);
-// Of a function that gives a vector.
+// Evaluates a function that gives a vector.
 Numbers evaluate_vector(const Function& function, const double* arguments);
 
-// By Instruction::component.
+// Returns the component by Instruction::component.
 double component_of(const Numbers& color, std::uint8_t component);
 
-// A function of x, y and z that looks at them in one place alone: it takes one number of a pigment there.
+// It is a function of x, y and z that uses them in one place alone: for one number of a pigment there.
 struct FormulaOfColor {
   Shared<Pigment> pigment;
   std::uint8_t component = 0;
@@ -95,15 +95,15 @@ struct FormulaOfColor {
 };
 std::optional<FormulaOfColor> formula_of_color(const Function& function);
 
-// Behind the word `function`. Says what the function and those that it calls approximate.
+// Reads behind the word `function`. Notes what the function and those that it calls approximate.
 Shared<Function> read_function(Reader& reader);
-// The same, but that is said where it is used: by read_function of a caller, or by call_function.
+// Reads the same. Its notes are given where it is used: by read_function of a caller, or by call_function.
 Shared<Function> declare_function(Reader& reader);
-// A call in an expression: a number, or a colour or a vector.
+// Evaluates a call in an expression: a number, or a colour or a vector.
 Value call_function(Reader& reader, const Function& function, const std::vector<double>& arguments,
                     const Token& name);
 
-// A formula of functions.inc by its number there; nullptr: none of those that are known here.
+// Returns a formula of functions.inc by its number there; nullptr where it is not known here.
 Shared<Function> internal_function(int number);
 
 }  // namespace vitrail::pov

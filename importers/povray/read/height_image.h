@@ -10,7 +10,7 @@ namespace vitrail::pov {
 
 class Reader;
 
-// Heights of an image, from 0 to 1: of one of 16 bits its grey, else its red.
+// Reads heights of an image, from 0 to 1: from its grey if it has 16 bits, else from its red.
 void read_heights(const std::string& file, solids::HeightField& field, Reader& reader, const Place& place);
 
 }  // namespace vitrail::pov

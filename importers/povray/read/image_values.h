@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colours of an image_map at points.
+// ImageValues has the colours of an image_map at points.
 #pragma once
 
 #include <memory>
@@ -10,19 +10,19 @@
 
 namespace vitrail::pov {
 
-// Whether the numbers of its file are the scene's as they are: before 3.7, and of files of which nothing is
-// known (PPM, PGM, TIFF), where no gamma stands with it. Measured with povray 3.7.0.10.
+// Returns whether the numbers of its file are the scene's as they are: before 3.7, and for files that state
+// nothing (PPM, PGM, TIFF), where no gamma stands with it. Measured with povray 3.7.0.10.
 bool keeps_numbers(const Reader& reader, const ImageMap& map);
 
-// An image with where it lies: in the unit square of x and y, or around a sphere, cylinder or torus.
+// It is an image with its place: the unit square of x and y, or around a sphere, cylinder or torus.
 class ImageValues {
  public:
   // Throws Error at `place` where the file is not read.
   ImageValues(Reader& reader, const ImageMap& map, const Place& place);
 
-  // In the numbers of the scene; clear beyond an image that is there once.
+  // Returns numbers of the scene; clear beyond an image that is there once.
   Numbers color(Point3d p) const;
-  // Grey, of the numbers as the file has them: image_pattern.
+  // Returns the grey of the numbers as the file has them: image_pattern.
   double grey(Point3d p) const;
   int width() const { return image_.width; }
   int height() const { return image_.height; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formulas of functions.inc: each a number, and the steps that put this number on the stack of a formula.
+// Each formula of functions.inc has a number, and the steps that put this number on the stack of a formula.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace vitrail::pov {
 
-// The code of an expression. What looks like arithmetic puts code together, so that one generic function
-// gives a formula's number and its code.
+// It is the code of an expression. Its arithmetic puts code together, so that one generic function gives a
+// formula's number and its code.
 class Steps {
  public:
   using Op = PatternStep::Op;
@@ -49,7 +49,7 @@ struct InternalFormula {
   Steps (*steps)(const Steps* arguments);
 };
 
-// nullptr: none that is known here.
+// Returns nullptr where none is known here.
 const InternalFormula* internal_formula(int number);
 
 }  // namespace vitrail::pov

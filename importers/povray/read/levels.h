@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How deep the things that a scene declares lie within each other. Loops make long chains of them
-// (`#declare U = union { object { U } … }`), and whoever walks or frees one does so by recursion.
+// These functions count how deep the things that a scene declares lie within each other. Loops make long
+// chains (`#declare U = union { object { U } … }`), and whoever walks or frees one does so by recursion.
 #pragma once
 
 #include "importers/povray/read/function.h"
@@ -11,7 +11,7 @@ namespace vitrail::pov {
 
 inline constexpr int most_levels = 1000;
 
-// Return the levels below a thing, by those of its parts; 0: it has none.
+// They return the levels below a thing, by those of its parts; 0: it has none.
 int levels_within(const Pattern& pattern);
 int levels_within(const BlendMap& map);
 int levels_within(const Pigment& pigment);
@@ -21,7 +21,7 @@ int levels_within(const Interior& interior);
 int levels_within(const Object& object);
 int levels_within(const Function& function);
 int levels_within(const Array& array);
-// Returns the levels of what an identifier stands for; 0: it is no such thing.
+// Returns the levels of what an identifier stands for; 0 where it has none.
 int levels_of(const Value& value);
 
 // Sets the levels of a thing whose parts are all there, `from` their least; throws Error above the most.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tokens of one file.
+// A Lexer makes the tokens of one file.
 #pragma once
 
 #include <deque>
@@ -9,7 +9,7 @@
 
 namespace vitrail::pov {
 
-// What cannot be a token, with its place; the reader makes an Error of it.
+// It says what cannot be a token, with its place; the reader makes an Error of it.
 struct LexicalError : std::runtime_error {
   LexicalError(const std::string& message, Place where) : std::runtime_error(message), place(where) {}
   Place place;
@@ -22,7 +22,7 @@ class Lexer {
         std::uint16_t file);
 
   Token next();
-  // Goes to the next #, outside of strings and comments; false at the end. For blocks that are left out.
+  // Goes to the next # of a block that is left out, not in strings and comments; returns false at the end.
   bool skip_to_directive();
   const char* position() const { return at_; }
 

@@ -9,8 +9,8 @@
 
 namespace vitrail::pov {
 
-// Diagnostics in the order of the file. Loops and macros read one place again and again: what is said of a
-// place is said once.
+// It has diagnostics in the order of the file. Loops and macros read one place again and again: each message
+// about a place is kept once.
 class Notes {
  public:
   void approximated(const std::string& message, const SourceLocation& place) {

@@ -5,7 +5,7 @@
 
 namespace vitrail::pov {
 
-// A function of one or two numbers, by the name that scenes and `function {}` know it by.
+// It is a function of one or two numbers, by the name that scenes and `function {}` know it by.
 struct NumberFunction {
   Word word;
   double (*one)(double) = nullptr;
@@ -13,12 +13,12 @@ struct NumberFunction {
   bool folds = false;  // of more than two, by pairs: min, max
 };
 
-// nullptr: it is none. Angles in radians.
+// Returns nullptr where it is none. Angles are in radians.
 const NumberFunction* number_function(Word word);
 
-// Whether an expression of numbers can begin with the word.
+// Returns whether an expression of numbers can begin with the word.
 bool names_number(Word word);
-// Whether one of text can.
+// Returns whether an expression of text can.
 bool names_text(Word word);
 
 }  // namespace vitrail::pov

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects as scenes say them.
+// These records hold objects as scenes say them.
 #pragma once
 
 #include <functional>
@@ -29,7 +29,7 @@ struct PlaneShape {
   Vector3d normal;
   double distance = 0;
 };
-// Cylinders, too: of equal radii.
+// It holds cylinders, too: those have equal radii.
 struct ConeShape {
   Point3d base, cap;
   double base_radius = 1, cap_radius = 0;
@@ -40,7 +40,7 @@ struct DiscShape {
   Vector3d normal;
   double radius = 1, hole_radius = 0;
 };
-// Triangles: a part for each texture, and one of those that have the object's.
+// It has triangles: a part for each texture, and one of those that have the object's.
 struct MeshShape {
   struct Part {
     Shared<Texture> texture;
@@ -51,7 +51,7 @@ struct MeshShape {
   bool clockwise = false;  // seen from its outside the corners run clockwise
   bool has_uvs = true;     // else those are the world's x and y
 };
-// A shape of importers/solids, made where it is needed.
+// It is a shape of importers/solids, made where it is needed.
 struct SolidShape {
   std::function<solids::Solid()> make;
   std::optional<solids::Unbounded> unbounded;  // in place of it

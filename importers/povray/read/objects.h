@@ -7,26 +7,26 @@ namespace vitrail::pov {
 
 class Reader;
 
-// Whether the word begins an object.
+// Returns whether the word begins an object.
 bool names_object(Word word);
 
-// An object, from its word on. Throws Error where there is none.
+// Reads an object, from its word on. Throws Error where there is none.
 Shared<Object> read_object(Reader& reader);
 
-// An object, or the name of one, with modifiers; up to the brace that ends the block.
+// Reads an object, or the name of one, with modifiers; up to the brace that ends the block.
 Shared<Object> read_object_in(Reader& reader);
 
-// Shapes behind their word and the brace, up to their modifiers (simple_shapes.cpp, mesh_shapes.cpp, …).
+// These read shapes behind word and brace, up to their modifiers (simple_shapes.cpp, mesh_shapes.cpp, …).
 void read_shape(Reader& reader, Word word, Object& object);
 void read_mesh(Reader& reader, Object& object);
 void read_mesh2(Reader& reader, Object& object);
 void read_polygon(Reader& reader, Object& object);
 void read_triangle(Reader& reader, Object& object, bool smooth);
 void read_light(Reader& reader, Object& object);
-// False: the word begins none of these.
+// Returns false where the word begins none of these.
 bool read_solid(Reader& reader, Word word, Object& object);
 
-// A modifier of objects, if that is what comes. `layers`: the textures that this block has given by now.
+// Reads a modifier of objects, if one comes. `layers` counts the textures that this block has given by now.
 bool read_object_modifier(Reader& reader, Object& object, int& layers);
 
 }  // namespace vitrail::pov

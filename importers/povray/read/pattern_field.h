@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pigments and patterns at points, as formulas ask for them (`function { pigment {…} }`).
+// Formulas ask for pigments and patterns at points (`function { pigment {…} }`).
 #pragma once
 
 #include <memory>
@@ -12,17 +12,17 @@
 
 namespace vitrail::pov {
 
-// Values at a point of the space that has the pigment. Thread-safe once it is made.
+// It has values at a point of the space that has the pigment. It is thread-safe once it is made.
 class PatternField {
  public:
-  // Says what is approximated; throws Error where an image cannot be read.
+  // Notes what is approximated; throws Error where an image cannot be read.
   PatternField(Reader& reader, const Pigment& pigment);
 
-  // Red, green, blue, filter, transmit; in the numbers of the scene.
+  // Returns red, green, blue, filter, transmit; in the numbers of the scene.
   Numbers color(Point3d p) const;
-  // Over the sphere of radius 1 around the origin, as of a sky.
+  // Returns the mean over the sphere of radius 1 around the origin, as of a sky.
   Numbers mean() const;
-  // Of the pattern alone: 0 … 1; of checker, brick, hexagon and object the place in their list.
+  // Returns the pattern's value alone: 0 … 1; of checker, brick, hexagon and object the place in their list.
   double value(Point3d p) const;
 
  private:

@@ -9,16 +9,16 @@
 
 namespace vitrail::pov {
 
-// The record's kind of a pattern's word; none: it has no such.
+// Returns the record's kind of a pattern's word, or none where it has no such.
 std::optional<PatternTexture::Kind> pattern_kind(Word word);
-// The pattern in its own space, without a map. Of a kind that the record has not, all but the kind. Its warps
-// are left to the caller.
+// Returns the pattern in its own space, without a map; where the record lacks the kind, all but the kind. Its
+// warps are left to the caller.
 PatternTexture record_of(const Pattern& pattern);
 // `none` is what the pattern has by default.
 PatternTexture::Wave wave_of(Word wave, Word pattern);
-// Returns whether `turbulence` does something else to it than a warp of turbulence.
+// Returns whether `turbulence` does something else to the kind than a warp of turbulence.
 bool is_turbulent_by_itself(PatternTexture::Kind kind);
-// The colours of a pattern that is given none.
+// Returns the colours of a pattern that is given none.
 std::vector<BlendEntry> default_entries(Word pattern);
 
 }  // namespace vitrail::pov

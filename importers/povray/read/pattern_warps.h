@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What warps and turbulence do to the point at which a pattern is looked up (POV-Ray's documentation,
-// "Pattern modifiers"; where it leaves a choice, as povray 3.7 shows).
+// Warps and turbulence move the point at which a pattern is looked up (POV-Ray's documentation, "Pattern
+// modifiers"; where it leaves a choice, as povray 3.7 shows).
 #pragma once
 
 #include "importers/povray/read/surface.h"
@@ -8,7 +8,7 @@
 
 namespace vitrail::pov {
 
-// Behind the word `warp`.
+// Reads behind the word `warp`.
 Warp read_warp(Reader& reader);
 
 Point3d warped(const Warp& warp, Point3d p);

@@ -5,23 +5,23 @@
 
 namespace vitrail::pov {
 
-// Whether the word begins a pattern.
+// Returns whether the word begins a pattern.
 bool names_pattern(Word word);
 
 // Reads the number behind `noise_generator`.
 NoiseGenerator read_noise_generator(Reader& reader);
 
-// The pattern that the word begins, which was just read, with what belongs directly to it. Entries of a list
-// (checker, brick, hexagon) go to `map`.
+// Reads the pattern that the word begins, which was just read, with what belongs directly to it. Entries of a
+// list (checker, brick, hexagon) go to `map`.
 void read_pattern(Reader& reader, Word word, Pattern& pattern, Shared<BlendMap>& map);
 
-// A modifier (turbulence, frequency, a wave, a warp, a map, a transformation), if that is what comes.
+// Reads a modifier (turbulence, frequency, a wave, a warp, a map, a transformation), if one comes.
 bool read_pattern_modifier(Reader& reader, Pattern& pattern, Shared<BlendMap>& map, Transform& to_object);
 
-// Behind image_map, bump_map, image_pattern.
+// Reads behind image_map, bump_map, image_pattern.
 ImageMap read_image_map(Reader& reader, double* bump_size = nullptr);
 
-// `color_map` …: the kind of map that a word begins; none: none.
+// Returns the kind of map that a word such as `color_map` begins, or none.
 Word map_kind(Word word);
 
 }  // namespace vitrail::pov

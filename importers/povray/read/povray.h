@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene files of POV-Ray 3.7 and of the versions before.
+// This reader takes the scene files of POV-Ray 3.7 and of the versions before.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads POV-Ray's scene language in one pass: tokens with directives carried out and macros put in place, and
-// the expressions above them. What reads objects and textures takes a Reader.
+// A Reader reads POV-Ray's scene language in one pass: tokens with directives carried out and macros put in
+// place, and the expressions above them. Functions that read objects and textures take a Reader.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@
 
 namespace vitrail::pov {
 
-// What a scene may ask for before it is refused.
+// They limit what a scene may ask for before it is refused.
 struct Limits : ProgramLimits {
   std::uint64_t include_bytes = 1 << 30;  // of text that is included again
 };
@@ -36,7 +36,7 @@ struct Macro {
   std::size_t begin = 0, end = 0;
 };
 
-// Whether an element of the array, or of one within it, is of kind T.
+// Returns whether an element of the array, or of one within it, is of kind T.
 template <class T>
 bool holds(const Array& array) {
   for (const Value& element : array.elements) {
@@ -47,7 +47,7 @@ bool holds(const Array& array) {
   return false;
 }
 
-// What `#default` says of objects to come.
+// They hold what `#default` says of objects to come.
 struct Defaults {
   Shared<Texture> texture;
 };
@@ -64,13 +64,13 @@ class Reader {
   void put_back(const Token& token) { put_back_.push_back(token); }
   bool accept(char sign);
   bool accept(Word word);
-  // The next token must be it.
+  // Reads the sign. Throws Error where something else comes next.
   void expect(char sign, const char* where);
-  // Whether the next token is it. Directives that set something stay where they are: what is before them may
-  // not be complete.
+  // They return whether the sign or word comes next. Directives that set something stay where they are: what
+  // is before them may not be complete.
   bool at(char sign) { return peek_operator().is(sign); }
   bool at(Word word) { return peek_operator().is(word); }
-  // A comma, if there is one.
+  // Skips a comma, if there is one.
   void comma() {
     if (at(',')) next();
   }
@@ -79,39 +79,39 @@ class Reader {
 
   // ---- Errors, with the macros and files that lead there.
   [[noreturn]] void fail(const std::string& message, const Place& place);
-  // Of objects, textures and brackets within each other.
+  // Throws Error: objects, textures or brackets lie too deep within each other.
   [[noreturn]] void too_deep(const Place& place);
   // Throws Error: things are declared of each other to more levels than `most` (levels.h).
   [[noreturn]] void too_many_levels(int most);
   int function_levels = 0;  // the most of a function that was read for the object that is
   [[noreturn]] void unexpected(const Token& token, const std::string& wanted);
   SourceLocation location(const Place& place) const;
-  // Of the token that was read last.
+  // Returns the place of the token that was read last.
   Place here() const { return last_; }
 
   // ---- Expressions (expressions.cpp).
-  // Any value that an identifier, an array's element or an expression gives.
+  // Reads any value that an identifier, an array's element or an expression gives.
   Value evaluate();
-  // Numbers: comparisons only where a bracket is around, as "0 <1,2,3>" are a number and a vector.
+  // Reads numbers: comparisons only where a bracket is around, as "0 <1,2,3>" are a number and a vector.
   Numbers numbers();
-  // A number without operators behind it.
+  // Reads a number without operators behind it.
   double operand() { return primary().v[0]; }
   double number(const char* what);
   int integer(const char* what);
   bool flag();  // "on", "off", 1, or nothing, which is on
-  // Of three terms.
+  // Reads a vector of three terms.
   Vector3d vector(const char* what);
   Point3d point(const char* what);
   Point2d point2(const char* what);
   std::string text(const char* what);
-  // Linear red, green, blue, filter, transmit.
+  // Reads linear red, green, blue, filter, transmit.
   Numbers color();
-  // Whether what comes can begin an expression of numbers.
+  // Returns whether what comes can begin an expression of numbers.
   bool number_follows();
 
   // ---- Identifiers.
   Symbols& symbols() { return symbols_; }
-  // A value of kind T if the next word stands for one; it is read then.
+  // Returns a value of kind T if the next word stands for one; it is read then.
   template <class T>
   std::optional<T> identifier() {
     const Token token = next();
@@ -132,11 +132,11 @@ class Reader {
   Defaults defaults;
   void set_defaults();  // by the block of #default
   Notes notes;
-  // 0: the file does not say. POV-Ray then computes as before 3.7, but the word `version` gives 3.7: what an
-  // include saves by it and restores at its end counts as said.
+  // It is 0 where the file does not say. POV-Ray then computes as before 3.7, but the word `version` gives
+  // 3.7: what an include saves by it and restores at its end counts as said.
   double version = 0;
-  // The generator of patterns that have none of their own: global_settings say it, else the version where the
-  // scene ends.
+  // It is the generator of patterns that have none of their own: global_settings say it, else the version
+  // where the scene ends.
   std::shared_ptr<NoiseGenerator> noise = std::make_shared<NoiseGenerator>(NoiseGenerator::corrected);
   bool has_noise = false;               // global_settings say
   std::optional<double> assumed_gamma;  // srgb_gamma: sRGB's curve
@@ -147,27 +147,27 @@ class Reader {
   // mirror: povray shoots none without both.
   bool has_photon_target = false, photons_go_on = false;
   double clock = 0;  // the time of an animation
-  // What stands before the scene, as POV-Ray's Declare=NAME=VALUE: a number, or text where it is none.
+  // Sets what stands before the scene, as POV-Ray's Declare=NAME=VALUE: a number, or text where it is none.
   // `clock` sets that. Throws UsageError where a scene cannot have such a name.
   void define(const std::string& name, const std::string& value);
 
-  // The exponent that makes light of the numbers of pictures; none: they are encoded as sRGB.
+  // Returns the exponent that makes light of the numbers of pictures; none: they are encoded as sRGB.
   std::optional<double> gamma() const;
-  // Of before 3.7, without assumed_gamma: such scenes convert nothing.
+  // Returns whether it is before 3.7, without assumed_gamma: such scenes convert nothing.
   bool has_no_gamma() const { return !assumed_gamma && version < 3.7; }
-  // A number ≥ 0 of a colour, factor or light: as it is, for a film of this gamma; for export as light.
+  // Takes a number ≥ 0 of a colour, factor or light: as it is, for a film of this gamma; for export as light.
   double linear(double value) const;
 
-  // A file of the scene, written by it or found by the search; throws Error at `place`, with the hint.
+  // Finds a file of the scene, written by it or found by the search; throws Error at `place`, with the hint.
   std::filesystem::path find_file(const std::string& name, const Place& place, const char* hint = "");
-  // The same of an image; "", with a note, where it is missing and grey 0.5 may stand for it.
+  // Finds an image so; returns "", with a note, where it is missing and grey 0.5 may stand for it.
   std::string find_image(const std::string& name, const Place& place);
   bool replace_missing = false;
   const std::deque<std::string>& files() const { return files_; }
   std::uint64_t tokens_read() const { return tokens_; }
 
  private:
-  // Of #if and #switch.
+  // It is a block of #if or #switch.
   struct Block {
     bool is_switch = false;
     double value = 0;
@@ -196,7 +196,7 @@ class Reader {
     bool is_asking = false;  // of #while: its condition is read again
   };
 
-  // Sources (sources.cpp).
+  // These read sources (sources.cpp).
   void guard_stack();
   Token raw();
   bool end_frame();
@@ -206,7 +206,7 @@ class Reader {
   std::uint16_t file_index(const std::string& name);
   std::string excerpt(const Place& place) const;
 
-  // Directives (directives.cpp).
+  // These carry out directives (directives.cpp).
   void execute(const Token& directive);
   void include(const Token& directive);
   void define_macro(const Token& directive);
@@ -228,7 +228,7 @@ class Reader {
   bool condition();
   bool test_defined();
   Symbol* raw_name(const char* what);
-  // The tokens up to the #end of a block, whose directive was just read.
+  // It has the tokens up to the #end of a block, whose directive was just read.
   struct Body {
     std::shared_ptr<const TokenBuffer> buffer;
     std::size_t begin, end;
@@ -240,7 +240,7 @@ class Reader {
   Frame& frame() { return frames_.back(); }
   void count_token();
 
-  // Expressions.
+  // These read expressions.
   Numbers conditional();
   Numbers disjunction();
   Numbers conjunction();
@@ -263,7 +263,7 @@ class Reader {
   double argument(bool first = false);
   Numbers vector_argument(bool first = false);
   Token peek_operator();
-  // The value of an identifier with what follows it: [index], (arguments).
+  // Returns the value of an identifier with what follows it: [index], (arguments).
   Value postfixed(const Token& name);
   Value* variable_of(const Token& name);
   Value call(const Value& callee, const Token& name);
@@ -303,7 +303,7 @@ class Reader::Deeper {
   Reader& reader_;
 };
 
-// A value of any kind, as #declare and arguments take it (values.cpp).
+// Reads a value of any kind, as #declare and arguments take it (values.cpp).
 Value read_value(Reader& reader);
 
 }  // namespace vitrail::pov

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a Scene of what was read.
+// A SceneMaker makes a Scene of what was read.
 #pragma once
 
 #include <map>
@@ -22,7 +22,7 @@ class SceneMaker {
   Scene make();
 
  private:
-  // A part of an object that has one texture, in the object's own space.
+  // It is a part of an object that has one texture, in the object's own space.
   struct Piece {
     Id<TriangleMesh> mesh;
     Transform to_object;
@@ -30,15 +30,15 @@ class SceneMaker {
     bool faces_out = true;
     bool has_uvs = false;  // as POV-Ray has them; else those are the world's x and y
   };
-  // Where shapes go to: the scene, or a prototype.
+  // Shapes go to a Target: the scene, or a prototype.
   struct Target {
     std::vector<Shape>& shapes;
     std::vector<Instance>& instances;
   };
 
-  // Shapes (make_shapes.cpp).
+  // These make shapes (make_shapes.cpp).
   void add(const Object& object, const Transform& parent_to_world, Look look, Target target);
-  // The surface of a container: light goes through what is not there of it, and meets what is within.
+  // Fills the surface of a container: light goes through its clear parts, and meets what is within.
   void fill(Shape& shape, std::optional<Id<Medium>> medium);
   bool lets_light_in(const Shape& shape) const;
   void add_group(const Object& object, const Transform& to_world, const Look& look, Target target);
@@ -46,23 +46,23 @@ class SceneMaker {
                  Target target);
   void add_piece(const Object& object, const Piece& piece, const Transform& to_world, const Look& look,
                  Target target);
-  // The same material for objects without shadow.
+  // Returns the same material for objects without shadow.
   Id<Material> shadowless(Id<Material> material);
-  // Of an object without shadow, for formats that have none. What only glows becomes a clear sheet that
-  // glows, so that light passes it.
+  // Changes an object without shadow, for formats that have none. If it only glows, it becomes a clear sheet
+  // that glows, so that light passes it.
   Surface without_shadow(Surface surface, bool of_lamp, const Object& object);
   Id<TriangleMesh> add_mesh(TriangleMesh mesh);
   Id<TriangleMesh> quadric_mesh(const Quadric& quadric);
-  // An object that many may refer to, as it is within something of this look, which is the same wherever it
-  // is.
+  // Returns an object that many may refer to, as it is within something of this look, which is the same
+  // wherever it is.
   std::optional<Id<Prototype>> prototype_of(const Shared<Object>& object, const Look& look);
   bool is_plain(const Object& object);
-  // Quadrics and meshes (make_pieces.cpp).
+  // These make quadrics and meshes (make_pieces.cpp).
   std::vector<Piece> pieces_of(const Object& object);
-  // A mesh with these (u,v), if there are any and the scene has a use for them.
+  // Makes a mesh with these (u,v), if there are any and the scene has a use for them.
   Piece piece_with(TriangleMesh mesh, const SurfaceUvs& uvs);
   std::vector<Piece> round_pieces(const ConeShape& cone);
-  // Sets of points (make_csg.cpp).
+  // These make sets of points (make_csg.cpp).
   std::vector<Piece> set_pieces(const Object& object);
   std::vector<Piece> clipped_pieces(const Object& object);
   std::optional<solids::Csg> csg_of(const Object& object, const Transform& parent_to_set, const Look& look,
@@ -70,18 +70,18 @@ class SceneMaker {
   std::optional<solids::Csg> shape_csg(const Object& object, std::uint32_t surface);
   std::vector<Piece> evaluated(const solids::Csg& csg, const std::vector<Look>& looks, const Object& object);
 
-  // Lights and surroundings (make_lights.cpp).
+  // These make lights and surroundings (make_lights.cpp).
   void add_light(const Object& object, const LightShape& light, const Transform& to_world);
   void add_surroundings();
-  // A ball around the eye that the camera alone sees: it hides what is around.
+  // Returns whether it is a ball around the eye that the camera alone sees: that hides what is around.
   bool hides_surroundings(const Object& object) const;
-  // Whether the shape that comes next is one: of what has no_image, what glows alone, as it lights the scene.
+  // Returns whether the shape that comes next is one: with no_image only if it glows, as it lights the scene.
   bool is_there(const Look& look, bool glows, const Object& object, const Target& target);
-  // Where the camera sees nothing that shines, it hides emitters. Else what has no_image is not there.
+  // Hides emitters where the camera sees nothing that shines. Else drops the shapes with no_image.
   void hide_lamps();
-  // Lamps that are rectangles (area_lamp.h), once all shapes are there.
+  // Adds lamps that are rectangles (area_lamp.h), once all shapes are there.
   void add_lamps();
-  // Fog (make_fog.cpp).
+  // These add fog (make_fog.cpp).
   void add_fog();
   std::optional<Id<Medium>> fog_between(double low, double high);
   void add_layers(const Fog& fog);
@@ -91,7 +91,7 @@ class SceneMaker {
   void add_fog_filter(const Fog& fog);
   void add_fog_shape(const Fog& fog, Id<TriangleMesh> mesh, const Transform& to_world,
                      std::optional<Id<Medium>> interior, std::optional<Id<Medium>> exterior);
-  // media {} (make_media.cpp), of an object under this transform, and of what is around.
+  // These make media {} (make_media.cpp), of an object under this transform, and of what is around.
   std::optional<Id<Medium>> media_of(const Object& object, const Interior& interior,
                                      const Transform& to_world);
   std::optional<Id<Medium>> fade_of(const Object& object, const Interior& interior,
@@ -99,9 +99,9 @@ class SceneMaker {
   std::optional<Id<Medium>> medium_of(const std::vector<Shared<MediaBlock>>& blocks,
                                       const Transform& to_world, const Bounds3d& box);
   void add_atmosphere();
-  // What the eye is in: of objects that are not hollow fog and atmosphere fill nothing.
+  // Sets the medium around the eye. Objects that are not hollow hold no fog and no atmosphere.
   void set_eye_medium();
-  // The view (make_view.cpp).
+  // These set the view (make_view.cpp).
   void set_view();
 
   Point3d eye() const { return world_.camera ? Point3d{} + world_.camera->location : Point3d{}; }
@@ -113,8 +113,8 @@ class SceneMaker {
   Scene scene_;
   Surfaces surfaces_;
   std::map<const Object*, std::vector<Piece>> pieces_;
-  // An object, and of a look all that shapes take from it: texture, interior_texture, by_uv, no_shadow,
-  // no_image, hollow, double_illuminate.
+  // It has an object, and of a look all that shapes take from it: texture, interior_texture, by_uv,
+  // no_shadow, no_image, hollow, double_illuminate.
   using Worn =
       std::tuple<const Object*, const pov::Texture*, const pov::Texture*, bool, bool, bool, bool, bool>;
   std::map<Worn, std::optional<Id<Prototype>>> prototypes_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines and points against the shape of an object that is no group, in its own space.
+// These functions test lines and points against the shape of an object that is no group, in its own space.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace vitrail::pov {
 
-// Of a mesh or a solid, made with the first question and shared by copies. Throws Error where the shape does.
+// Returns the tree of a mesh or solid, made once and shared by copies. Throws Error where the shape does.
 const TriangleTree& tree_of(const Object& object);
 
 // Adds all hits with t > 0. Normals point outwards and have any length.

@@ -6,8 +6,8 @@
 
 namespace vitrail::pov {
 
-// Shapes where a function is negative: quadrics, polynomials, blobs, isosurfaces; and height fields and
-// parametrics. False: the word begins none of these.
+// Reads shapes where a function is negative: quadrics, polynomials, blobs, isosurfaces; and height fields and
+// parametrics. Returns false where the word begins none of these.
 bool read_implicit(Reader& reader, Word word, Object& object);
 
 }  // namespace vitrail::pov

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `spline {}`: vectors over a parameter.
+// A `spline {}` gives vectors over a parameter.
 #pragma once
 
 #include <optional>
@@ -18,10 +18,10 @@ struct Spline {
   Kind kind = Kind::linear;
   std::vector<Knot> knots;  // ascending
 
-  // Beyond its ends it is what it is there; of no knots, 0. A cubic spline (Catmull and Rom 1974) has values
-  // between its second and its last but one knot.
+  // Beyond its ends the value is that at the end; without knots it is 0. A cubic spline (Catmull and Rom
+  // 1974) has values between its second and its last but one knot.
   Numbers at(double parameter, std::optional<Kind> as = {}) const;
-  // In its place, of equal parameters the newer one.
+  // Adds it in its place; of equal parameters the newer one stays.
   void add(Knot knot);
 };
 

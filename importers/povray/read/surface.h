@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures as scenes say them: pigments, normals, finishes; and interiors. What they become in the Scene is
-// decided once they are on an object.
+// These records hold textures as scenes say them: pigments, normals, finishes; and interiors. They are turned
+// into the Scene's once they are on an object.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace vitrail::pov {
 
 class Reader;
 
-// An entry of a map: of its kinds one is there.
+// It is an entry of a map: of its kinds one is there.
 struct BlendEntry {
   double at = 0;
   Numbers color;  // of a slope_map: the height and the slope
@@ -41,7 +41,7 @@ struct ImageMap {
   bool gamma_srgb = false;      // `gamma srgb` stands with it
 };
 
-// What is done to the point before the pattern is looked up, in the order of the file.
+// It moves the point before the pattern is looked up, in the order of the file.
 struct Warp {
   enum class Kind {
     turbulence,
@@ -66,7 +66,7 @@ struct Warp {
   double distance = 0, dist_exp = 0, major_radius = 1;
 };
 
-// A pattern with its modifiers; `kind` none: there is none.
+// It is a pattern with its modifiers; `kind` none: there is none.
 struct Pattern {
   Word kind = Word::none;
   Vector3d direction{1, 0, 0};  // of a gradient
@@ -145,8 +145,8 @@ struct Texture {
   Shared<Pigment> pigment;
   Shared<Bump> normal;
   Shared<Finish> finish;
-  // Of textures: a pattern with a map of textures; else of layers, the lowest first, if there is more than
-  // one.
+  // It is a pattern with a map of textures; else `layers` holds the layers, the lowest first, if there is
+  // more than one.
   std::optional<Pattern> pattern;
   Shared<BlendMap> map;
   std::vector<Shared<Texture>> layers;
@@ -154,7 +154,7 @@ struct Texture {
   bool by_uv = false;
 };
 
-// media {}: coefficients per unit of length, times the product of the densities.
+// It is media {}: coefficients per unit of length, times the product of the densities.
 struct MediaBlock {
   Place place;
   Numbers absorption = Finish::grey(0), emission = Finish::grey(0), scattering = Finish::grey(0);
@@ -172,18 +172,18 @@ struct Interior {
   std::vector<Shared<MediaBlock>> media;
 };
 
-// Whether it weakens light on the way.
+// Returns whether it weakens light on the way.
 inline bool has_medium(const Interior& interior) {
   return !interior.media.empty() || (interior.fade_distance > 0 && interior.fade_power > 0);
 }
 
-// Of `material {}`.
+// They are the parts of `material {}`.
 struct MaterialParts {
   Shared<Texture> texture, interior_texture;
   Shared<Interior> interior;
 };
 
-// Behind the word, a block or, where that may be, the name of one.
+// They read, behind the word, a block or, where that may be, the name of one.
 Shared<Pigment> read_pigment_block(Reader& reader, const Shared<Pigment>& from = {});
 Shared<Pigment> read_pattern_block(Reader& reader);
 Shared<Bump> read_normal_block(Reader& reader);
@@ -194,7 +194,7 @@ Shared<Texture> read_texture_block(Reader& reader);
 // takes the place of the one that is there, with its transformations, and so does a normal, but the first
 // one.
 void change_normal(Reader& reader, Texture& top, const Transform& placed);
-// What comes behind a texture of layers is of the last one: change(that, its transformation).
+// Applies what comes behind a texture of layers to the last one: change(that, its transformation).
 template <class Change>
 void change_top(Texture& texture, const Change& change, const Transform& before = {}) {
   const Transform placed = before * texture.to_object;
@@ -208,11 +208,11 @@ Shared<MediaBlock> read_media_block(Reader& reader);
 Shared<MaterialParts> read_material_block(Reader& reader);
 Shared<BlendMap> read_map_block(Reader& reader, Word kind);
 
-// The texture, and the media of the interior, under a transform of the object that has them.
+// They return the texture, and the media of the interior, under a transform of the object that has them.
 Shared<Texture> moved(const Shared<Texture>& texture, const Transform& by);
 Shared<Interior> moved(const Shared<Interior>& interior, const Transform& by);
 
-// The mean of the colours that it may have: of a map weighted by the length of its pieces.
+// Returns the mean of the colours that it may have: of a map weighted by the length of its pieces.
 Numbers mean_color(const Pigment& pigment);
 
 // Skips a block in braces, with all in it.

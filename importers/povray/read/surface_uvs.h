@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The (u,v) of a surface, as POV-Ray has them: they follow from the point.
+// POV-Ray's (u,v) of a surface follow from the point.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace vitrail::pov {
 
-// `at(p, inside)` is of a point p of a triangle around `inside`, in the space of the shape. u is not a number
-// on an axis, where any would do. Around the axis u begins anew.
+// `at(p, inside)` gives those of a point p of a triangle around `inside`, in the space of the shape. u is not
+// a number on an axis, where any would do. Around the axis u begins anew.
 struct SurfaceUvs {
   std::function<Point2d(Point3d p, Point3d inside)> at;  // empty: the world's x and y
   bool begins_anew = false;
@@ -26,9 +26,9 @@ SurfaceUvs torus_uvs(double major);
 // segment counts as equally long.
 SurfaceUvs lathe_uvs(solids::SplineKind kind, std::span<const Point2d> points);
 SurfaceUvs revolution_uvs(std::span<const Point2d> points);
-// `corners`: the (u,v) at the patch's (0,0), (1,0), (1,1), (0,1).
+// `corners` has the (u,v) at the patch's (0,0), (1,0), (1,1), (0,1).
 SurfaceUvs patch_uvs(const std::array<Point3d, 16>& points, const std::array<Point2d, 4>& corners);
-// The same of what a transform moves.
+// Returns the same for a surface that a transform moves.
 SurfaceUvs moved(SurfaceUvs uvs, const Transform& to_world);
 
 // Gives each triangle vertices of its own, with these (u,v).

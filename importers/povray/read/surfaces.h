@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials, glows and opacities of textures.
+// Surfaces makes materials, glows and opacities of textures.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace vitrail::pov {
 
-// A texture where it is: `to_world` takes its space to that of the scene, or of a prototype.
+// It is a texture with its place: `to_world` takes its space to that of the scene, or of a prototype.
 struct Look {
   Shared<Texture> texture;
   Transform to_world;
@@ -37,31 +37,31 @@ struct Look {
   double crand_above = 0;
 };
 
-// What a Shape takes of it.
+// A Surface holds what a Shape takes of a Look.
 struct Surface {
   Id<Material> material;
   std::optional<Id<AreaLight>> glow;
   FloatParameter opacity = 1.0f;
 };
 
-// The highlights of a material that is shown in such a share: all of them.
+// Sets the highlights of a material that is shown in such a share: all of them.
 void set_highlights(FinishMaterial& material, const Finish& finish, double share);
 
 class Surfaces {
  public:
-  // `ambient`: what the light of `ambient` is multiplied by; 0 with radiosity. `glazes`: what mirrors by
-  // angle or lets light through is a GlazedMaterial, which other formats do not have, and photons do not
-  // know.
+  // `ambient` multiplies the light of a finish's ambient; it is 0 with radiosity. If `glazes`, a material
+  // that mirrors by angle or lets light through is a GlazedMaterial, which other formats do not have, and
+  // photons do not know.
   Surfaces(Reader& reader, Scene& scene, Numbers ambient, bool glazes)
       : reader_(reader), scene_(scene), ambient_(ambient), glazes_(glazes) {}
 
   Surface of(const Look& look);
-  // With its interior_texture, if it has one, at the back. Where that glows, or light goes through either,
-  // the texture outside is that of both, with a note.
+  // Returns it with its interior_texture, if it has one, at the back. Where that glows, or light goes through
+  // either, the texture outside is that of both, with a note.
   Surface of_sides(const Look& look, const Place& place);
-  // Radiance by a pigment, as of a sky: a colour or a texture.
+  // Returns radiance by a pigment, as of a sky: a colour or a texture.
   SpectrumParameter radiance_of(const Pigment& pigment, const Transform& to_world);
-  // The last is above: where one is not all there, those before it show through. One at least.
+  // Puts the last above: where one is not all there, those before it show through. There is one at least.
   SpectrumParameter radiance_of(const std::vector<Shared<Pigment>>& pigments, const Transform& to_world);
 
  private:
@@ -77,17 +77,17 @@ class Surfaces {
   Transform placed_in(const Transform& around, const Texture& texture) const {
     return texture.by_uv ? uv_space_ * texture.to_object : around * texture.to_object;
   }
-  // `alone`: nothing shows through it but what is behind the surface.
+  // Nothing shows through it but what is behind the surface if `alone`.
   Layer layer_of(const Texture& texture, const Transform& to_world, const Look& given, bool alone = false);
-  // Of layers or a pattern of textures, else layer_of (make_layers.cpp).
+  // They make layers or a pattern of textures, else call layer_of (make_layers.cpp).
   Layer layered(const Texture& texture, const Transform& to_world, const Look& look);
   Layer blended(const Texture& texture, const Transform& to_world, const Look& look);
-  // (1 − amount)·first + amount·second; with the material, glow and opacity of both.
   void add_glow_alone(std::vector<std::pair<double, Layer>>& layers, const Place& place);
+  // Returns (1 − amount)·first + amount·second; with the material, glow and opacity of both.
   Layer mixed(const Layer& first, const Layer& second, const FloatParameter& amount, const Place& place);
   Id<Material> material_of(const Pigment& pigment, const Finish& finish, const Transform& to_world,
                            const Look& look);
-  // What is solid of it, and what light goes through, in their shares; with its bumps (make_bumps.cpp).
+  // It has what is solid of it, and what light goes through, in their shares; with bumps (make_bumps.cpp).
   struct Body {
     const Pigment& pigment;
     const Finish& finish;
@@ -97,7 +97,7 @@ class Surfaces {
     Place place;
     bool glazed = false;
   };
-  // What mirrors by angle, or shows all of its highlights though it is clear (make_glazed.cpp).
+  // Returns whether it mirrors by angle, or shows all of its highlights though clear (make_glazed.cpp).
   bool is_glazed(const Finish& finish, const Interior* interior, float opacity) const;
   Id<Material> glazed(const Body& body);
   Id<Material> material_of(const Body& body);
@@ -111,7 +111,7 @@ class Surfaces {
   void put_above(const Texture& texture, const Transform& to_world, Look& look);
   Id<Material> clear_material(const Pigment& pigment, const Finish& finish, const Interior* interior);
 
-  // Textures (make_textures.cpp): what of a colour becomes the value. By (u,v), `to_world` takes the
+  // A Part says what of a colour becomes the value (make_textures.cpp). By (u,v), `to_world` takes the
   // texture's space to that of (u, v, 0), and it is the pigment's own where that has `uv_mapping`. A factor
   // may be above 1. `grey` is that of its numbers as they are; `filtered` is the tint of what shows through.
   enum class Part { reflectance, factor, radiance, opacity, grey, filtered };
@@ -122,12 +122,12 @@ class Surfaces {
                                   double factor, bool by_uv);
   SpectrumParameter average_texture(const Pigment& pigment, const Transform& to_world, Part part,
                                     double factor, bool by_uv);
-  // A number of each point, 1 − amount … 1 + amount: grains too small to be seen.
+  // Returns a number of each point, 1 − amount … 1 + amount: grains too small to be seen.
   SpectrumParameter grain(double amount, const Place& place);
   FloatParameter opacity_of(const Pigment& pigment, const Transform& to_world, bool by_uv);
   SpectrumParameter image_texture(const ImageMap& image, const Pattern& pattern, const Transform& to_world,
                                   Part part, bool by_uv, double factor, const Place& place);
-  // A displacement that is everywhere what another texture is there (make_bumps.cpp).
+  // Returns a displacement that is everywhere what another texture is there (make_bumps.cpp).
   PatternTexture carrier_of(const SpectrumParameter& height, const Transform& to_world) const;
   std::optional<FloatParameter> bump_of_image(const Bump& bump, const Transform& to_world);
   std::optional<FloatParameter> bump_of_pigment(const Bump& bump, const Transform& to_world, double height);
@@ -175,7 +175,7 @@ class Surfaces {
 // Returns the pigment with its colours times what layers above let through of each.
 Shared<Pigment> filtered_by(const Pigment& pigment, const std::array<double, 3>& through);
 
-// Whether it is the same wherever it is.
+// They return whether it is the same wherever it is.
 bool is_plain(const Texture& texture);
 bool is_plain(const Pigment& pigment);
 

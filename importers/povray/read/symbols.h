@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names of a scene: reserved words, and identifiers with what they stand for at the moment.
+// Symbols are the names of a scene: reserved words, and identifiers with what they stand for at the moment.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace vitrail::pov {
 
-// A reserved word; `none` is an identifier's. The enumerators end in _, as many are words of C++.
+// It is a reserved word; `none` is an identifier's. The enumerators end in _, as many are words of C++.
 enum class Word : std::uint16_t {
   none,
 #define VITRAIL_POV_WORD(name) name##_,
@@ -22,7 +22,7 @@ enum class Word : std::uint16_t {
 #undef VITRAIL_POV_WORD
 };
 
-// As scenes write it.
+// Returns the word as scenes write it.
 const char* name_of(Word word);
 
 // Returns whether POV-Ray has the word for a variable of its own, which a scene may declare anew.
@@ -47,21 +47,21 @@ class Symbols {
   Symbols();
   Symbol* find(std::string_view name);  // made where it is new
 
-  // Scopes of macros and included files.
+  // Macros and included files have scopes.
   void open_scope() { scopes_.emplace_back(); }
   void close_scope();
   std::size_t depth() const { return scopes_.size(); }
 
-  // The variable of that scope, which is made where there is none. The name is no word from then on.
+  // Returns the variable of that scope, which it makes where there is none. The name is no word from then on.
   std::shared_ptr<Value> variable(Symbol* symbol, std::size_t scope);
-  // The variable that the name stands for; a global one is made where there is none.
+  // Returns the variable that the name stands for; it makes a global one where there is none.
   std::shared_ptr<Value> visible(Symbol* symbol);
-  // In the innermost scope, the name stands for another's variable.
+  // Lets the name stand for another's variable in the innermost scope.
   void alias(Symbol* symbol, std::shared_ptr<Value> value);
-  // The innermost variable of the name goes.
+  // Removes the innermost variable of the name.
   void undefine(Symbol* symbol);
 
-  // Names of identifiers that stand for something.
+  // Returns the names of identifiers that stand for something.
   std::vector<std::string> defined() const;
 
  private:

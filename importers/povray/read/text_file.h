@@ -8,13 +8,13 @@
 
 namespace vitrail::pov {
 
-// Of #fopen. One that is read holds numbers, vectors and quoted texts between commas.
+// It is a file of #fopen. One that is read holds numbers, vectors and quoted texts between commas.
 struct OpenFile {
   std::string name, content;
   std::size_t at = 0;
   bool writes = false;
 
-  // Nothing where the file ends or something else stands there.
+  // Returns nothing where the file ends or something else stands there.
   Value next();
   bool at_end();
 

@@ -9,7 +9,7 @@
 
 namespace vitrail::pov {
 
-// Where a token begins; `file` is an index into the files of the reader. Line 0: nowhere.
+// It is where a token begins; `file` is an index into the files of the reader. Line 0: nowhere.
 struct Place {
   std::uint32_t line = 0;
   std::uint16_t file = 0, column = 0;
@@ -19,11 +19,11 @@ enum class TokenKind : std::uint8_t { end, number, word, text, sign, directive }
 
 struct Token {
   TokenKind kind = TokenKind::end;
-  // Of a sign: its character; 'l', 'g', 'n' are <=, >= and !=.
+  // It is a sign's character; 'l', 'g', 'n' are <=, >= and !=.
   char sign = 0;
   Place place;
-  // In a TokenBuffer, of a directive that opens or parts a block: the index of the directive that parts or
-  // ends the block next.
+  // It is set in a TokenBuffer, for a directive that opens or parts a block: the index of the directive that
+  // parts or ends the block next.
   std::uint32_t match = 0;
   union {
     double number = 0;
@@ -36,15 +36,15 @@ struct Token {
   bool is_directive(Word word) const { return kind == TokenKind::directive && symbol->word == word; }
 };
 
-// Stored tokens, of a macro or a loop.
+// It stores the tokens of a macro or a loop.
 using TokenBuffer = std::vector<Token>;
 
-// The token as messages show it.
+// Returns the token as messages show it.
 std::string describe(const Token& token);
 
-// Whether a directive opens a block that #end closes.
+// Returns whether a directive opens a block that #end closes.
 bool opens_block(Word directive);
-// Whether it parts or ends one.
+// Returns whether it parts or ends one.
 bool parts_block(Word directive);
 
 }  // namespace vitrail::pov

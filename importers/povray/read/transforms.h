@@ -8,18 +8,18 @@ namespace vitrail::pov {
 
 class Reader;
 
-// What `transform {}` gives.
+// It holds what `transform {}` gives.
 struct Placement {
   Transform transform;
 };
 
-// About x, then y, then z.
+// Turns about x, then y, then z.
 Transform rotation(Vector3d degrees);
 
-// translate, rotate, scale, matrix or transform, if that is what comes: read, and put behind what was there.
+// Reads translate, rotate, scale, matrix or transform, if one comes, and puts it behind what was there.
 bool read_transform(Reader& reader, Transform& transform);
 
-// Behind the word `transform`: a block, or the name of one.
+// Reads behind the word `transform`: a block, or the name of one.
 Transform read_transform_block(Reader& reader);
 
 }  // namespace vitrail::pov

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where rays meet triangles, in double precision: what trace() and inside() ask meshes while a scene is read.
+// trace() and inside() ask, while a scene is read, where rays meet triangles of meshes, in double precision.
 #pragma once
 
 #include <array>
@@ -12,17 +12,17 @@
 
 namespace vitrail::pov {
 
-// Points from + t · along.
+// It has the points from + t · along.
 struct Line {
   Point3d from;
   Vector3d along;
   Point3d at(double t) const { return from + along * t; }
 };
 
-// Whether the line meets the box at some t ≥ 0.
+// Returns whether the line meets the box at some t ≥ 0.
 bool meets(const Bounds3d& box, const Line& line);
 
-// A hierarchy of boxes, halved at the median of the longest side.
+// It is a hierarchy of boxes, halved at the median of the longest side.
 class TriangleTree {
  public:
   struct Triangle {
@@ -31,8 +31,8 @@ class TriangleTree {
   };
   explicit TriangleTree(std::vector<Triangle> triangles);
 
-  // All hits with t > 0, in any order. `side`: dot(along, cross of the edges), whose sign says whether the
-  // line enters or leaves.
+  // Finds all hits with t > 0, in any order. `side` is dot(along, cross of the edges), whose sign says
+  // whether the line enters or leaves.
   void hits(const Line& line, const std::function<void(double t, Vector3d normal, double side)>& hit) const;
   const Bounds3d& bounds() const { return bounds_; }
 

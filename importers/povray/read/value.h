@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an identifier of a POV-Ray scene can stand for.
+// An identifier of a POV-Ray scene can stand for a Value.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace vitrail::pov {
 
-// A number (one term), or a vector or colour of up to five: x y z t …, or red green blue filter transmit.
+// It is a number (one term), a vector or a colour of up to five: x y z t or red green blue filter transmit.
 struct Numbers {
   std::array<double, 5> v{};
   int terms = 1;
@@ -24,7 +24,7 @@ struct Numbers {
     n.v = {x, y, z, 0, 0}, n.terms = 3;
     return n;
   }
-  // The same with so many terms: a number fills all, a shorter vector gets zeros.
+  // Returns the same with so many terms: a number fills all, a shorter vector gets zeros.
   Numbers promoted(int count) const {
     Numbers n = *this;
     n.terms = count;
@@ -58,7 +58,7 @@ struct Placement;
 template <class T>
 using Shared = std::shared_ptr<const T>;
 
-// Things that are read and dropped, by the statement that they are of: "fog".
+// They are things that are read and dropped, by the statement that they are of: "fog".
 struct Dropped {
   std::string kind;
 };
@@ -70,10 +70,10 @@ using Value =
                  Shared<SkySphere>, Shared<Fog>, Shared<MediaBlock>, Shared<BlendMap>,
                  std::shared_ptr<OpenFile>, Shared<Placement>, Dropped>;
 
-// "a number", "a texture": how messages call it.
+// Returns "a number", "a texture" … for messages.
 const char* kind_of(const Value& value);
 
-// Elements in rows: of the last dimension next to each other.
+// It has elements in rows: those of the last dimension are next to each other.
 struct Array {
   std::vector<std::size_t> sizes;
   std::vector<Value> elements;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras, and what is around the scene.
+// These records hold cameras, and what is around the scene.
 #pragma once
 
 #include "importers/povray/read/surface.h"
 
 namespace vitrail::pov {
 
-// `camera {}`: rays of the perspective camera go from `location` along direction + x·right + y·up, x and y
-// from −½ to ½.
+// It is `camera {}`: rays of the perspective camera go from `location` along direction + x·right + y·up, x
+// and y from −½ to ½.
 struct CameraView {
   Place place;
   Word kind = Word::perspective_;
@@ -20,7 +20,7 @@ struct CameraView {
   bool has_normal = false;
 };
 
-// Pigments by direction, the lowest first.
+// It has pigments by direction, the lowest first.
 struct SkySphere {
   Place place;
   std::vector<Shared<Pigment>> pigments;

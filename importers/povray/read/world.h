@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene as its file says it, before it becomes a Scene.
+// A World is a scene as its file says it, before it becomes a Scene.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ namespace vitrail::pov {
 
 class Reader;
 
-// An object that stands in the scene, with what `#default` said when it was whole: povray looks no earlier,
-// not even where an identifier was declared, and no later.
+// It is an object that stands in the scene, with what `#default` said when it was whole: povray looks no
+// earlier, not even where an identifier was declared, and no later.
 struct Placed {
   Shared<Object> object;
   Shared<Texture> default_texture;

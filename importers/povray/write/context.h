@@ -29,7 +29,7 @@ struct Units {
   bool is_identity() const { return to_pov == Transform{}; }
 };
 
-// What the parts of the writer share.
+// It holds what the parts of the writer share.
 struct Context : ConversionNotes {
   ExposedLights exposed;
   std::filesystem::path directory;  // of the scene file
@@ -61,7 +61,7 @@ inline RGB operator*(RGB a, RGB b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
 inline double largest(RGB c) { return std::max({c.r, c.g, c.b}); }
 inline double mean(RGB c) { return (c.r + c.g + c.b) / 3; }
 
-// POV-Ray's matrix of the affine part of t.
+// Returns POV-Ray's matrix of the affine part of t.
 inline std::string matrix(const Transform& t) {
   std::string text = "matrix <";
   for (std::size_t column = 0; column < 4; ++column)
@@ -69,7 +69,7 @@ inline std::string matrix(const Transform& t) {
   return text + ">";
 }
 
-// A file's name as a string of POV-Ray's language.
+// Returns a file's name as a string of POV-Ray's language.
 inline std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {

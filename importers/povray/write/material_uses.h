@@ -7,16 +7,16 @@
 
 namespace vitrail::povray {
 
-// The material itself and all that it is made of, those with smaller ids first, each once.
+// Returns the material and all that it is made of, those with smaller ids first, each once.
 std::vector<Id<Material>> parts_of(const Scene& scene, Id<Material> material);
 
-// Which light of lamps the material, or one that it is made of, throws on as a caustic.
+// It says which light of lamps the material, or one that it is made of, throws on as a caustic.
 struct Caustics {
   bool reflected = false, refracted = false;
 };
 Caustics caustics_of(const Scene& scene, Id<Material> material);
 
-// The textures that a material refers to itself.
+// Returns the textures that a material refers to itself.
 std::vector<Id<Texture>> textures_of(const Material& material);
 
 }  // namespace vitrail::povray

@@ -5,7 +5,7 @@
 
 namespace vitrail::povray {
 
-// The units of the file for a scene of this extent.
+// Returns the units of the file for a scene of this extent.
 Units units_of(const Scene& scene);
 
 }  // namespace vitrail::povray

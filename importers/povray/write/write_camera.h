@@ -9,7 +9,7 @@ namespace vitrail::povray {
 
 std::string camera_text(Context& context);
 
-// The options that the scene's own language cannot hold, for a file OUT.ini beside `pov_name`.
+// Returns the options that the scene's own language cannot hold, for a file OUT.ini beside `pov_name`.
 std::string options_text(Context& context, const std::string& pov_name);
 
 }  // namespace vitrail::povray

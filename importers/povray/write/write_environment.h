@@ -7,7 +7,7 @@
 
 namespace vitrail::povray {
 
-// A sky sphere of the light's image.
+// Returns a sky sphere of the light's image.
 std::string environment_text(Context& context, const EnvironmentLight& light, const Origin& origin);
 
 }  // namespace vitrail::povray

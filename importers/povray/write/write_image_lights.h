@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights that throw an image: POV-Ray's point lights have none, but a shade around one filters its light.
+// Some lights throw an image. POV-Ray's point lights have none, but a shade around one filters its light.
 #pragma once
 
 #include "importers/povray/write/context.h"
 
 namespace vitrail::povray {
 
-// A `light_source` and its shade, an object that no camera sees: its pigment filters the light by the image.
-// Throw Error where the image cannot be read. `point` writes a point light of a colour of intensity at a
-// point, with the words that follow (a spotlight's cone, or nothing).
+// They return a `light_source` and its shade, an object that no camera sees: its pigment filters the light by
+// the image. They throw Error where the image cannot be read. `point` writes a point light of a colour of
+// intensity at a point, with the words that follow (a spotlight's cone, or nothing).
 using WritePoint = std::string (*)(const Context&, Point3d position, RGB intensity, const std::string& words);
 std::string shaded_light(Context& context, const ProjectionLight& light, WritePoint point,
                          const Origin& origin);

@@ -8,10 +8,10 @@
 
 namespace vitrail::povray {
 
-// A light source, a background or a sky sphere.
+// Returns a light source, a background or a sky sphere.
 std::string light_text(Context& context, const Light& light);
 
-// The light of a rectangle of constant radiance; its mesh has to be shown besides, without a shadow.
+// Returns the light of a rectangle of constant radiance; its mesh has to be shown besides, without a shadow.
 std::string rectangle_light_text(Context& context, const Rectangle& rectangle, const AreaLight& light);
 
 }  // namespace vitrail::povray

@@ -9,15 +9,15 @@
 
 namespace vitrail::povray {
 
-// "media { … }", once or more: the same σ_a, σ_s, phase function and emission, of grids by density files.
-// POV-Ray scatters the light of its light sources, once. "" for none, and for what is reported: procedural
-// clouds, temperatures and emission by a grid.
+// Returns "media { … }", once or more: the same σ_a, σ_s, phase function and emission, of grids by density
+// files. POV-Ray scatters the light of its light sources, once. It is "" for none, and for media that are
+// reported: procedural clouds, temperatures and emission by a grid.
 std::string media_text(Context& context, std::optional<Id<Medium>> medium);
 
-// What lies inside of the closed surface of a shape.
+// Returns the medium inside of the closed surface of a shape.
 std::optional<Id<Medium>> medium_inside(const Scene& scene, const Shape& shape, const MeshText& mesh);
 
-// What is around everything: the camera is in it, and no shape holds it.
+// Returns the medium around everything: the camera is in it, and no shape holds it.
 std::optional<Id<Medium>> medium_around(const Scene& scene);
 
 }  // namespace vitrail::povray

@@ -8,8 +8,8 @@
 
 namespace vitrail::povray {
 
-// Colours that vary: a pigment, times `factor` (which POV-Ray's finishes have to apply), times the `filters`:
-// pigments that let light through, for layers above it.
+// It has colours that vary: a pigment, times `factor` (which POV-Ray's finishes have to apply), times the
+// `filters`: pigments that let light through, for layers above it.
 struct Pigment {
   std::string text;
   double factor = 1;
@@ -20,27 +20,27 @@ struct Pigment {
 
 enum class Colors { factors, emissions };
 
-// The colours of a parameter; what is not exact goes to the diagnostics with the place `user`.
+// Returns the colours of a parameter; diagnostics with the place `user` say what is not exact.
 Pigment pigment_of(Context& context, const SpectrumParameter& parameter, const Origin& user,
                    Colors colors = Colors::factors);
 
-// A pattern of values from 0 to 1 ("uv_mapping image_pattern { … }", with its transform after the maps), or
-// nothing where POV-Ray has none for it.
+// It is a pattern of values from 0 to 1 ("uv_mapping image_pattern { … }", with its transform after the
+// maps). pattern_of returns nothing where POV-Ray has none for it.
 struct Pattern {
   std::string text, transform;
 };
 std::optional<Pattern> pattern_of(Context& context, Id<Texture> texture, const Origin& user);
 
-// `image_map`'s own words for a file: `png "name" gamma srgb`. A new file where POV-Ray would see something
-// else in the texture's own: through its alpha, grey as a colour's number, kinds that it does not read. Scale
-// and inversion are not in it. Nothing where the image cannot be read, which is noted.
+// Returns `image_map`'s own words for a file: `png "name" gamma srgb`. It is a new file where POV-Ray would
+// see something else in the texture's own: through its alpha, grey as a colour's number, unread kinds. Scale
+// and inversion are not in it. Returns nothing, with a note, where the image cannot be read.
 std::optional<std::string> image_of(Context& context, const ImageTexture& texture, ImageUse use,
                                     const Origin& origin);
 
-// Whether uvs are needed to show the texture, or any that it refers to.
+// Returns whether uvs are needed to show the texture, or any that it refers to.
 bool uses_uvs(const Scene& scene, Id<Texture> texture);
 
-// The value, or the mean of a texture, which is noted.
+// Returns the value, or the mean of a texture, which is noted.
 double constant_of(Context& context, const FloatParameter& parameter, const char* what, const Origin& user);
 
 }  // namespace vitrail::povray
