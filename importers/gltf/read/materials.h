@@ -18,7 +18,7 @@
 
 namespace vitrail::gltf {
 
-// A shape gets this of a material.
+// A Surface holds what a shape gets of a material.
 struct Surface {
   Id<Material> material;
   std::optional<Id<AreaLight>> light;

@@ -27,8 +27,8 @@ class MaterialWriter {
         area_lights_(area_lights),
         pictures_(model, binary, notes) {}
 
-  // Writes the material of a surface with its light, opacity and interior. The attribute of a material is the
-  // name of the mesh's colours that it shows as COLOR_0; "" for none.
+  // Writes the material of a surface with its light, opacity and interior. color_attribute names the mesh's
+  // colours that a material shows as COLOR_0; "" for none.
   int write(const Shape& shape);
   const std::string& color_attribute(int material) const { return attributes_.at(material); }
 

@@ -19,13 +19,13 @@ struct Mention {
   SourceLocation location;
 };
 
-// It has the names of the faces that follow o or g.
+// It has the names that o and g give to the faces that follow.
 struct Object {
   std::string o, g;
   SourceLocation location;  // of the statement
 };
 
-// Statements say it of the faces that follow them; it holds indices of Geometry's.
+// It holds what statements say of the faces that follow them: indices of Geometry's.
 struct Use {
   std::size_t object = 0, material = 0;
 };

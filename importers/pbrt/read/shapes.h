@@ -45,7 +45,7 @@ class ShapeMaker {
                                   bool faces_show);
 
  private:
-  // A Shape directive asks for this.
+  // It holds what a Shape directive asks for.
   struct Asked {
     const std::string& kind;
     ParameterSet& parameters;

@@ -119,8 +119,8 @@ void write_materials(Writer& writer);
 void write_lights(Writer& writer);
 void write_shapes(Writer& writer);
 
-// A shape has the name of its material, and the share of it that is there. pbrt's masks are the "alpha" of
-// shapes. surface_of writes what it needs for that: it is called outside of blocks of attributes.
+// It has the name of a shape's material, and the share of the shape that is there. pbrt's masks are the
+// "alpha" of shapes. surface_of writes what it needs for that: it is called outside of blocks of attributes.
 struct ShapeSurface {
   std::string material;
   FloatParameter alpha = 1.0f;

@@ -186,7 +186,7 @@ void read_face_rows(Source& source, const Element& element, std::size_t list, Bo
       });
 }
 
-// Reserves for as many as there could be triangles, each with three indices.
+// Reserves memory for as many triangles as there could be, each with three indices.
 template <class Source>
 void reserve_triangles(const Source& source, const Element& element, std::size_t list, Body& body) {
   const std::size_t least =
