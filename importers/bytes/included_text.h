@@ -12,7 +12,7 @@
 namespace vitrail {
 
 // It counts the text of files that are included more than once. Forty files that each include the next one
-// twice are small, but do not end when they are read.
+// twice are small, and practically without end when they are read.
 class IncludedText {
  public:
   explicit IncludedText(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}

@@ -7,7 +7,8 @@
 namespace vitrail {
 
 // Returns lengths in the world, both powers of ten or the usual ones of Mitsuba: nothing of the scene is
-// farther from the camera, and the near one is less than 10⁻⁵ of twice the diagonal around both.
+// farther from the camera than the far one, and the near one is less than 10⁻⁵ of twice the diagonal around
+// scene and camera.
 ClipRange wide_clip(const Scene& scene, const Transform& camera_to_world);
 
 // Gives the camera those of the planes that cut away something that is in its picture. Where the camera
