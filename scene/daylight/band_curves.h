@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smooth functions of one number, one for each band of the sky, that are asked for all bands at once.
+// These are smooth functions of one number, one for each band of the sky, evaluated for all bands at once.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +11,17 @@ namespace vitrail {
 
 inline constexpr int sky_bands = 10;
 
-// Single precision, of all bands; the lanes beyond them are there to fill registers.
+// BandValues hold one single-precision value for each band; the lanes beyond sky_bands are there to fill
+// registers.
 inline constexpr std::size_t band_lanes = 12;
 using BandValues = std::array<float, band_lanes>;
 
-// Each is a cubic through four points, evenly spaced, of each of equal segments of [0, 1]: continuous, off by
-// at most h⁴/1944 times the greatest fourth derivative, h = 1/segments.
+// Each band's curve is a cubic through four evenly spaced points on each of equal segments of [0, 1]. It is
+// continuous, and off by at most h⁴/1944 times the greatest fourth derivative, h = 1/segments.
 class BandCurves {
  public:
   BandCurves() = default;
-  // function(x, band)
+  // `function(x, band)` is called with x in [0, 1].
   template <class F>
   BandCurves(int segments, F&& function) : count_(segments) {
     const double third = 1.0 / (3 * segments);
@@ -35,7 +36,7 @@ class BandCurves {
     }
   }
 
-  // x in [0, 1]; what is no number counts as 0.
+  // Returns the value of each band at x in [0, 1]. NaN counts as 0.
   BandValues at(double x) const {
     const double place = x > 0 ? x * count_ : 0;
     const int s = std::min(static_cast<int>(place), count_ - 1);
@@ -47,7 +48,7 @@ class BandCurves {
     return values;
   }
 
-  // coefficient[segment][power][band_lanes]
+  // It is laid out as coefficient[segment][power][band_lanes].
   struct Table {
     const float* coefficient;
     int segments;
@@ -58,7 +59,7 @@ class BandCurves {
  private:
   struct alignas(64) Segment {
     std::array<BandValues, powers> power{};  // coefficients of tⁿ, t in [0, 1] within the segment
-    // From the values at t = 0, ⅓, ⅔, 1, by Newton's differences.
+    // Sets a band from its values at t = 0, ⅓, ⅔, 1, by Newton's differences.
     void set(std::size_t band, const std::array<double, 4>& v) {
       const double d1 = v[1] - v[0], d2 = v[2] - 2 * v[1] + v[0], d3 = v[3] - 3 * (v[2] - v[1]) - v[0];
       power[0][band] = static_cast<float>(v[0]);

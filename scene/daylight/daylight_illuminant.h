@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The daylight of the CIE (CIE 15, equations 3.2 to 3.5), by its correlated colour temperature.
+// These functions compute the daylight of the CIE (CIE 15, equations 3.2 to 3.5), by its correlated colour
+// temperature.
 #pragma once
 
 namespace vitrail {

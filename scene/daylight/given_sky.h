@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sky that the user gives in words, by place and time.
+// This file reads a sky that the user gives in words, by place and time.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace vitrail {
 
-// "LATITUDE,LONGITUDE,TIME[,KEY=VALUE …]": degrees (north and east positive, or 33.9S and 70.7W) and a moment
-// (local_time). Keys are turbidity=3 (a bare number too), ground, albedo, up and north. ground=0.2 is the
-// share that the ground reflects below the horizon; without it all is black there. albedo=0.2 is what the
-// clear sky's own brightness takes the ground for: without it that of `ground`, or 0.2. up and north take an
-// axis: +x, -y, z. sun=0 and sky=0 leave out the one or the other.
+// Its words are "LATITUDE,LONGITUDE,TIME[,KEY=VALUE …]": degrees (north and east positive, or 33.9S and
+// 70.7W) and a moment (local_time). Keys are turbidity=3 (a bare number too), ground, albedo, up and north.
+// ground=0.2 is the share that the ground reflects below the horizon; without it all is black there.
+// albedo=0.2 is what the clear sky's own brightness takes the ground for: without it that of `ground`, or
+// 0.2. up and north take an axis: +x, -y, z. sun=0 and sky=0 leave out the one or the other.
 //
 // cie=1 … 15 is a sky of the CIE; overcast (1), uniform (5), intermediate (7) and clear (12) are names of
 // some. diffuse=210W,direct=640W, or in lx, are irradiances or illuminances: of the sky on the ground, and of
@@ -31,10 +31,10 @@ struct GivenSky {
   std::string up, north;  // axes of the world; up "": the camera's, north "": −z where y is up, else +y
   SkyLight light;         // but for light_to_world
 };
-// Throws UsageError.
+// Throws UsageError where the words are not such.
 GivenSky parse_sky(const std::string& words);
 
-// +x, -y, z …: the axis of this name. Throws UsageError.
+// Returns the axis of this name: +x, -y, z …. Throws UsageError.
 Vector3d axis_of(const std::string& name);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How bright each patch of the sky is.
+// This class computes how bright each patch of the sky is.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace vitrail {
 
-// The means of skies over patches, by points that are spread over each.
+// It computes the means of skies over patches, by points that are spread over each.
 class PatchSkies {
  public:
   explicit PatchSkies(const SkyPatches& patches);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clear sky of Hošek and Wilkie ("An analytic model for full spectral sky-dome radiance", 2012) and their
-// sun ("Adding a solar-radiance function to the Hošek-Wilkie skylight model", 2013): ten bands from 360 to
-// 720 nm, linear in between, held beyond; linear in turbidity and albedo, as Mitsuba 3 has them. A sky with a
-// distribution of its own (sky_distribution.h) is the CIE's daylight in these bands, under the same sun. All
-// numbers have the same bits on every machine.
+// It is the clear sky of Hošek and Wilkie ("An analytic model for full spectral sky-dome radiance", 2012) and
+// their sun ("Adding a solar-radiance function to the Hošek-Wilkie skylight model", 2013): ten bands from 360
+// to 720 nm, linear in between, held beyond; linear in turbidity and albedo, as Mitsuba 3 has them. A sky
+// with a distribution of its own (sky_distribution.h) is the CIE's daylight in these bands, under the same
+// sun. All numbers have the same bits on every machine.
 #pragma once
 
 #include <array>
@@ -18,15 +18,15 @@ namespace vitrail {
 
 inline constexpr double first_sky_band_nm = 360, sky_band_step_nm = 40;
 
-// The model with all that does not depend on the direction worked out. Directions are unit and of the light's
-// frame, +z up; radiances W·m⁻²·sr⁻¹·nm⁻¹, the light's scales included.
+// It holds the model with all that does not depend on the direction worked out. Directions are unit and of
+// the light's frame, +z up; radiances W·m⁻²·sr⁻¹·nm⁻¹, the light's scales included.
 class SkyModel {
  public:
   explicit SkyModel(const SkyLight& light);
   // Returns the same sky and ground without the sun's disc.
   SkyModel without_sun() const;
 
-  // False: it is night, and all is 0. There is no twilight in the model.
+  // Returns false at night, when all is 0. There is no twilight in the model.
   bool is_day() const { return is_day_; }
   bool has_sky() const { return is_day_ && sky_scale_ > 0; }
   bool has_sun() const { return is_day_ && sun_scale_ > 0; }
@@ -43,18 +43,19 @@ class SkyModel {
   // Returns the radiance of all that is below the horizon.
   SampledSpectrum ground(const SampledWavelengths& wavelengths) const;
   std::array<double, sky_bands> ground() const { return ground_; }
-  // The paper's formula, that the sky's curves are made from. sky() is off by no more than 5·10⁻⁶ of this and
-  // a hundredth of the band's mean.
+  // Returns the paper's formula, from which the sky's curves are made. sky() is off by no more than 5·10⁻⁶ of
+  // this and a hundredth of the band's mean.
   std::array<double, sky_bands> sky_by_formula(Vector3d d) const;
 
-  // ∫ L cos θ dω over what of the sun's disc is above the horizon and before a plane with this unit normal,
-  // W·m⁻²·nm⁻¹. Along to_sun(): what parallel light in its place has.
+  // Returns ∫ L cos θ dω over the part of the sun's disc above the horizon and before a plane with this unit
+  // normal, W·m⁻²·nm⁻¹. Along to_sun() it is the irradiance of parallel light in its place.
   std::array<double, sky_bands> sun_irradiance(Vector3d normal) const;
-  // ∫ L cos θ dω over what of the sky and the ground is before a plane with this unit normal: of one that
-  // faces up within 10⁻⁴.
+  // Returns ∫ L cos θ dω over the part of the sky and the ground before a plane with this unit normal. For a
+  // plane that faces up it is exact within 10⁻⁴.
   std::array<double, sky_bands> sky_irradiance(Vector3d normal = {0, 0, 1}) const;
 
-  // What the sky alone is computed from, as BandCurves and sky() have it: for several directions at a time.
+  // These are the tables that the sky alone is computed from, as BandCurves and sky() have them. They serve
+  // to compute several directions at a time.
   struct Curves {
     BandCurves::Table gradient, scattering;  // of √cos θ; of the place of the angle to the sun
     const float* horizon;                    // [band_lanes]: H of the paper's equation 8
@@ -96,7 +97,7 @@ class SkyModel {
   std::vector<double> sun_;  // [segment][band][power of the elevation]
 };
 
-// The bands' values as a spectrum.
+// Returns the bands' values as a spectrum.
 TabulatedSpectrum spectrum_of_bands(const std::array<double, sky_bands>& values);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hours of measured sun and sky.
+// These functions read hours of measured sun and sky.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,13 @@
 
 namespace vitrail {
 
-// Illuminances that a file has beside the watts.
+// It holds illuminances that a file has beside the watts.
 struct WeatherLux {
   double direct_normal = 0;       // of the sun, across its direction
   double diffuse_horizontal = 0;  // of the sky, on a horizontal plane
 };
 
-// The sun and the sky of an hour, W/m².
+// It holds the sun and the sky of an hour, W/m².
 struct WeatherHour {
   Place place;
   LocalTime middle;                 // of the hour, by the file's clock
@@ -31,7 +31,7 @@ struct WeatherHour {
 // and where its values are missing (9999).
 WeatherHour read_weather_hour(const std::filesystem::path& file, const LocalTime& moment);
 
-// All hours of such a file, in its order.
+// It holds all hours of such a file, in its order.
 struct WeatherYear {
   Place place;
   std::vector<WeatherHour> hours;

@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// Orthonormal frame around a unit normal (Duff et al. 2017, listing 3).
+// It is an orthonormal frame around a unit normal (Duff et al. 2017, listing 3).
 struct Frame {
   Vector3d tangent, bitangent, normal;
   explicit Frame(Vector3d n) : normal(n) {
@@ -22,7 +22,7 @@ struct Frame {
   }
 };
 
-// From the frame's coordinates.
+// Returns the transform from the frame's coordinates to the world's.
 inline Transform transform_of(const Frame& f) {
   const Vector3d &x = f.tangent, &y = f.bitangent, &z = f.normal;
   return {{{{x.x, y.x, z.x, 0}, {x.y, y.y, z.y, 0}, {x.z, y.z, z.z, 0}, {0, 0, 0, 1}}}};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a lamp weakens with the distance as POV-Ray has it (its documentation, "Light Fading").
+// These functions compute how a lamp weakens with the distance as POV-Ray has it (its documentation, "Light
+// Fading").
 #pragma once
 
 #include "scene/geometry/portable_math.h"
@@ -7,10 +8,10 @@
 
 namespace vitrail {
 
-// Whether it weakens at all.
+// Returns whether the lamp weakens at all.
 inline bool weakens(const Fading& fading) { return fading.fade_distance > 0 && fading.fade_power > 0; }
 
-// The irradiance across the direction over the intensity: 2/(1 + (d/fade_distance)^fade_power), or 1.
+// Returns the irradiance across the direction over the intensity: 2/(1 + (d/fade_distance)^fade_power), or 1.
 inline double weakened(const Fading& fading, double distance) {
   if (!weakens(fading)) return 1;
   const double ratio = distance / static_cast<double>(fading.fade_distance);

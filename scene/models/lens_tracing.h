@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays through the surfaces of a lens, in doubles and with nothing but + − · / √: alike on every machine.
+// These functions trace rays through the surfaces of a lens, in doubles and with nothing but + − · / √: alike
+// on every machine.
 #pragma once
 
 #include <optional>
@@ -9,28 +10,29 @@
 
 namespace vitrail {
 
-// From the camera's origin, the middle of the film, to the lens's rear vertex.
+// Returns the distance from the camera's origin, the middle of the film, to the lens's rear vertex.
 double rear_vertex(std::span<const LensSurface> surfaces);
 
-// Where a ray leaves the lens, in camera space.
+// It is a ray that leaves the lens, in camera space.
 struct LensRay {
   Point3d origin;
   Vector3d direction;  // unit
 };
 
-// From a point of the film, towards a point of the plane of the rear vertex. Empty: it is held up, by the rim
-// of a surface, by the stop, or by total reflection.
+// Traces a ray from a point of the film towards a point of the plane of the rear vertex. It returns nothing
+// where the rim of a surface, the stop, or total reflection holds the ray up.
 std::optional<LensRay> through_lens(std::span<const LensSurface> surfaces, Point3d film, Point2d rear);
 
-// cos⁴θ of the ray between them and the axis.
+// Returns cos⁴θ, where θ is the angle between the axis and the ray from `film` to `rear`.
 double cosine_4(Point2d film, Point2d rear, double rear_z);
 
-// Of rings of a film, equally wide, the last of which ends at `film_radius`: a rectangle that rays which come
-// through are in, as RealisticCamera has it. As pbrt does, a little is added on each side.
+// Divides the film into rings, equally wide, the last of which ends at `film_radius`. For each it returns a
+// rectangle that holds the rays that come through, as RealisticCamera has it. As pbrt does, a little is added
+// on each side.
 std::vector<ExitPupil> exit_pupils(std::span<const LensSurface> surfaces, double film_radius);
 
-// Of rays from a point of the film to the rectangle, evenly: the mean of cos⁴θ, 0 of what does not come
-// through.
+// Returns the mean of cos⁴θ over rays spread evenly from a point of the film to the rectangle; rays that do
+// not come through count as 0.
 double mean_weight(std::span<const LensSurface> surfaces, Point2d film, const ScreenWindow& rectangle);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normal maps whose components have factors.
+// These functions handle normal maps whose components have factors.
 #pragma once
 
 #include <array>
@@ -10,14 +10,14 @@
 
 namespace vitrail {
 
-// An image as a normal map: its (rgb·2 − 1) times the factors.
+// It is an image as a normal map: its (rgb·2 − 1) times the factors.
 struct NormalMap {
   Id<Texture> image;
   std::array<float, 3> factors{1, 1, 1};
 };
 
-// A normal map with factors is a ProductTexture of these and an image. They stand as the numbers of a colour,
-// and may be negative: (1, −1, 1) turns a map over, (2, 2, 1) makes it twice as steep.
+// A normal map with factors is a ProductTexture of the factors and an image. The factors stand as the numbers
+// of a colour, and may be negative: (1, −1, 1) turns a map over, (2, 2, 1) makes it twice as steep.
 inline ProductTexture scaled_normal_map(const NormalMap& map) {
   return {Spectrum{RgbUnboundedSpectrum{{}, 1, map.factors}}, map.image};
 }

@@ -9,19 +9,20 @@
 
 namespace vitrail {
 
-// Two values of the map, by their places: (1 − amount)·first + amount·second. The map is not empty.
+// It mixes two values of the map, by their places: (1 − amount)·first + amount·second. The map is not empty.
 struct PatternMix {
   std::size_t first = 0, second = 0;
   double amount = 0;  // 0 … 1
 };
 
-// `p`: of the pattern's space, before tiles and turbulence. `n`: the unit normal towards the ray, in the
-// world, which formulas alone look at.
+// Returns the mix at `p`, which is in the pattern's space, before tiles and turbulence. `n` is the unit
+// normal towards the ray, in the world, which formulas alone look at.
 PatternMix pattern_mix(const PatternTexture& pattern, Point3d p, Vector3d n = {});
-// 0 … 1, by the wave. Of kinds by places: the place over the greatest one of the kind.
+// Returns the pattern's number, 0 … 1, by the wave. For kinds by places it is the place over the greatest one
+// of the kind.
 double pattern_value(const PatternTexture& pattern, Point3d p, Vector3d n = {});
 
-// What makes no sense of it, for a message: "has …"; null: nothing.
+// Returns why the pattern makes no sense, for a message: "has …"; null where it is sound.
 const char* fault_of(const PatternTexture& pattern);
 
 }  // namespace vitrail

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// POV-Ray's noises, with the bumps where POV-Ray has them. Each is the sum of value noise and gradient noise
-// on the lattice of integers (Perlin, "An Image Synthesizer", 1985): a corner has four of 267 numbers, and a
-// hash of 4096 entries says which. It repeats after 4096 units. Formulas and numbers are those that povray
-// 3.7 shows by f_noise_generator(), vturbulence() and its patterns (scripts/generate_povray_noise.py;
-// PovrayNoise in the tests holds them).
+// These are POV-Ray's noises, with the bumps where POV-Ray has them. Each is the sum of value noise and
+// gradient noise on the lattice of integers (Perlin, "An Image Synthesizer", 1985): a corner has four of 267
+// numbers, and a hash of 4096 entries says which. It repeats after 4096 units. Formulas and numbers are those
+// that povray 3.7 shows by f_noise_generator(), vturbulence() and its patterns
+// (scripts/generate_povray_noise.py; PovrayNoise in the tests holds them).
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,8 @@ inline NoiseGenerator noise_generator(double number) {
   return number >= 2 ? NoiseGenerator::corrected : NoiseGenerator::original;
 }
 
-// Musgrave's sums of octaves ("Texturing and Modeling", 1994), of nine numbers as PatternStep::Op has them.
+// They return Musgrave's sums of octaves ("Texturing and Modeling", 1994), of nine numbers as PatternStep::Op
+// has them.
 double ridged_multifractal(const double* numbers);
 double hetero_multifractal(const double* numbers);
 

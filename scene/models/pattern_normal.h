@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a pattern tilts normals, where it is the `displacement` of a material, as POV-Ray's `normal {}`. The
-// laws are those that POV-Ray's pictures of planes show: which direction each point has, by three lamps.
+// A pattern tilts normals where it is the `displacement` of a material, as POV-Ray's `normal {}`. The laws
+// are those that POV-Ray's pictures of planes show: which direction each point has, by three lamps.
 //
-// In the pattern's space, with the unit normal n there, the new normal is along n + v(p). Of most kinds v is
+// In the pattern's space, with the unit normal n there, the new normal is along n + v(p). For most kinds v is
 // −∇h, with h the number of the texture, a height in units of that space, over steps of 0.02; all of the
 // gradient counts, that along n too. `gradient x, 1` of POV-Ray is a height of 2/15 at 1.
 //
@@ -18,19 +18,20 @@
 
 namespace vitrail {
 
-// Of POV-Ray's `normal { PATTERN amount }`, what the map has at 1.
+// It is the height that the map of POV-Ray's `normal { PATTERN amount }` has at 1, for an amount of 1.
 inline constexpr double bump_height = 2.0 / 15;
 inline constexpr double bump_step = 0.02;
 
-// Whether it has a vector of its own.
+// Returns whether the kind has a vector of its own.
 bool pushes_by_itself(PatternTexture::Kind kind);
-// That vector, for an amount of 1. `p`: of the pattern's space, before tiles and turbulence.
+// Returns that vector, for an amount of 1. `p` is in the pattern's space, before tiles and turbulence.
 Vector3d push_of_pattern(const PatternTexture& pattern, Point3d p);
 
-// The new normal, in the world and not of unit length, from n in the world and v in the pattern's space.
+// Returns the new normal, in the world and not of unit length, from n in the world and v in the pattern's
+// space.
 Vector3d tilted_normal(const PatternTexture& pattern, Vector3d n, Vector3d v);
 
-// −∇h by a tetrahedron of points around p: height(q) of points of the pattern's space.
+// Returns −∇h by a tetrahedron of points around p; `height(q)` takes points of the pattern's space.
 template <class Height>
 Vector3d descent_of_height(Point3d p, const Height& height) {
   constexpr double third = 1.0 / 3, along = 0.81649658092772603, across = 0.94280904158206337;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a point of a surface to the (s,t) of a texture.
+// These functions map a point of a surface to the (s,t) of a texture.
 #pragma once
 
 #include "scene/geometry/portable_math.h"
@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// A TextureMapping as it is looked up: transforms inverted.
+// It is a TextureMapping as it is looked up: transforms inverted.
 struct PreparedMapping {
   TextureMapping mapping;
   Transform world_to_texture;  // of all but uv
@@ -42,7 +42,7 @@ inline MappedPoint map_point(const PreparedMapping& prepared, Point2d uv, Point3
   return {down, around};
 }
 
-// Greatest size in (s,t) of a circle of diameter 1 in uv, along s and t. 0 where it is not known.
+// Returns the greatest size in (s,t) of a circle of diameter 1 in uv, along s and t; 0 where it is not known.
 inline MappedPoint stretch(const TextureMapping& mapping) {
   const auto* m = std::get_if<UvMapping>(&mapping);
   if (!m) return {};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normal maps by the axes of their images, as glTF, OBJ, FBX and COLLADA mean them: the first number is along
-// the image to the right, the second one up. A Scene's maps are along ∂p/∂u and N × ∂p/∂u, as pbrt's and
-// Mitsuba's. The two are one but for signs, which change where (u,v) are mirrored: on half of a model that
-// shows one image on both of its sides.
+// These functions turn normal maps given by the axes of their images, as glTF, OBJ, FBX and COLLADA mean
+// them: the first number is along the image to the right, the second one up. A Scene's maps are along ∂p/∂u
+// and N × ∂p/∂u, as pbrt's and Mitsuba's. The two are one but for signs, which change where (u,v) are
+// mirrored: on half of a model that shows one image on both of its sides.
 #pragma once
 
 #include <compare>
@@ -17,7 +17,7 @@
 
 namespace vitrail {
 
-// Which of a normal map's axes run against those of a Scene's maps.
+// It says which of a normal map's axes run against those of a Scene's maps.
 struct AgainstAxes {
   bool first = false, second = false;
   auto operator<=>(const AgainstAxes&) const = default;
@@ -32,7 +32,7 @@ struct UvPart {
 // front is where the triangles run counter-clockwise, in a space that is not mirrored.
 std::vector<UvPart> uv_parts(const TriangleMesh& mesh, const UvMapping& mapping);
 
-// Materials with their normal maps turned over, each made once.
+// It makes materials with their normal maps turned over, each once.
 class TurnedMaterials {
  public:
   explicit TurnedMaterials(Scene& scene) : scene_(scene) {}

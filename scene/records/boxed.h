@@ -8,9 +8,9 @@
 
 namespace vitrail {
 
-// A value that is kept elsewhere, for members that few records have: a std::variant is as large as its
-// largest alternative, in each of a million records. It is copied and compared as the value is. One that was
-// never set is T{}, and takes no memory but its own 8 bytes.
+// It holds a value that is kept elsewhere, for members that few records have: a std::variant is as large as
+// its largest alternative, in each of a million records. It is copied and compared as the value is. One that
+// was never set is T{}, and takes no memory but its own 8 bytes.
 template <class T>
 class Boxed {
  public:
@@ -26,7 +26,7 @@ class Boxed {
   Boxed& operator=(Boxed&&) noexcept = default;
   ~Boxed() = default;
 
-  // The value, which is there: T{} where none was set. To change one that was never set takes memory.
+  // Returns the value, which is there: T{} where none was set. To change one that was never set takes memory.
   const T& operator*() const { return value_ ? *value_ : unset(); }
   T& operator*() {
     if (!value_) value_ = std::make_unique<T>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From where and through what the picture is taken.
+// A camera says from where and through what the picture is taken.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,9 @@
 
 namespace vitrail {
 
-// Camera space: +z is the view, +x raster right, +y up. The raster covers `screen` (in units of the plane z =
-// 1 for the perspective camera, of the world for the orthographic one): x0 at the left edge, y1 at the top.
+// It is a window of camera space: +z is the view, +x raster right, +y up. The raster covers `screen` (in
+// units of the plane z = 1 for the perspective camera, of the world for the orthographic one): x0 at the left
+// edge, y1 at the top.
 struct ScreenWindow {
   double x0 = -1, x1 = 1, y0 = -1, y1 = 1;
   bool operator==(const ScreenWindow&) const = default;
@@ -25,14 +26,14 @@ struct Lens {
   bool operator==(const Lens&) const = default;
 };
 
-// Depths along the axis, in camera space: a ray of the camera begins at `near` and meets no surface from
-// `far` on. What lies around the scene is seen behind it.
+// It gives depths along the axis, in camera space: a ray of the camera begins at `near` and meets no surface
+// from `far` on. The surroundings of the scene are seen behind it.
 struct ClipRange {
   float near = 0, far = std::numeric_limits<float>::infinity();  // these: nothing is cut away
   bool operator==(const ClipRange&) const = default;
 };
 
-// A pinhole, or a thin lens.
+// It is a pinhole, or a thin lens.
 struct PerspectiveCamera {
   Transform camera_to_world;
   ScreenWindow screen;  // tan of the half angles: ±tan(fov/2) on the axis that fov measures
@@ -41,7 +42,7 @@ struct PerspectiveCamera {
   bool operator==(const PerspectiveCamera&) const = default;
 };
 
-// Sees along parallel rays.
+// It sees along parallel rays.
 struct OrthographicCamera {
   Transform camera_to_world;
   ScreenWindow screen;
@@ -50,8 +51,8 @@ struct OrthographicCamera {
   bool operator==(const OrthographicCamera&) const = default;
 };
 
-// The whole sphere of directions around the camera, +y up: by latitude and longitude, or the equal-area
-// octahedral map.
+// It sees the whole sphere of directions around the camera, +y up: by latitude and longitude, or the
+// equal-area octahedral map.
 struct SphericalCamera {
   enum class Projection : std::uint8_t { equal_area, latitude_longitude };
   Transform camera_to_world;
@@ -59,23 +60,23 @@ struct SphericalCamera {
   bool operator==(const SphericalCamera&) const = default;
 };
 
-// Irradiance meters instead of a picture. Column x of the raster is sensor x. Every row repeats it with
-// samples of its own, so that the rows give the error of their mean. A sensor is a white diffuse surface that
-// is seen: its radiance times π, the film's imaging ratio, is the irradiance.
+// It is one of the irradiance meters that take the place of a picture. Column x of the raster is sensor x.
+// Every row repeats it with samples of its own, so that the rows give the error of their mean. A sensor is a
+// white diffuse surface that is seen: its radiance times π, the film's imaging ratio, is the irradiance.
 struct Sensor {
   Point3d position;          // in camera space
   Vector3d normal{0, 0, 1};  // unit
   bool operator==(const Sensor&) const = default;
 };
-// Measures irradiance at points.
+// It measures irradiance at points.
 struct SensorCamera {
   Transform camera_to_world;
   std::vector<Sensor> sensors;
   bool operator==(const SensorCamera&) const = default;
 };
 
-// A lens of many surfaces before a film (Kolb, Mitchell, Hanrahan 1995), as pbrt's. The film is in the plane
-// z = 0, its middle at the origin.
+// It is one surface of a lens of many surfaces before a film (Kolb, Mitchell, Hanrahan 1995), as pbrt's. The
+// film is in the plane z = 0, its middle at the origin.
 struct LensSurface {
   double radius = 0;     // of curvature; above 0: its centre is on the film's side. 0: the stop, a plane
   double thickness = 0;  // to the next surface towards the film; of the last, to the film
@@ -83,14 +84,15 @@ struct LensSurface {
   double aperture_radius = 0;
   bool operator==(const LensSurface&) const = default;
 };
-// Of a ring of the film: the part of the plane at the lens's last vertex that its rays aim at, and the weight
-// of each ray beside cos⁴θ. The rectangle is that of a point on the x axis, and turns with the point.
+// It belongs to a ring of the film: the part of the plane at the lens's last vertex that the ring's rays aim
+// at, and the weight of each ray beside cos⁴θ. The rectangle is that of a point on the x axis, and turns with
+// the point.
 struct ExitPupil {
   ScreenWindow rectangle{0, 0, 0, 0};
   double weight = 0;
   bool operator==(const ExitPupil&) const = default;
 };
-// A lens of several surfaces, as pbrt's.
+// It is a lens of several surfaces, as pbrt's.
 struct RealisticCamera {
   Transform camera_to_world;
   double film_diagonal = 0;
@@ -99,9 +101,9 @@ struct RealisticCamera {
   bool operator==(const RealisticCamera&) const = default;
 };
 
-// More around the camera than a plane shows, as POV-Ray's cameras do. The raster is x from −1 at its left to
-// 1 and y from −1 at its bottom to 1; X = x·across and Y = y·above are degrees but where it says so.
-// Directions:
+// It sees more around the camera than a plane shows, as POV-Ray's cameras do. The raster is x from −1 at its
+// left to 1 and y from −1 at its bottom to 1. X = x·across and Y = y·above are degrees but where it says so.
+// Its directions follow.
 struct WideCamera {
   enum class Projection : std::uint8_t {
     latitude_longitude,  // longitude X, latitude Y
@@ -122,7 +124,7 @@ struct WideCamera {
 using Camera = std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera, SensorCamera,
                             RealisticCamera, WideCamera>;
 
-// Other cameras have no planes.
+// Returns the camera's range; other cameras have no planes.
 inline ClipRange clip_of(const Camera& camera) {
   if (const auto* c = std::get_if<PerspectiveCamera>(&camera)) return c->clip;
   if (const auto* c = std::get_if<OrthographicCamera>(&camera)) return c->clip;

@@ -11,8 +11,9 @@ namespace vitrail {
 
 bool is_of_curves(const Scene& scene, const Shape& shape);
 
-// A ray meets both walls of a tube, where it meets the curve once. So the inner wall is nothing where the
-// surface can be so (TwoSidedMaterial): what is fibre is so by itself, what transmits is not.
+// It says how the inner wall of a tube differs from the outer one. A ray meets both walls of a tube, where it
+// meets the curve once. So the inner wall is nothing where the surface can be so (TwoSidedMaterial): a fibre
+// is so by itself, a material that transmits is not.
 enum class InnerWall : std::uint8_t { as_the_outer, nothing, nothing_by_itself };
 InnerWall inner_wall(const MaterialTraits& material);
 
@@ -20,7 +21,7 @@ InnerWall inner_wall(const MaterialTraits& material);
 // scatter less than it: light that is scattered within is lost.
 float opacity_of_wall(float opacity_of_curve);
 
-// By prototype: whether it holds curves, itself or in prototypes that it uses.
+// Returns for each prototype whether it holds curves, itself or in prototypes that it uses.
 std::vector<bool> prototypes_with_curves(const Scene& scene);
 
 }  // namespace vitrail

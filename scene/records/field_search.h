@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Going through the fields of records in search of something.
+// It goes through the fields of records in search of something.
 #pragma once
 
 #include <array>
@@ -19,27 +19,27 @@ namespace vitrail {
 // compile.
 template <class Derived>
 struct FieldSearch {
-  // In what it holds, where it holds something.
+  // Searches the value that an optional holds, where it holds one.
   template <class T>
   void in(const std::optional<T>& field) {
     if (field) self().in(*field);
   }
-  // In the alternative that it holds.
+  // Searches the alternative that a variant holds.
   template <class... T>
   void in(const std::variant<T...>& field) {
     std::visit([this](const auto& alternative) { self().in(alternative); }, field);
   }
-  // In each of them.
+  // Searches each item.
   template <class T>
   void in(const std::vector<T>& list) {
     for (const T& item : list) self().in(item);
   }
-  // In its fields.
+  // Searches the record's fields.
   template <HasFields Record>
   void in(const Record& record) {
     visit_fields(record, [this](const auto&... fields) { (self().in(fields), ...); });
   }
-  // What no texture can be in.
+  // These fields can hold no texture: they are passed over.
   template <class T>
   requires(!std::is_class_v<T>) void in(const T&) {}
   template <class T>

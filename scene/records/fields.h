@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fields of records, listed once for whoever goes through them: what searches textures and (u,v), what
-// writes bundles and reads them, checks them, or counts what they need. `visit_fields(record, f)` calls f
+// It lists the fields of records once for all code that goes through them: to search textures and (u,v), to
+// write bundles and read them, to check fields, or to count what they need. `visit_fields(record, f)` calls f
 // once with all fields, in the order that bundles have. Names and origins are not among them.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace vitrail {
 
-// T, or const T.
+// It is T, or const T.
 template <class A, class T>
 concept Is = std::same_as<std::remove_const_t<A>, T>;
 template <class A, class... T>
@@ -58,7 +58,7 @@ auto visit_fields(Is<PatternFractal> auto& p, auto&& f) {
   return f(p.kind, p.is_julia, p.seed, p.exponent, p.iterations, p.outside, p.inside, p.outside_factor,
            p.inside_factor);
 }
-// Without what belongs to a formula, which refers to no other records, and without `by_uv`.
+// It leaves out what belongs to a formula, which refers to no other records, and `by_uv`.
 auto visit_fields(Is<PatternTexture> auto& t, auto&& f) {
   return f(t.kind, t.texture_to_world, t.repeat, t.turbulence, t.noise, t.frequency, t.phase, t.wave,
            t.exponent, t.direction, t.brick, t.crackle, t.arms, t.agate_turb, t.iterations, t.map);
@@ -163,7 +163,7 @@ auto visit_fields(Is<SkyLight> auto& l, auto&& f) {
            l.limb_darkening, *l.distribution, l.color_temperature_k, l.ground);
 }
 
-// A record whose fields are listed here.
+// It is a record whose fields are listed here.
 template <class T>
 concept HasFields = requires(T& record) {
   visit_fields(record, [](auto&...) {});

@@ -3,7 +3,7 @@
 
 namespace vitrail {
 
-// Of a picture, of which a film may hold a part: pixels a side.
+// It is the most pixels that a side of a picture may have; a film may hold a part of the picture.
 inline constexpr int max_film_extent = 1 << 20;
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a film keeps of the first surface that each sample sees, beside its colour: "arbitrary output
+// A film keeps layers of the first surface that each sample sees, beside its colour: "arbitrary output
 // variables", for denoisers and compositing.
 #pragma once
 
@@ -24,24 +24,24 @@ enum class Layer : std::uint8_t {
   primitive,
   alpha,   // how much of a pixel something covers; what is infinitely far covers nothing
   motion,  // the way of the surface over the picture while the shutter is open, in pixels
-  // Cryptomatte: masks of shapes and of materials, by their names.
+  // These are Cryptomatte's: masks of shapes and of materials, by their names.
   crypto_object,
   crypto_material
 };
 inline constexpr std::size_t layer_count = 13;
 
-// What there is to know of a layer.
+// It says all that is known of a layer.
 struct LayerKind {
   const char* name;  // of options and of Mitsuba's integrator `aov`, where that has it
-  // Of the channels of a picture; those of pbrt's film `gbuffer`, where that has them. Of a matte: what its
-  // channels begin with.
+  // They are the names of the channels of a picture; those of pbrt's film `gbuffer`, where that has them. A
+  // matte has the beginning of its channels' names.
   std::array<const char*, 3> channels;
   std::size_t sums;  // planes of a film that it adds to; 0: an id, which is not added up, or a matte
-  // Of what its values are: of lengths the quantum of a film's sums follows from the scene.
+  // They say what the values are: for lengths the quantum of a film's sums follows from the scene.
   bool is_length, has_frame;
   bool is_matte = false;
 
-  // A number of the surface, which is not added up.
+  // Returns whether the layer is a number of the surface, which is not added up.
   constexpr bool is_id() const { return sums == 0 && !is_matte; }
 };
 inline constexpr std::array<LayerKind, layer_count> layer_kinds{
@@ -59,15 +59,15 @@ inline constexpr std::array<LayerKind, layer_count> layer_kinds{
      {"crypto_object", {"CryptoObject"}, 0, false, false, true},
      {"crypto_material", {"CryptoMaterial"}, 0, false, false, true}}};
 
-// Its row of layer_kinds.
+// Returns the layer's row of layer_kinds.
 constexpr const LayerKind& kind_of(Layer layer) { return layer_kinds[static_cast<std::size_t>(layer)]; }
 
-// A set of layers.
+// It is a set of layers.
 struct FilmLayers {
   std::uint32_t bits = 0;        // 1 << Layer
   bool in_camera_space = false;  // what has a frame; else the world's
 
-  // Whether there is one; whether it is among them; adds it.
+  // They return whether there is a layer, and whether `layer` is in the set; they add and remove one.
   constexpr bool any() const { return bits != 0; }
   constexpr bool has(Layer layer) const { return bits >> static_cast<unsigned>(layer) & 1; }
   constexpr void add(Layer layer) { bits |= 1u << static_cast<unsigned>(layer); }
@@ -76,12 +76,12 @@ struct FilmLayers {
 };
 inline constexpr std::uint32_t all_layers = (1u << layer_count) - 1;
 
-// Whether shapes that differ in nothing but their names stay apart.
+// Returns whether shapes that differ in nothing but their names stay apart.
 constexpr bool tells_shapes(const FilmLayers& layers) {
   return layers.has(Layer::shape) || layers.has(Layer::crypto_object);
 }
 
-// How many planes the layers below `end` have: for sums, for ids and for mattes.
+// They return how many planes the layers below `end` have: for sums, for ids and for mattes.
 constexpr std::size_t sum_planes(const FilmLayers& layers, std::size_t end = layer_count) {
   std::size_t planes = 0;
   for (std::size_t i = 0; i < end; ++i)
@@ -101,10 +101,10 @@ constexpr std::size_t matte_planes(const FilmLayers& layers, std::size_t end = l
   return planes;
 }
 
-// By its name, also as `NAME:KIND` of Mitsuba, whose NAME says nothing here; "normal" is the shading normal,
-// "cryptomatte" both of its layers. False for others.
+// Adds a layer by its name, also as `NAME:KIND` of Mitsuba, whose NAME says nothing here. "normal" is the
+// shading normal, "cryptomatte" both of its layers. Returns false for other names.
 bool add_named(FilmLayers& layers, std::string_view name);
-// Names with commas between them.
+// Returns the names with commas between them.
 std::string names_of(const FilmLayers& layers);
 
 }  // namespace vitrail

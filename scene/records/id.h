@@ -5,7 +5,7 @@
 
 namespace vitrail {
 
-// Index of a T in the vector of the Scene that holds all Ts.
+// It is the index of a T in the vector of the Scene that holds all Ts.
 template <class T>
 struct Id {
   std::uint32_t value = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people call the alternatives of the scene's variants.
+// These functions name the alternatives of the scene's variants for people.
 #pragma once
 
 #include "scene/records/camera.h"
@@ -10,7 +10,7 @@
 
 namespace vitrail {
 
-// What `inspect` calls it: "tabulated", "diffuse", "point" …
+// Returns the name that `inspect` shows: "tabulated", "diffuse", "point" …
 const char* kind_of(const Spectrum& spectrum);
 const char* kind_of(const TextureModel& model);
 const char* kind_of(const MaterialModel& model);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What follows from the kind of a light alone, said once. Every kind has its row in light_traits.cpp: without
-// one, a new kind does not compile.
+// These traits follow from the kind of a light alone, and are said once. Every kind has its row in
+// light_traits.cpp: without one, a new kind does not compile.
 #pragma once
 
 #include "scene/records/light.h"

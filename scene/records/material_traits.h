@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What follows from a material's record alone, said once for readers, writers, the partitioner and the
-// tracer. Every kind of material has its row in material_traits.cpp: without one, a new kind does not
+// These traits follow from a material's record alone, and are said once for readers, writers, the partitioner
+// and the tracer. Every kind of material has its row in material_traits.cpp: without one, a new kind does not
 // compile.
 #pragma once
 
@@ -11,7 +11,8 @@
 
 namespace vitrail {
 
-// What it turns light by: mirrors and smooth interfaces, and what spreads it. Going straight on is neither.
+// It says how a material turns light: `smooth` by mirrors and smooth interfaces, `spread` by all that spreads
+// it. Light that goes straight on is neither.
 struct Lobes {
   bool smooth = false, spread = false;
 };
@@ -30,31 +31,32 @@ struct MaterialTraits {
   Lobes lobes;
 };
 
-// Whether a model, without the materials that it refers to, has a direction along the surface: as its traits
-// say, but for tables that turn out to have none. `tables`: those of its scene.
+// Returns whether a model, without the materials that it refers to, has a direction along the surface: as its
+// traits say, but for tables that turn out to have none. `tables` are those of its scene.
 bool has_direction(const MaterialModel& model, const std::vector<ScatteringTable>& tables);
 
-// Of a model without the materials that it refers to.
+// Returns the traits of a model without the materials that it refers to.
 MaterialTraits traits_of(const MaterialModel& model);
-// With them: `others` are those of the materials before it.
+// Returns the traits with those materials: `others` are the traits of the materials before it.
 MaterialTraits traits_of(const Material& material, const std::vector<MaterialTraits>& others);
-// Of each material of a scene or bundle.
+// Returns the traits of each material of a scene or bundle.
 std::vector<MaterialTraits> traits_of(const std::vector<Material>& materials);
 
-// The materials that a material refers to.
+// Returns the materials that a material refers to.
 std::vector<Id<Material>> parts_of(const MaterialModel& model);
 
-// Whether it scatters as the materials do that it refers to. Bumps are theirs.
+// Returns whether it scatters as the materials do that it refers to. Bumps are theirs.
 inline bool is_made_of_others(const Material& material) { return !parts_of(material.model).empty(); }
 
-// Whether its surface looks different from its two sides; `others` says it of the materials before it.
+// has_sides returns whether its surface looks different from its two sides; `others` says it of the materials
+// before it. with_sides returns it for each material.
 bool has_sides(const Material& material, const MaterialTraits& traits, const std::vector<bool>& others);
 std::vector<bool> with_sides(const std::vector<Material>& materials);
 
-// Whether it blends what turns light by a mirror with what spreads it.
+// Returns whether it blends a material that turns light by a mirror with one that spreads it.
 bool blends_mirror_with_spread(const Material& material, const std::vector<MaterialTraits>& others);
 
-// Whether microfacets are none: a smooth surface.
+// Returns whether there are no microfacets: a smooth surface.
 bool is_smooth(const Roughness& roughness);
 
 }  // namespace vitrail

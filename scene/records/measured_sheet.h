@@ -5,8 +5,8 @@
 
 namespace vitrail {
 
-// Fractions of light that a sheet reflects and lets straight through, by wavelength and by the cosine of the
-// angle of incidence: [wavelength][cosine], bilinear in between, held beyond the ends
+// It holds the fractions of light that a sheet reflects and lets straight through, by wavelength and by the
+// cosine of the angle of incidence: [wavelength][cosine], bilinear in between, held beyond the ends
 // (docs/why/measured-glass.md).
 struct MeasuredSheet {
   std::vector<float> wavelengths_nm, cosines;     // ascending, at least one each

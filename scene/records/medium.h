@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fills space between surfaces.
+// A medium fills space between surfaces.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@
 
 namespace vitrail {
 
-// The values of a grid outside of its cells: those of the other end, those of the edge (Mitsuba), or 0
-// (pbrt). Of the last, values fall to half from the centres of the outermost cells to the edge.
+// It says which values a grid has outside of its cells: those of the other end, those of the edge (Mitsuba),
+// or 0 (pbrt). With the last, values fall to half from the centres of the outermost cells to the edge.
 enum class GridEdge : std::uint8_t { repeated, held, zero };
 
-// Values on a regular grid over a box, linear in between. Given here or in a file (Mitsuba's .vol, NanoVDB).
-// Of three channels: linear sRGB. Between cells Mitsuba averages hues and brightnesses, pbrt spectra; so do
-// grids of its edges.
+// It holds values on a regular grid over a box, linear in between, given here or in a file (Mitsuba's .vol,
+// NanoVDB). Three channels are linear sRGB. Between cells Mitsuba averages hues and brightnesses, pbrt
+// spectra; so do grids of its edges.
 struct Grid {
   std::string filename;  // "" where `values` holds them
   std::string field;     // of a NanoVDB file: "density"
@@ -34,31 +34,31 @@ struct Grid {
 
 using VolumeParameter = std::variant<Spectrum, Grid>;
 
-// Coefficients per unit of length, in the form that the file gives.
+// It holds coefficients per unit of length, in the form that the file gives.
 struct AbsorptionScattering {
   VolumeParameter sigma_a = ConstantSpectrum{1}, sigma_s = ConstantSpectrum{1};
   bool operator==(const AbsorptionScattering&) const = default;
 };
-// σ_t and the share of it that scatters.
+// It holds σ_t and the share of it that scatters.
 struct ExtinctionAlbedo {
   VolumeParameter sigma_t = ConstantSpectrum{1}, albedo = ConstantSpectrum{0.75f};
   bool operator==(const ExtinctionAlbedo&) const = default;
 };
-// By a name of pbrt's list of measured media: "Skin1".
+// It is a name of pbrt's list of measured media: "Skin1".
 struct NamedMedium {
   std::string name;
   bool operator==(const NamedMedium&) const = default;
 };
 
-// pbrt's procedural cloud.
+// It is pbrt's procedural cloud.
 struct CloudDensity {
   Bounds3d bounds{{0, 0, 0}, {1, 1, 1}};
   float density = 1, wispiness = 1, frequency = 5;
   bool operator==(const CloudDensity&) const = default;
 };
 
-// POV-Ray's fade_distance, fade_power and fade_color: of light over a distance d that ends where the medium
-// does it leaves color + (1 − color)/(1 + (d/distance)^power), and from a power of 1000 on
+// It holds POV-Ray's fade_distance, fade_power and fade_color. When light ends a distance d in the medium
+// where the medium does, it leaves color + (1 − color)/(1 + (d/distance)^power), and from a power of 1000 on
 // e^(−(1 − color)·d/distance). Where something within is met first, nothing is lost.
 struct InteriorFade {
   float distance = 1, power = 2;
@@ -66,7 +66,7 @@ struct InteriorFade {
   bool operator==(const InteriorFade&) const = default;
 };
 
-// What fills a space: it absorbs, scatters and shines.
+// It fills a space: it absorbs, scatters and shines.
 struct Medium {
   std::string name;
   std::variant<AbsorptionScattering, ExtinctionAlbedo, NamedMedium> coefficients;
@@ -78,7 +78,8 @@ struct Medium {
   float emission_factor = 1;
   float temperature_scale = 1, temperature_offset = 0;
   float g = 0;  // Henyey and Greenstein; 0 is isotropic
-  // POV-Ray's atmosphere: it weakens what is seen, and not what lamps with a Fading send straight to a point.
+  // It is POV-Ray's atmosphere: it weakens light that is seen, and not light that lamps with a Fading send
+  // straight to a point.
   bool veils = false;
   std::optional<InteriorFade>
       fade;  // in place of all above; the coefficients are its nearest, for other formats

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How deep the things of a scene may lie within each other. Readers refuse more with its place, so that
-// whoever walks what was read may do so by recursion.
+// These limits say how deep the things of a scene may lie within each other. Readers refuse more with its
+// place, so that code that walks what was read may do so by recursion.
 #pragma once
 
 #include <cstdint>
@@ -9,26 +9,27 @@
 
 namespace vitrail {
 
-// Textures in textures, materials in materials, objects in objects, elements of XML in elements.
+// It limits textures in textures, materials in materials, objects in objects, elements of XML in elements.
 inline constexpr int most_nested = 128;
-// Files that include files.
+// It limits files that include files.
 inline constexpr std::size_t most_included = 64;
-// Blocks of pbrt, which nobody walks by recursion.
+// It limits blocks of pbrt, which nobody walks by recursion.
 inline constexpr std::size_t most_open_blocks = 100'000;
-// Textures that one lookup leads to, and materials that one is made of: what is shared counts on every way.
+// It limits textures that one lookup leads to, and materials that one is made of: a shared one counts on
+// every way.
 inline constexpr std::uint64_t most_lookups = 1 << 15;
-// A bundle's textures: baking a light adds D65 at the end of a chain.
+// They are for a bundle's textures: baking a light adds D65 at the end of a chain.
 inline constexpr int most_nested_baked = 2 * most_nested;
 inline constexpr std::uint64_t most_lookups_baked = 2 * most_lookups;
 
-// What lies in one texture or material; `levels` and `lookups` count itself.
+// It counts what lies in one texture or material; `levels` and `lookups` count itself.
 struct Nesting {
   int levels = 1;
   std::uint64_t lookups = 1;  // 2⁶³ stands for more, too
   void add(const Nesting& part);
 };
 
-// Of each, in the order of the scene. Each record is looked at once.
+// Returns the nesting of each, in the order of the scene. Each record is looked at once.
 std::vector<Nesting> nesting_of(const std::vector<Texture>& textures);
 std::vector<Nesting> nesting_of(const std::vector<Material>& materials);
 

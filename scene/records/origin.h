@@ -5,8 +5,8 @@
 
 namespace vitrail {
 
-// Where in the input a record comes from; `file` is an index into Scene::files. Line 0: nowhere in
-// particular. Records that differ in nothing else are equal.
+// It says where in the input a record comes from; `file` is an index into Scene::files. Line 0 means nowhere
+// in particular. Records that differ in nothing else are equal.
 struct Origin {
   std::uint32_t file = 0, line = 0, column = 0;
   bool operator==(const Origin&) const { return true; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A parameter that is one value, or looked up in a texture where it is used.
+// A parameter is one value, or is looked up in a texture where it is used.
 #pragma once
 
 #include <variant>

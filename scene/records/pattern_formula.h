@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formulas as patterns: a program of a stack machine, without jumps.
+// Formulas are patterns: a program of a stack machine, without jumps.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 
 namespace vitrail {
 
-// Takes operands from the top of a stack of numbers, and puts one number there. a, b, c … are the operands,
-// the topmost last. Truth is 1 or 0. Where a function has no value, it is 0 or not finite; a formula that is
-// not finite counts as 0.
+// It takes operands from the top of a stack of numbers, and puts one number there. a, b, c … are the
+// operands, the topmost last. Truth is 1 or 0. Where a function has no value, it is 0 or not finite; a
+// formula that is not finite counts as 0.
 struct PatternStep {
   enum class Op : std::uint8_t {
     constant,  // `value`
@@ -72,19 +72,19 @@ struct PatternStep {
   bool operator==(const PatternStep&) const = default;
 };
 
-// At the beginning the stack holds the point, x y z, and the unit normal towards the ray, in the world.
+// The stack holds at the beginning the point, x y z, and the unit normal towards the ray, in the world.
 inline constexpr std::size_t formula_inputs = 6;
 inline constexpr std::size_t most_formula_operands = 192;  // on the stack
 inline constexpr std::size_t most_formula_steps = 4096;
 
-// `julia`, `magnet`, and `mandel` with an exponent or colours of its own, of z from p = x + iy on.
+// It is `julia`, `magnet`, and `mandel` with an exponent or colours of its own, of z from p = x + iy on.
 struct PatternFractal {
   enum class Kind : std::uint8_t {
     power,    // z ↦ z^exponent + c from z = p; outside where |z| > 2
     magnet1,  // z ↦ ((z² + c − 1)/(2z + c − 2))²; outside where |z| > 100, or |z − 1| < 1/100
     magnet2,  // z ↦ ((z³ + 3(c−1)z + (c−1)(c−2))/(3z² + 3(c−2)z + (c−1)(c−2) + 1))²
   };
-  // The number of a point outside, or inside.
+  // It gives the number of a point outside, or inside.
   enum class Color : std::uint8_t {
     constant,    // the factor
     steps,       // outside: steps over `iterations`; inside: the least |z|, times the factor

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// POV-Ray's patterns (its documentation, "Patterns" and "Pattern modifiers"), under their names there: a
-// number at every point of space, and a map from numbers to values.
+// These are POV-Ray's patterns (its documentation, "Patterns" and "Pattern modifiers"), under their names
+// there: a number at every point of space, and a map from numbers to values.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace vitrail {
 
-// `turbulence <amount>`, `octaves`, `lambda`, `omega`: the point is moved by amount · Σ omegaⁱ·n(lambdaⁱ·p)
-// of a vector n of noises.
+// It is `turbulence <amount>`, `octaves`, `lambda`, `omega`: the point is moved by amount · Σ
+// omegaⁱ·n(lambdaⁱ·p) of a vector n of noises.
 struct PatternTurbulence {
   Vector3d amount{0, 0, 0};
   int octaves = 6;  // 1 … 10
@@ -21,17 +21,17 @@ struct PatternTurbulence {
   bool operator==(const PatternTurbulence&) const = default;
 };
 
-// `brick_size`, `mortar`: bricks repeat by their size from 0 on; so much of the end of each is mortar.
+// It is `brick_size`, `mortar`: bricks repeat by their size from 0 on; so much of the end of each is mortar.
 struct PatternBrick {
   Vector3d size{8, 3, 4.5};
   float mortar = 0.5f;
   bool operator==(const PatternBrick&) const = default;
 };
 
-// `crackle` with `form`, `metric`, `offset`, `solid`: d1, d2, d3 are the distances (by Minkowski's metric of
-// that exponent, the offset being how far they all are along a fourth axis) to the nearest points of a random
-// set, one a unit cell; the value is form.x·d1 + form.y·d2 + form.z·d3 in [0, 1], or where solid a random
-// number of the nearest point.
+// It is `crackle` with `form`, `metric`, `offset`, `solid`. d1, d2, d3 are the distances to the nearest
+// points of a random set, one a unit cell (by Minkowski's metric of that exponent, the offset being how far
+// they all are along a fourth axis). The value is form.x·d1 + form.y·d2 + form.z·d3 in [0, 1], or where solid
+// a random number of the nearest point.
 struct PatternCrackle {
   Vector3d form{-1, 1, 0};
   float metric = 2;  // 1: Manhattan, 2: Euclid
@@ -40,22 +40,22 @@ struct PatternCrackle {
   bool operator==(const PatternCrackle&) const = default;
 };
 
-// An entry of `color_map`, `pigment_map` …: `[at value]`.
+// It is an entry of `color_map`, `pigment_map` …: `[at value]`.
 struct PatternStop {
   float at = 0;  // 0 … 1, not below the one before
   SpectrumParameter value;
   bool operator==(const PatternStop&) const = default;
 };
 
-// `noise_generator`: 1 cuts off what leaves 0 … 1, 2 is scaled so that it seldom does. POV-Ray's third has
-// another lattice; it is the second here.
+// It is `noise_generator`: 1 cuts off what leaves 0 … 1, 2 is scaled so that it seldom does. POV-Ray's third
+// has another lattice; it is the second here.
 enum class NoiseGenerator : std::uint8_t { original, corrected };
 
-// The value v of a pattern at a point p of its space. Between the stops of the map values are mixed linearly;
-// the first and the last hold beyond.
+// It gives the value v of a pattern at a point p of its space. Between the stops of the map values are mixed
+// linearly; the first and the last hold beyond.
 struct PatternTexture {
   enum class Kind : std::uint8_t {
-    // A value of the map by its place in it: `at` is not looked at, nor the wave.
+    // These choose a value of the map by its place in it: `at` is not looked at, nor the wave.
     checker,  // unit cubes, in turn the first and the second; the first has (0,0,0) … (1,1,1)
     hexagon,  // of side 1 in x and z, three values
     brick,    // mortar, bricks
@@ -85,7 +85,7 @@ struct PatternTexture {
     mandel,    // steps of z ↦ z² + x + iy, from x + iy, after which |z| ≤ 2, over `iterations`
     formula,   // what is left on the stack by `steps`
   };
-  // `ramp_wave` … of frequency · v + phase, of which what is beyond 0 … 1 repeats.
+  // It is `ramp_wave` …, a function of t, the part of frequency · v + phase beyond whole numbers.
   enum class Wave : std::uint8_t {
     ramp,      // t
     triangle,  // 0 at 0 and 1, 1 at ½; POV-Ray's default for marble and wood
@@ -95,9 +95,9 @@ struct PatternTexture {
     poly,      // t^exponent
   };
   Kind kind = Kind::checker;
-  // The point that the pattern is looked up at is that of the world under the inverse of this, whatever
-  // instance has it; then in the first tile, then moved by turbulence. By (u,v) it is (u, v, 0) in place of
-  // that of the world. Normals are tilted by the world's alone.
+  // The pattern is looked up at the point of the world under the inverse of this, whatever instance has it;
+  // then in the first tile, then moved by turbulence. By (u,v) it is (u, v, 0) in place of that of the world.
+  // Normals are tilted by the world's alone.
   Transform texture_to_world;
   bool by_uv = false;
   Vector3d repeat{0, 0, 0};  // `warp { repeat }`: tiles from 0 to this along an axis; 0: none along it
@@ -113,14 +113,14 @@ struct PatternTexture {
   float agate_turb = 1;          // of agate
   int iterations = 100;          // of mandel, at most 10000
   std::vector<PatternStop> map;  // empty: the number itself, as grey
-  // Of a formula. Its patterns are no formulas, and have constants in their maps.
+  // These are for a formula. Its patterns are no formulas, and have constants in their maps.
   std::vector<PatternStep> steps;
   std::vector<PatternFractal> fractals;
   std::vector<PatternTexture> patterns;
   bool operator==(const PatternTexture&) const = default;
 };
 
-// Whether values of the map are chosen by their places in it.
+// Returns whether values of the map are chosen by their places in it.
 inline bool is_of_places(PatternTexture::Kind kind) { return kind <= PatternTexture::Kind::brick; }
 
 }  // namespace vitrail

@@ -5,7 +5,8 @@
 
 namespace vitrail {
 
-// Of pixel (x, y) ≥ 0 in rows of `width`. A picture may have 2³² − 1 pixels, more than an int counts.
+// Returns the place of pixel (x, y) ≥ 0 in rows of `width`. A picture may have 2³² − 1 pixels, more than an
+// int counts.
 constexpr std::size_t pixel_place(int x, int y, int width) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
 }

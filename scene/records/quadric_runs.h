@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// Adds shapes to a scene as an importer finds them. Many in a row of one quadric that differ in where they
+// It adds shapes to a scene as an importer finds them. Many in a row of one quadric that differ in where they
 // stand alone become one shape of many places, and so do curves. Lights, names and what mirrors stay shapes
 // of their own.
 class QuadricRuns {
@@ -16,7 +16,7 @@ class QuadricRuns {
   explicit QuadricRuns(std::uint64_t memory_bytes) : memory_bytes_(memory_bytes) {}
 
   void add(Scene& scene, Shape shape);
-  // The curve that was added last, to `shapes`, which may be an object's.
+  // Adds the curve whose mesh was added last to `shapes`, which may be an object's.
   void add_curve(Scene& scene, std::vector<Shape>& shapes, Shape shape);
 
  private:

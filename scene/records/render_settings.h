@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file asks of a renderer.
+// These settings are what a file asks of a renderer.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace vitrail {
 
 inline constexpr int unlimited_depth = 1 << 20;
 
-// Photon mapping. Empty optionals: as the extent of the scene and the size of the picture suggest.
+// It sets photon mapping. Empty optionals are chosen by the extent of the scene and the size of the picture.
 struct PhotonSettings {
   std::optional<std::uint64_t> photons;  // an iteration, which is a sample of every pixel
   std::optional<double> first_radius;    // in which they are gathered, scene units
@@ -19,15 +19,15 @@ struct PhotonSettings {
   bool operator==(const PhotonSettings&) const = default;
 };
 
-// What the scene file asks for; the command line overrides it. Depth counts scattering events as pbrt does: 0
-// shows emitters only, 1 adds direct light.
+// It holds what the scene file asks for; the command line overrides it. Depth counts scattering events as
+// pbrt does: 0 shows emitters only, 1 adds direct light.
 struct RenderSettings {
   int samples_per_pixel = 16;
   int max_depth = 5;
   bool direct_only = false;  // direct light at the first diffuse hit; specular chains go on
-  // Whether going straight through a MaskMaterial or a thin sheet is a scattering event, too. Mitsuba's
-  // volumetric integrators do not count it. (Going through where a shape's opacity says that nothing is there
-  // never is.)
+  // It says whether going straight through a MaskMaterial or a thin sheet is a scattering event, too.
+  // Mitsuba's volumetric integrators do not count it. (Passing where a shape's opacity says that nothing is
+  // there is never an event.)
   bool straight_counts = true;
   bool hides_emitters = false;  // lamps and surroundings, where the camera sees them directly
   RgbMethod rgb = RgbMethod::jakob_hanika;

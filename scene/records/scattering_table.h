@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a surface scatters light, by tables as their files have them (docs/why/scattering-tables.md).
+// These tables say how a surface scatters light, as their files have them (docs/why/scattering-tables.md).
 #pragma once
 
 #include <array>
@@ -9,28 +9,30 @@
 
 namespace vitrail {
 
-// Fourier series in the difference of azimuths φ (Jakob, d'Eon, Jakob, Marschner, "A Comprehensive Framework
-// for Rendering Layered Materials", 2014). With μᵢ the cosine of the direction in which light travels and μₒ
-// that towards the eye, f·|μᵢ| = Σ aₖ·cos kφ; the aₖ are splines (Catmull and Rom) between the nodes of both.
-// Channel 0 is the luminance; of three, 1 is red and 2 is blue, in linear sRGB.
+// It holds Fourier series in the difference of azimuths φ (Jakob, d'Eon, Jakob, Marschner, "A Comprehensive
+// Framework for Rendering Layered Materials", 2014). With μᵢ the cosine of the direction in which light
+// travels and μₒ that towards the eye, f·|μᵢ| = Σ aₖ·cos kφ; the aₖ are splines (Catmull and Rom) between the
+// nodes of both. Channel 0 is the luminance; of three, 1 is red and 2 is blue, in linear sRGB.
 struct FourierTable {
   float eta = 1;              // index behind the surface / in front of it
   std::uint8_t channels = 1;  // 1 or 3
   std::vector<float> mu;      // nodes from −1 to 1, ascending; 0 may be there twice
-  // [μₒ][μᵢ]: where the coefficients of that pair begin, [channel][order], and how many orders it has.
+  // They say for [μₒ][μᵢ] where the coefficients of that pair begin, [channel][order], and how many orders it
+  // has.
   std::vector<std::uint32_t> first, orders;
   std::vector<float> coefficients;
   bool operator==(const FourierTable&) const = default;
 };
 
-// Values over the unit square, [φᵢ][θᵢ][row][column], bilinear between the outermost of its rows and columns.
+// It holds values over the unit square, [φᵢ][θᵢ][row][column], bilinear between the outermost of its rows and
+// columns.
 struct SquareTable {
   std::uint32_t rows = 0, columns = 0;
   std::vector<float> values;
   bool operator==(const SquareTable&) const = default;
 };
 
-// Measurements over a parametrisation that follows the microfacets (Dupuy and Jakob, "An Adaptive
+// It holds measurements over a parametrisation that follows the microfacets (Dupuy and Jakob, "An Adaptive
 // Parameterization for Efficient Material Acquisition and Rendering", 2018). Columns of the squares are
 // √(2θ/π), rows φ/2π + ½.
 struct AdaptiveTable {
@@ -43,14 +45,14 @@ struct AdaptiveTable {
   bool operator==(const AdaptiveTable&) const = default;
 };
 
-// Whether turning the surface in its plane changes nothing.
+// Returns whether turning the surface in its plane changes nothing.
 inline bool is_isotropic(const AdaptiveTable& table) { return table.phi_i.size() <= 2; }
 
 using ScatteringTable = std::variant<FourierTable, AdaptiveTable>;
 
 inline constexpr std::uint32_t max_fourier_orders = 4096;
 
-// What is wrong with a table; null where all of its look-ups are of finite numbers that are there.
+// Returns what is wrong with a table; null where all of its look-ups are of finite numbers that are there.
 const char* fault_of(const ScatteringTable& table);
 
 }  // namespace vitrail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Scene: what every importer makes, every exporter writes and the partitioner takes. Plain records; free
-// functions work on them. It holds what the files say in the files' own terms: what of it a renderer can show
-// is decided later.
+// The Scene is what every importer makes, every exporter writes and the partitioner takes. It consists of
+// plain records; free functions work on them. It holds what the files say in the files' own terms: it is
+// decided later how much of it a renderer can show.
 #pragma once
 
 #include <optional>
@@ -28,9 +28,10 @@ struct Shape {
   Id<TriangleMesh> mesh;
   Id<Material> material;
   std::optional<Id<AreaLight>> area_light;
-  // The share of the surface that is there. A share 1 − opacity of the rays passes as if nothing were there:
-  // that is no event, and does not count in a path's depth. The missing part does not shine. Constant 0 with
-  // an area light: nothing meets the surface, but the light shines in full (pbrt-v4's invisible light).
+  // It is the share of the surface that is there. A share 1 − opacity of the rays passes as if nothing were
+  // there: that is no event, and does not count in a path's depth. The missing part does not shine. Constant
+  // 0 with an area light means that nothing meets the surface, but the light shines in full (pbrt-v4's
+  // invisible light).
   FloatParameter opacity = 1.0f;
   Transform object_to_world;  // to the prototype's space for shapes of a prototype
   bool flip_orientation = false;
@@ -42,7 +43,7 @@ struct Shape {
 
 struct Prototype;
 
-// If the transform mirrors, the prototype's own front sides stay its front sides.
+// It places a prototype. If the transform mirrors, the prototype's own front sides stay its front sides.
 struct Instance {
   Id<Prototype> prototype;
   Transform prototype_to_world;  // to the outer prototype's space for instances in a prototype
@@ -52,7 +53,7 @@ struct Instance {
   bool operator==(const Instance&) const = default;
 };
 
-// What is used many times (pbrt's ObjectBegin, Mitsuba's shapegroup). Its instances are of prototypes with
+// It is used many times (pbrt's ObjectBegin, Mitsuba's shapegroup). Its instances are of prototypes with
 // smaller ids.
 struct Prototype {
   std::string name;
@@ -62,7 +63,7 @@ struct Prototype {
   bool operator==(const Prototype&) const = default;
 };
 
-// Everything that a scene file says, in one form for all formats.
+// It holds everything that a scene file says, in one form for all formats.
 struct Scene {
   Scene();
   Scene(const Scene&);
@@ -91,10 +92,10 @@ struct Scene {
   Origin camera_origin, film_origin, sampler_origin, integrator_origin;  // line 0: the file has none
 };
 
-// {} where the origin is not known.
+// Returns {} where the origin is not known.
 SourceLocation location(const Scene& scene, const Origin& origin);
 
-// A Scene and what of its file it does not say exactly.
+// It holds a Scene and diagnostics for what it does not say exactly as its file does.
 struct ImportedScene {
   Scene scene;
   Diagnostics diagnostics;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values that vary over surfaces. Textures form a graph without cycles: a texture refers only to ones with a
-// smaller id.
+// A texture gives values that vary over surfaces. Textures form a graph without cycles: a texture refers only
+// to ones with a smaller id.
 #pragma once
 
 #include <array>
@@ -17,37 +17,38 @@ namespace vitrail {
 
 // ---- From a point of a surface to the (s,t) of a texture
 
-// s = a·u + b·v + c, t = d·u + e·v + f.
+// It maps s = a·u + b·v + c, t = d·u + e·v + f.
 struct UvMapping {
   float a = 1, b = 0, c = 0, d = 0, e = 1, f = 0;
   bool operator==(const UvMapping&) const = default;
 };
-// s = acos(z)/π, t = atan2(y,x)/2π (+1 below 0) of the direction of the point in texture space, as in pbrt.
+// It maps s = acos(z)/π, t = atan2(y,x)/2π (+1 below 0) of the direction of the point in texture space, as in
+// pbrt.
 struct SphericalMapping {
   Transform texture_to_world;
   bool operator==(const SphericalMapping&) const = default;
 };
-// s = ½ + atan2(y,x)/2π, t = z in texture space, as in pbrt-v4; `of_direction`: z of the direction of the
-// point, as in pbrt-v3.
+// It maps s = ½ + atan2(y,x)/2π, t = z in texture space, as in pbrt-v4. If `of_direction`, t is z of the
+// direction of the point, as in pbrt-v3.
 struct CylindricalMapping {
   Transform texture_to_world;
   bool of_direction = false;
   bool operator==(const CylindricalMapping&) const = default;
 };
-// s = p·v1 + offset_s, t = p·v2 + offset_t in texture space.
+// It maps s = p·v1 + offset_s, t = p·v2 + offset_t in texture space.
 struct PlanarMapping {
   Transform texture_to_world;
   Vector3d v1{1, 0, 0}, v2{0, 1, 0};
   double offset_s = 0, offset_t = 0;
   bool operator==(const PlanarMapping&) const = default;
 };
-// The first two numbers of the mesh's attribute of that slot. In bundles alone.
+// It takes the first two numbers of the mesh's attribute of that slot. It is in bundles alone.
 struct AttributeMapping {
   std::string slot;
   bool operator==(const AttributeMapping&) const = default;
 };
-// s = atan2(y,x)/2π (+1 below 0), t = 1 − acos(z)/π of the direction of the point in texture space, as on
-// globes: what SphericalMapping has, exchanged.
+// It maps s = atan2(y,x)/2π (+1 below 0), t = 1 − acos(z)/π of the direction of the point in texture space,
+// as on globes: SphericalMapping's two, exchanged, t from below.
 struct GlobeMapping {
   Transform texture_to_world;
   bool operator==(const GlobeMapping&) const = default;
@@ -59,12 +60,13 @@ using TextureMapping = std::variant<UvMapping, SphericalMapping, CylindricalMapp
 
 enum class Wrap : std::uint8_t { repeat, mirror, clamp, black };
 enum class TextureFilter : std::uint8_t { nearest, bilinear, trilinear, anisotropic };
-// How the numbers of the file become values: `automatic` is sRGB for 8-bit colour files and linear for
-// others.
+// It says how the numbers of the file become values: `automatic` is sRGB for 8-bit colour files and linear
+// for others.
 enum class Encoding : std::uint8_t { automatic, srgb, linear, gamma };
 
-// Which number a texture of numbers takes from a pixel of several channels; a grey image has but one beside
-// alpha. Every channel is decoded as the encoding says before it is looked at, alpha too (as in pbrt-v4).
+// It says which number a texture of numbers takes from a pixel of several channels; a grey image has but one
+// beside alpha. Every channel is decoded as the encoding says before it is looked at, alpha too (as in
+// pbrt-v4).
 enum class ImageNumber : std::uint8_t {
   mean,       // of R, G and B
   luminance,  // of linear sRGB
@@ -77,14 +79,15 @@ enum class ImageNumber : std::uint8_t {
   stored_luminance,    // of R, G and B as stored: the luminance is what is decoded (pbrt-v3)
 };
 
-// What the chromaticities that an EXR file may state are to its renderer. Without them colours are of sRGB.
+// It says how the renderer reads the chromaticities that an EXR file may state. Without them colours are of
+// sRGB.
 enum class Primaries : std::uint8_t {
   file,   // what they say, by colorimetry (Mitsuba)
   named,  // looked at where they are those of a space that pbrt-v4 knows; white reflects as white
   srgb,   // nothing (pbrt-v3)
 };
 
-// (s,t) = (0,0) is the lower left corner of the image, (1,1) the upper right one. Colours are as the file
+// Its (s,t) = (0,0) is the lower left corner of the image, (1,1) the upper right one. Colours are as the file
 // stores them beside alpha: never multiplied by it, and never divided.
 struct ImageTexture {
   std::string filename;  // absolute
@@ -100,7 +103,7 @@ struct ImageTexture {
   bool operator==(const ImageTexture&) const = default;
 };
 
-// Cells of size 1 in (s,t), or in three dimensions of texture space where `solid`: `even` holds (0,0).
+// It has cells of size 1 in (s,t), or in three dimensions of texture space where `solid`: `even` holds (0,0).
 struct CheckerboardTexture {
   SpectrumParameter even, odd;
   TextureMapping mapping;
@@ -109,41 +112,41 @@ struct CheckerboardTexture {
   bool operator==(const CheckerboardTexture&) const = default;
 };
 
-// first · second.
+// It is first · second.
 struct ProductTexture {
   SpectrumParameter first, second;
   bool operator==(const ProductTexture&) const = default;
 };
 
-// (1 − amount)·first + amount·second.
+// It is (1 − amount)·first + amount·second.
 struct MixTexture {
   SpectrumParameter first, second;
   FloatParameter amount = 0.5f;
   bool operator==(const MixTexture&) const = default;
 };
 
-// As a mix, by amount = |n·direction| of the shading normal n: `first` where they are parallel.
+// It is a mix by amount = |n·direction| of the shading normal n: `first` where they are parallel.
 struct DirectionMixTexture {
   SpectrumParameter first, second;
   Vector3d direction{0, 1, 0};  // world
   bool operator==(const DirectionMixTexture&) const = default;
 };
 
-// Bilinear between the values at (s,t) = (0,0), (0,1), (1,0), (1,1).
+// It is bilinear between the values at (s,t) = (0,0), (0,1), (1,0), (1,1).
 struct BilinearTexture {
   SpectrumParameter v00, v01, v10, v11;
   TextureMapping mapping;
   bool operator==(const BilinearTexture&) const = default;
 };
 
-// Discs at random places in those unit cells of (s,t) where pbrt's noise is above 0: 39 % of them.
+// It has discs at random places in those unit cells of (s,t) where pbrt's noise is above 0: 39 % of them.
 struct DotsTexture {
   SpectrumParameter inside, outside;
   TextureMapping mapping;
   bool operator==(const DotsTexture&) const = default;
 };
 
-// Sums of Perlin noise in texture space (pbrt's fbm, wrinkled, windy, marble).
+// It sums Perlin noise in texture space (pbrt's fbm, wrinkled, windy, marble).
 struct NoiseTexture {
   enum class Kind : std::uint8_t { fbm, wrinkled, windy, marble };
   Kind kind = Kind::fbm;
@@ -154,7 +157,7 @@ struct NoiseTexture {
   bool operator==(const NoiseTexture&) const = default;
 };
 
-// A texture by face of a subdivision surface, in Ptex's own files.
+// It is a texture by face of a subdivision surface, in Ptex's own files.
 struct PtexTexture {
   std::string filename;
   Encoding encoding = Encoding::automatic;
@@ -163,14 +166,14 @@ struct PtexTexture {
   bool operator==(const PtexTexture&) const = default;
 };
 
-// The mesh's attribute of that name.
+// It reads the mesh's attribute of that name.
 struct MeshAttributeTexture {
   std::string name;
   float scale = 1;
   bool operator==(const MeshAttributeTexture&) const = default;
 };
 
-// The colour (frac s, frac t, 0) (pbrt-v3's uv).
+// It is the colour (frac s, frac t, 0) (pbrt-v3's uv).
 struct UvTexture {
   TextureMapping mapping;
   bool operator==(const UvTexture&) const = default;
@@ -179,7 +182,7 @@ struct UvTexture {
 using TextureVariant = std::variant<ImageTexture, CheckerboardTexture, ProductTexture, MixTexture,
                                     DirectionMixTexture, BilinearTexture, DotsTexture, NoiseTexture,
                                     PtexTexture, MeshAttributeTexture, UvTexture, PatternTexture>;
-// Copied, moved, destroyed and compared in scene/records/special_members.cpp alone: in every file that
+// It is copied, moved, destroyed and compared in scene/records/special_members.cpp alone: in every file that
 // handles a scene, that took up to two thirds of its compiling.
 struct TextureModel : TextureVariant {
   using TextureVariant::TextureVariant;
@@ -192,9 +195,9 @@ struct TextureModel : TextureVariant {
   bool operator==(const TextureModel&) const;
 };
 
-// A texture is either a colour or one number (`is_float`); inputs of a
-// number are numbers, as constant spectra or other such textures. What a colour means (a reflectance in
-// [0,1], a factor without bound, an emission) follows from where it is used.
+// A texture is either a colour or one number (`is_float`); inputs of a number are numbers, as constant
+// spectra or other such textures. A colour's meaning (a reflectance in [0,1], a factor without bound, an
+// emission) follows from where it is used.
 struct Texture {
   TextureModel model;
   bool is_float = false;

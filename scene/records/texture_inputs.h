@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a texture's value is made of.
+// These functions go through the inputs that a texture's value is made of.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ void for_inputs(const TextureModel& model, F&& f) {
              model);
 }
 
-// Calls f(id) for those that are textures.
+// Calls f(id) for those inputs that are textures.
 template <class F>
 void for_texture_inputs(const TextureModel& model, F&& f) {
   for_inputs(model, [&](const auto& parameter) {
@@ -32,8 +32,8 @@ void for_texture_inputs(const TextureModel& model, F&& f) {
   });
 }
 
-// Whether is_wanted(model) holds of the texture or of one that it leads to. for_next(model, f) calls f(id)
-// with the inputs of a texture that count.
+// Returns whether is_wanted(model) holds of the texture or of one that it leads to. for_next(model, f) calls
+// f(id) with the inputs of a texture that count.
 template <class IsWanted, class ForNext>
 bool leads_to(std::span<const Texture> textures, Id<Texture> texture, IsWanted&& is_wanted,
               ForNext&& for_next) {
@@ -50,7 +50,7 @@ bool leads_to(std::span<const Texture> textures, Id<Texture> texture, IsWanted&&
   return false;
 }
 
-// Whether some attribute of a mesh counts in the texture's or parameter's value.
+// Returns whether some attribute of a mesh counts in the texture's or parameter's value.
 bool reads_attribute(std::span<const Texture> textures, Id<Texture> texture);
 template <class Parameter>
 bool reads_attribute(std::span<const Texture> textures, const Parameter& parameter) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where (u,v) show: in textures that look them up, and in what has a direction along the surface.
+// These functions find where (u,v) show: in textures that look them up, and in surfaces that have a direction
+// along them.
 #pragma once
 
 #include <vector>
@@ -8,10 +9,10 @@
 
 namespace vitrail {
 
-// Of textures that may become more.
+// It answers for textures that may become more.
 class UvUses {
  public:
-  // `of_curves`: there hair knows where it runs.
+  // `of_curves` says that the surfaces are curves: there hair knows where it runs.
   explicit UvUses(const std::vector<Texture>& textures, bool of_curves = false)
       : on_curves(of_curves), textures_(textures) {}
 
@@ -20,7 +21,7 @@ class UvUses {
   bool of(Id<Texture> texture);
   bool of(const FloatParameter& parameter);
   bool of(const SpectrumParameter& parameter);
-  // Of the material itself, without its parts.
+  // Returns whether (u,v) show in the material itself, without its parts.
   bool of(const Material& material);
 
  private:
@@ -28,10 +29,10 @@ class UvUses {
   std::vector<bool> known_;  // of the first textures
 };
 
-// Of each material, whether it or a part of it is hair, which also may run along v.
+// Returns for each material whether it or a part of it is hair. Hair along v counts only if `also_along_v`.
 std::vector<bool> with_hair(const std::vector<Material>& materials, bool also_along_v);
 
-// Of the shapes of a scene that stays as it is.
+// It answers for the shapes of a scene that stays as it is.
 class ShapeUvUses {
  public:
   explicit ShapeUvUses(const Scene& scene, bool on_curves = false);
@@ -47,7 +48,7 @@ class ShapeUvUses {
   std::vector<Shows> materials_;
 };
 
-// For each mesh, whether the (u,v) of a shape that has it show.
+// Returns for each mesh whether the (u,v) of a shape that has it show.
 std::vector<bool> meshes_whose_uvs_show(const Scene& scene);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves with a radius as triangle meshes: tubes, and ribbons of twice the radius as their width.
+// Curves with a radius become triangle meshes here: tubes, and ribbons of twice the radius as their width.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace vitrail {
 
-// Curves kept as what they are, which go to places as they come. Throws Error for numbers that are not finite
-// in single precision.
+// It keeps curves as what they are; they go to places as they come. It throws Error for numbers that are not
+// finite in single precision.
 struct KeptCurves {
   KeptCurves(QuadricUv uv, std::uint64_t memory_bytes);
   void add(std::span<const PlacedCurve> curves);
@@ -20,15 +20,15 @@ struct KeptCurves {
   std::shared_ptr<QuadricPlaces> places;  // the mesh's
 };
 
-// How finely curves are cut: steps along a segment, corners around a tube.
+// It says how finely curves are cut: steps along a segment, corners around a tube.
 struct CurveDetail {
   int steps = 8, corners = 16;
 };
-// Finer for few segments, so that meshes stay within a few million triangles; 1 step where all are straight.
-// Throws Error for so many segments that no mesh can hold them.
+// Returns the detail: finer for few segments, so that meshes stay within a few million triangles; 1 step
+// where all are straight. Throws Error for so many segments that no mesh can hold them.
 CurveDetail curve_detail(std::size_t segments, bool straight);
 
-// Steps a segment after which chords are this near to the curve (Wang 1984), at most `most`.
+// Returns the steps a segment after which chords are this near to the curve (Wang 1984), at most `most`.
 int steps_within(std::span<const CurveSegment> segments, double tolerance, int most);
 
 // Appends the tube around a curve, as wide as that in the mean of all sides; its front is outside. u runs
@@ -40,7 +40,7 @@ void append_tube(std::span<const CurveSegment> segments, const CurveDetail& deta
 
 // Appends a ribbon across a curve: it is perpendicular to the normals, one a segment's end (segments + 1),
 // which are interpolated on the sphere. Where a normal is not perpendicular to the curve the ribbon is
-// narrower, by the sine of their angle, so that it looks as wide as pbrt's. Its front is where they point; u
+// narrower, by the sine of their angle: it looks as wide as pbrt's. Its front is where the normals point; u
 // runs along it, v across.
 void append_ribbon(std::span<const CurveSegment> segments, std::span<const Vector3d> normals, int steps,
                    TriangleMesh& mesh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that stay in their files when not all fit into memory.
+// These meshes stay in their files when not all fit into memory.
 #pragma once
 
 #include <array>
@@ -14,25 +14,26 @@ namespace vitrail {
 
 using MeshLoader = std::function<TriangleMesh()>;
 
-// What is nearer than so many radii of what half of the triangles lie in counts as together with them.
+// Triangles count as together with the middle ones where they are nearer than this many radii of the
+// MeshFocus.
 inline constexpr double near_radii = 256;
 
-// Where a mesh's triangles are, whatever few of them are elsewhere: the middle one's place, the distance on
-// the greatest axis within which half of them lie, and the box of those together with them.
+// It says where a mesh's triangles are, whatever few of them are elsewhere: the middle one's place, the
+// distance on the greatest axis within which half of them lie, and the box of those together with them.
 struct MeshFocus {
   Point3d centre;
   double radius = 0;
   Bounds3d box;
 };
 
-// What is known of a mesh without loading it.
+// It is known of a mesh without loading it.
 struct DeferredMesh {
   MeshLoader load;  // from any thread; throws Error as its first reading would have
   std::uint64_t triangles = 0, bytes = 0;
   bool has_normals = false;
   Bounds3f bounds;  // of the vertices that triangles use
   MeshFocus focus;
-  // Triangles chosen at random, each with probability 2^-sample_shift.
+  // It is one of the triangles chosen at random, each with probability 2^-sample_shift.
   struct Sample {
     std::uint32_t triangle;
     std::array<Point3f, 3> vertices;
@@ -41,24 +42,25 @@ struct DeferredMesh {
   std::vector<Sample> sample;
 };
 
-// In memory.
+// Returns the bytes that the mesh takes in memory.
 std::uint64_t bytes_of(const TriangleMesh& mesh);
 
-// Of a mesh that may be deferred, or a quadric: that is 1 a place, without shading normals of its own.
+// They answer for a mesh that may be deferred, or for a quadric, which counts as 1 a place, without shading
+// normals of its own.
 std::uint64_t triangles_of(const TriangleMesh& mesh);
 bool has_normals(const TriangleMesh& mesh);
 Bounds3f bounds_of(const TriangleMesh& mesh);
-// By a thousand of its triangles.
+// Returns the focus, by about a thousand of its triangles.
 MeshFocus focus_of(const TriangleMesh& mesh);
 
-// The mesh, loaded into `storage` if it is deferred, tessellated if it is a quadric. Throws Error where the
-// file has changed since.
+// Returns the mesh, loaded into `storage` if it is deferred, tessellated if it is a quadric. Throws Error
+// where the file has changed since.
 const TriangleMesh& loaded(const TriangleMesh& mesh, TriangleMesh& storage);
 
-// A hash of two numbers, for choices that are to look random.
+// Returns a hash of two numbers, for choices that are to look random.
 std::uint64_t mixed(std::uint64_t a, std::uint64_t b);
 
-// Keeps meshes in memory up to a limit.
+// It keeps meshes in memory up to a limit.
 class MeshMemory {
  public:
   explicit MeshMemory(std::uint64_t limit_bytes = ~std::uint64_t{0})
@@ -67,8 +69,8 @@ class MeshMemory {
   std::uint64_t limit_bytes() const { return limit_; }
   bool is_limited() const { return limit_ != ~std::uint64_t{0}; }
 
-  // The mesh itself while it fits, else what stands for it. Without `load` it goes to a file without a name
-  // in the folder for temporary files; MachineError where that is full.
+  // Returns the mesh itself while it fits, else a stub that stands for it. Without `load` the mesh goes to a
+  // file without a name in the folder for temporary files; MachineError is thrown where that is full.
   TriangleMesh keep(TriangleMesh mesh, MeshLoader load);
 
  private:

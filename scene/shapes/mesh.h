@@ -14,7 +14,8 @@
 
 namespace vitrail {
 
-// Values that a texture can read by name (Mitsuba's mesh attributes): `channels` floats a vertex or a face.
+// It holds values that a texture can read by name (Mitsuba's mesh attributes): `channels` floats a vertex or
+// a face.
 struct MeshAttribute {
   std::string name;  // "vertex_…" or "face_…"
   bool per_face = false;
@@ -23,12 +24,12 @@ struct MeshAttribute {
   bool operator==(const MeshAttribute&) const = default;
 };
 
-// The attribute, one number a face, that says which face of Ptex's files a triangle belongs to. Without it
-// all are of face 0, as in pbrt.
+// It names the attribute, one number a face, that says which face of Ptex's files a triangle belongs to.
+// Without it all are of face 0, as in pbrt.
 inline constexpr std::string_view face_indices = "face_indices";
 
-// The (u,v) of a triangle's three corners where the file gives none. `turned`: of triangles whose second and
-// third corner have changed places since.
+// It gives the (u,v) of a triangle's three corners where the file gives none. `turned` is for triangles whose
+// second and third corner have changed places since.
 enum class MissingUv : std::uint8_t {
   pbrt,            // (0,0), (1,0), (1,1)
   pbrt_turned,     // (0,0), (1,1), (1,0)
@@ -41,7 +42,7 @@ enum class MissingUv : std::uint8_t {
 struct DeferredMesh;
 class QuadricPlaces;
 
-// Object-space triangles, or a quadric. `normals` and `uvs` are empty or have one entry a position.
+// It holds object-space triangles, or a quadric. `normals` and `uvs` are empty or have one entry a position.
 // All indices are in range and all positions finite: importers guarantee it, with the place of the first
 // offender.
 struct TriangleMesh {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which triangles hang together, and whether they enclose anything.
+// These functions find which triangles hang together, and whether they enclose anything.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// Meshes in one space, by where they stand there.
+// It places a mesh in a space that it shares with others.
 struct PlacedMesh {
   const TriangleMesh* mesh;  // neither deferred nor a quadric
   Transform to_space;
@@ -21,8 +21,8 @@ struct MeshTriangle {
   std::uint32_t mesh, triangle;
 };
 
-// Triangles that edges join, by the positions of their vertices: seams of normals and (u,v) part nothing, nor
-// does a change of mesh.
+// It consists of triangles that edges join, by the positions of their vertices: seams of normals and (u,v)
+// part nothing, nor does a change of mesh.
 struct MeshPart {
   enum class Kind : std::uint8_t {
     closed,   // as far as holes and cracks go, which are less than 1/1000 of its area
@@ -40,8 +40,8 @@ struct MeshPart {
 
 std::vector<MeshPart> parts_of(std::span<const PlacedMesh> meshes);
 
-// The mesh of these of its triangles, with all attributes. Vertices keep their order; those that none uses
-// are left out.
+// Returns the mesh of these of its triangles, with all attributes. Vertices keep their order; those that none
+// uses are left out.
 TriangleMesh only_triangles(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles);
 
 }  // namespace vitrail

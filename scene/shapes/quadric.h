@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces of revolution of the second order, kept as what they are.
+// These surfaces of revolution of the second order are kept as what they are.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@ namespace vitrail {
 
 enum class QuadricKind : std::uint8_t { sphere, cylinder, disk, cone, paraboloid, curve };
 
-// Of (u,v), with φ from +x towards +y:
+// It says how (u,v) run, with φ from +x towards +y:
 //   pbrt     u = φ/phi_max; v runs from 0 to 1: with the polar angle from low to high (sphere), from the edge
 //            to `low` (disk), with z (others); of a curve u runs along it and v around
 //   mitsuba  as pbrt's, but of a sphere v = 1 − v, and of a disk (ρ, φ/phi_max), of a curve (around, along)
 enum class QuadricUv : std::uint8_t { pbrt, mitsuba };
 
-// In its own space, about z, where 0 ≤ φ ≤ phi_max; sizes are its transform's:
+// It is in its own space, about z, where 0 ≤ φ ≤ phi_max; sizes are its transform's:
 //   sphere      x² + y² + z² = 1,    low ≤ z ≤ high
 //   cylinder    x² + y² = 1,         0 ≤ z ≤ 1
 //   disk        z = 0,               low ≤ ρ ≤ 1, ρ² = x² + y²
@@ -33,15 +33,16 @@ struct Quadric {
   bool operator==(const Quadric&) const = default;
 };
 
-// Whether it goes all the way round.
+// Returns whether the quadric goes all the way round.
 bool is_whole_turn(const Quadric& quadric);
-// A sphere without a hole.
+// Returns whether it is a sphere without a hole.
 bool is_whole_sphere(const Quadric& quadric);
 
-// Whether a place of it is a curve, packed, and no matrix.
+// Returns whether its place is a packed curve, and no matrix.
 inline bool is_curve(const Quadric& quadric) { return quadric.kind == QuadricKind::curve; }
 
-// Holds the surface where an affine transform puts it; tight where it goes all the way round.
+// Returns a box that holds the surface where an affine transform puts it; it is tight where the quadric goes
+// all the way round.
 Bounds3d bounds_of(const Quadric& quadric, const Transform& to);
 
 }  // namespace vitrail

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where one quadric stands many times: scenes of particles and fibres have 10⁷ and more.
+// It holds the places of one quadric that stands many times: scenes of particles and fibres have 10⁷ and
+// more.
 #pragma once
 
 #include <array>
@@ -16,20 +17,20 @@ namespace vitrail {
 
 class QuadricPlaces {
  public:
-  // Rows of an affine transform from the quadric's space to the mesh's.
+  // It has the rows of an affine transform from the quadric's space to the mesh's.
   using Place = std::array<double, 12>;
 
-  // What is beyond `memory_bytes` goes to a file without a name in the folder for temporary files.
+  // Places beyond `memory_bytes` go to a file without a name in the folder for temporary files.
   QuadricPlaces(const Quadric& quadric, std::uint64_t memory_bytes);
 
-  // Affine ones that do not mirror. Throws MachineError where the disk is full.
+  // Adds a place: an affine transform that does not mirror. Throws MachineError where the disk is full.
   void add(const Transform& place);
 
   std::size_t size() const { return size_; }
-  // Places [first, first + out.size()), from any thread. Throws MachineError.
+  // Reads places [first, first + out.size()), from any thread. Throws MachineError.
   void read(std::size_t first, std::span<Transform> out) const;
-  // Of all the quadrics; and where the middle one of a few thousand of them is, with the distance on the
-  // greatest axis within which half of them lie.
+  // bounds() holds all the quadrics. centre() is where the middle one of a few thousand of them is, and
+  // radius() the distance on the greatest axis within which half of them lie.
   const Bounds3d& bounds() const { return bounds_; }
   Point3d centre() const;
   double radius() const;

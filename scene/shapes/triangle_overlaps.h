@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles that lie on one another.
+// These functions find triangles that lie on one another.
 #pragma once
 
 #include <vector>
@@ -14,17 +14,17 @@ struct FlatTriangle {
   double area;
 };
 
-// `area` > 0, or there is nothing.
+// Returns the triangle with its normal and area; where the area is 0, the normal is 0, too.
 FlatTriangle flat_triangle(const std::array<Point3d, 3>& p);
 
-// Two triangles in one plane, as far as floats tell, and the area that both cover.
+// It names two triangles in one plane, as far as floats tell, and the area that both cover.
 struct Overlap {
   std::uint32_t first, second;  // first < second
   double area;
 };
 
-// All whose common area is above 10⁻⁶ of the smaller one's. `complete` is false where so many are near one
-// another that not all pairs were looked at.
+// Returns all pairs whose common area is above 10⁻⁶ of the smaller one's. `complete` is false where so many
+// are near one another that not all pairs were looked at.
 std::vector<Overlap> overlaps_of(const std::vector<FlatTriangle>& triangles, bool& complete);
 
 }  // namespace vitrail

@@ -9,10 +9,10 @@
 
 namespace vitrail {
 
-// 1/D65(λ), D65 normalised as cie_d65 (scene/spectra/color.h).
+// Returns 1/D65(λ), with D65 normalised as cie_d65 (scene/spectra/color.h).
 TabulatedSpectrum inverse_d65();
 
-// f where the spectrum is f/D65, to float precision; nothing otherwise.
+// Returns f where the spectrum is f/D65, to float precision; nothing otherwise.
 std::optional<double> multiple_of_inverse_d65(const Spectrum& spectrum);
 
 }  // namespace vitrail

@@ -6,7 +6,7 @@
 
 namespace vitrail {
 
-// Relative values each 5 nm from `first_nm` on.
+// It holds relative values each 5 nm from `first_nm` on.
 struct IlluminantTable {
   std::string_view name;  // "stdillum-F1"
   double first_nm;

@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// Samples of the index of refraction eta + i·k: (wavelength in nm, value), ascending.
+// It holds samples of the index of refraction eta + i·k: (wavelength in nm, value), ascending.
 struct MetalTable {
   std::string_view name;  // "Au"; a crystal axis or a second source is part of it: "TiO2-e", "Cu_palik"
   std::span<const std::array<float, 2>> eta, k;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// RGB → smooth spectra after Jakob & Hanika, "A Low-Dimensional Function Space for Efficient Spectral
-// Upsampling" (2019).
+// These functions turn RGB into smooth spectra after Jakob & Hanika, "A Low-Dimensional Function Space for
+// Efficient Spectral Upsampling" (2019).
 #pragma once
 
 #include "scene/spectra/color.h"
@@ -8,15 +8,15 @@
 
 namespace vitrail {
 
-// The sigmoid whose colour under D65 is the linear sRGB colour c, each component in [0,1] (clamped to it).
-// Solved by Gauss–Newton in CIELAB, started from grey. Greys are exact constants.
+// Returns the sigmoid whose colour under D65 is the linear sRGB colour c, each component in [0,1] (clamped to
+// it). It is solved by Gauss–Newton in CIELAB, started from grey. Greys are exact constants.
 SigmoidSpectrum reflectance_from_rgb(RGB c);
 
-// Emission of linear sRGB colour c; components may exceed 1, negative ones count as 0.
+// Returns the emission of linear sRGB colour c; components may exceed 1, negative ones count as 0.
 RgbIlluminantSpectrum emission_from_rgb(RGB c);
 
-// A coefficient or factor of linear sRGB colour c; negative components count as 0. Where none exceeds 1, it
-// is the reflectance of that colour.
+// Returns a coefficient or factor of linear sRGB colour c; negative components count as 0. Where none exceeds
+// 1, it is the reflectance of that colour.
 Spectrum unbounded_from_rgb(RGB c);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of spectra at the wavelengths of one path: four hero wavelengths (Wilkie et al. 2014).
+// These are values of spectra at the wavelengths of one path: four hero wavelengths (Wilkie et al. 2014).
 #pragma once
 
 #include <array>
@@ -10,16 +10,17 @@ namespace vitrail {
 
 inline constexpr int hero_count = 4;
 
-// Wavelengths in nm and their pdfs in nm⁻¹. Index 0 is the hero: the one that is left after dispersion.
+// It holds wavelengths in nm and their pdfs in nm⁻¹. Index 0 is the hero: the one that is left after
+// dispersion.
 struct SampledWavelengths {
   std::array<float, hero_count> lambda_nm{};
   std::array<float, hero_count> pdf{};
 };
 
-// One value a wavelength of a SampledWavelengths.
+// It holds one value for each wavelength of a SampledWavelengths.
 struct SampledSpectrum {
   std::array<float, hero_count> v{};
-  // By number: 0 is the hero.
+  // Returns the value by its number: 0 is the hero.
   float operator[](int i) const { return v[static_cast<std::size_t>(i)]; }
   float& operator[](int i) { return v[static_cast<std::size_t>(i)]; }
   bool operator==(const SampledSpectrum&) const = default;

@@ -3,7 +3,8 @@
 
 namespace vitrail {
 
-// Equal intervals of wavelength, in nm, in which a film keeps radiance beside its XYZ.
+// It divides a range of wavelengths into equal intervals, in nm, in which a film keeps radiance beside its
+// XYZ.
 struct SpectralBins {
   int count = 0;  // 0: none
   double min_nm = 360, max_nm = 830;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflectances of red, green and blue that add up to 1: linear in the colour, where what mixes them must be
-// (tables whose every value is a colour). Mallett and Yuksel, "Spectral Primary Decomposition for Rendering
-// with sRGB Reflectance" (2019).
+// These are reflectances of red, green and blue that add up to 1: linear in the colour, where a mix of them
+// must be (tables whose every value is a colour). Mallett and Yuksel, "Spectral Primary Decomposition for
+// Rendering with sRGB Reflectance" (2019).
 #pragma once
 
 #include <array>
 
 namespace vitrail {
 
-// From 380 to 780 nm in steps of 5.
+// It goes from 380 to 780 nm in steps of 5.
 extern const std::array<std::array<float, 3>, 81> srgb_basis_table;
 
-// Those of red, green and blue; held beyond the ends.
+// Returns the reflectances of red, green and blue at a wavelength; they are held beyond the ends.
 std::array<double, 3> srgb_basis(double lambda_nm);
 
 }  // namespace vitrail

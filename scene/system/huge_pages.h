@@ -9,8 +9,8 @@
 
 namespace vitrail {
 
-// Asks for huge pages under what is about to be filled: a large array then costs a fraction of the page
-// faults.
+// Asks for huge pages under an array that is about to be filled: a large array then costs a fraction of the
+// page faults.
 template <class T>
 void prefer_huge_pages(T* data, std::size_t count) {
   constexpr std::uintptr_t huge = std::uintptr_t{2} << 20;
@@ -20,7 +20,7 @@ void prefer_huge_pages(T* data, std::size_t count) {
   if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 
-// The same under an empty vector that gets room for so many.
+// Reserves room for `count` values in an empty vector and asks for huge pages under it.
 template <class T>
 void reserve_huge(std::vector<T>& values, std::size_t count) {
   values.reserve(count);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the machine this process may have: a job of Slurm, a container or a control group has less than
-// all.
+// These functions find which part of the machine this process may have: a job of Slurm, a container or a
+// control group has less than all.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace vitrail {
 
-// The memory of this machine that a job may have.
+// It is the memory of this machine that a job may have.
 struct MemoryLimit {
   std::uint64_t bytes = 0;  // of all processes of this job on this machine together
   const char* giver = "";   // "Slurm", "the control group" or "the machine"
@@ -25,11 +25,12 @@ struct MemoryLimit {
 MemoryLimit memory_limit();
 MemoryLimit memory_limit(std::uint64_t slurm_bytes);
 
-// Returns the bytes that Slurm gave this step, or this job, on one of its nodes; 0 where it says nothing.
-// Asks scontrol, for srun leaves its --mem in no variable: on one rank alone. The least of the answer,
-// SLURM_MEM_PER_NODE, and SLURM_MEM_PER_CPU times SLURM_CPUS_ON_NODE, in MiB.
+// Returns the bytes that Slurm gave this step, or this job, on one of its nodes; 0 where it says nothing. It
+// asks scontrol, for srun leaves its --mem in no variable: on one rank alone. It is the least of the answer,
+// SLURM_MEM_PER_NODE, and SLURM_MEM_PER_CPU times SLURM_CPUS_ON_NODE, which are in MiB.
 std::uint64_t slurm_memory();
-// Returns the bytes a node by what scontrol says of a job or step in one line: TRES=cpu=2,mem=200M,node=1.
+// Returns the bytes a node, read from scontrol's words of a job or step in one line:
+// TRES=cpu=2,mem=200M,node=1.
 std::uint64_t memory_a_node(const std::string& said);
 
 // Returns how many processes of this job are on this machine, as mpirun and srun say; 1 where they do not.
@@ -43,8 +44,8 @@ int processors_allowed();
 // it returns one for each processor that is allowed.
 int threads_for(int asked);
 
-// What the control groups of a process allow. `own`: the text of its /proc/self/cgroup; `mounts`: where they
-// are mounted, /sys/fs/cgroup. Infinite where they say nothing.
+// These are the limits that the control groups of a process set, infinite where they say nothing. `own` is
+// the text of its /proc/self/cgroup; `mounts` is where they are mounted, /sys/fs/cgroup.
 struct ControlGroupLimits {
   std::uint64_t bytes = std::numeric_limits<std::uint64_t>::max();
   double processors = std::numeric_limits<double>::infinity();

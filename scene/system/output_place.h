@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be known of an output before the work for it begins. Of a symbolic link the file behind it counts.
+// These functions check an output before the work for it begins. If it is a symbolic link, the file behind it
+// counts.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@ void require_folder_of(const std::filesystem::path& file);
 // Throws UsageError where the name leaves no room for that of the temporary file or folder beside it.
 void require_short_name(const std::filesystem::path& file);
 
-// Both, and MachineError where the name is a folder's. Throws UsageError where it was read (is_input).
+// Checks both, and throws MachineError where the name is a folder's. Throws UsageError where it was read
+// (is_input).
 void require_place(const std::filesystem::path& file);
 
 // Throws MachineError where the disk of `file` has less than that left.

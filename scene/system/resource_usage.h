@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What this process has taken of the machine so far.
+// These functions measure what this process has taken of the machine so far.
 #pragma once
 
 #include <cstdint>

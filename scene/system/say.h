@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program says to its user.
+// These functions print what a program says to its user.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,17 +9,17 @@
 
 namespace vitrail {
 
-// Bytes of the well-formed UTF-8 character that `text`, which is not empty, begins with (Unicode 15, table
-// 3-7); 0 if there is none.
+// Returns how many bytes the well-formed UTF-8 character takes that `text`, which is not empty, begins with
+// (Unicode 15, table 3-7); 0 if there is none.
 std::size_t utf8_size(std::string_view text);
 
-// The text as a terminal may have it, whatever a scene calls its things: control characters, those that turn
-// the direction of what follows, and bytes that are not UTF-8 are written out ("\u001b", "\xff"). `lines`:
-// line feeds and tabs stay as they are.
+// Returns the text in a form that is safe on a terminal, whatever a scene calls its things. Control
+// characters, those that turn the direction of what follows, and bytes that are not UTF-8 are written out
+// ("\u001b", "\xff"). If `lines`, line feeds and tabs stay as they are.
 std::string for_terminal(std::string_view text, bool lines = true);
 
-// One write to standard error, in place of the line that is open, for_terminal. Where that is full or closed
-// the words are lost: no work ends for their sake.
+// Writes for_terminal(text) to standard error in one write, in place of the line that is open. Where standard
+// error is full or closed the words are lost: no work ends for their sake.
 void say_text(const std::string& text);
 
 template <class... Values>
@@ -31,11 +31,11 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
 // `shown` is for_terminal already, and may be coloured.
 void say_over_shown(const std::string& shown);
 
-// For the end of a program, and before another one speaks: the line that is open is gone.
+// Clears the line that is open. A program calls it at its end, and before another one speaks.
 void close_line();
 
-// What a program was asked for, on standard output, for_terminal. Throws MachineError where it cannot be
-// written; what is still on its way shows in flush_shown.
+// Writes for_terminal(text) to standard output: the result that a program was asked for. Throws MachineError
+// where it cannot be written. An error of text that is still buffered shows in flush_shown.
 void show_text(const std::string& text);
 
 template <class... Values>
@@ -43,11 +43,12 @@ void show(fmt::format_string<Values...> format, Values&&... values) {
   show_text(fmt::format(format, std::forward<Values>(values)...));
 }
 
-// For the end of main: throws MachineError where standard output could not be written.
+// Throws MachineError where standard output could not be written. It is called at the end of main.
 void flush_shown();
 
-// For the start of main: a stream that is closed becomes /dev/null. Else the next file that is opened takes
-// its place, and what is said goes into it. Standard output can then not be written.
+// Opens /dev/null in place of each standard stream that is closed. Else the next file that is opened takes
+// its place, and messages go into it. Standard output can then not be written. It is called at the start of
+// main.
 void open_standard_streams();
 
 }  // namespace vitrail

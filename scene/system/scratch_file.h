@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files without names: for what has no room in memory, and for room on a disk. They are of this process
-// alone, and go with it however it ends.
+// These files have no names: they hold data that has no room in memory, or keep room on a disk. They are of
+// this process alone, and go with it however it ends.
 #pragma once
 
 #include <filesystem>
 
 namespace vitrail {
 
-// $TMPDIR, else /var/tmp, which is on a disk where /tmp may be in memory.
+// Returns $TMPDIR, else /var/tmp, which is on a disk where /tmp may be in memory.
 std::filesystem::path scratch_directory();
 
 // Both return the descriptor of an empty file, in the scratch directory or in `folder`; −1 where there can be

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file without a name in the folder for temporary files: for what memory is too small for.
+// These functions keep data that memory is too small for in a nameless file in the folder for temporary
+// files.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,8 @@
 
 namespace vitrail {
 
-// These throw MachineError that calls what is in the file `what`; from any thread.
+// These throw MachineError, whose message calls the content of the file `what`. They may be called from any
+// thread.
 std::FILE* open_temporary(const char* what);
 void write_at(std::FILE* file, std::uint64_t offset, std::span<const std::byte> bytes, const char* what);
 void read_at(std::FILE* file, std::uint64_t offset, std::span<std::byte> bytes, const char* what);

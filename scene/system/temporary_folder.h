@@ -6,7 +6,7 @@
 
 namespace vitrail {
 
-// A folder below $TMPDIR that goes with its owner.
+// It is a folder below $TMPDIR that goes with its owner.
 class TemporaryFolder {
  public:
   TemporaryFolder();

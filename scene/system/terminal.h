@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who watches standard error, and in what.
+// These functions tell whether standard error goes to a terminal, and what that terminal can show.
 #pragma once
 
 namespace vitrail {
 
-// Whether somebody does: it is a terminal, or that of the mpirun that started this process is.
+// Returns whether standard error is a terminal, or that of the mpirun that started this process is one.
 bool on_terminal();
 
-// Columns of that terminal; where it does not say, $COLUMNS, else 80.
+// Returns the columns of that terminal; where it does not say, $COLUMNS, else 80.
 int terminal_columns();
 
-// Whether words for that terminal may be coloured: not where NO_COLOR is set to anything (no-color.org), or
-// TERM is "dumb".
+// Returns whether words for that terminal may be coloured. They may not where NO_COLOR is not empty
+// (no-color.org), or TERM is "dumb".
 bool has_color();
 
 }  // namespace vitrail

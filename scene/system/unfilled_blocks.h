@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Large blocks that have been taken and are not filled yet: their pages become resident later, when they are
-// written to. Nothing here allocates; all of it may be called from any thread.
+// Here large blocks are noted that have been taken and are not filled yet: their pages become resident later,
+// when they are written to. Nothing here allocates; all of it may be called from any thread.
 #pragma once
 
 #include <cstdint>
