@@ -8,8 +8,8 @@
 
 namespace vitrail {
 
-// All ranks call it, when no ray is alive; rank 0 writes what they did into one file, in turn. `origin`: rank
-// 0's, where the file's time begins.
+// Writes what all ranks did into one file. All ranks call it, when no ray is alive; rank 0 writes their
+// timelines in turn. `origin` is rank 0's, where the file's time begins.
 void write_timelines(Transport& transport, const Timeline& mine, int workers,
                      Timeline::Clock::time_point origin, const std::filesystem::path& file);
 

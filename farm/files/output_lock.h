@@ -13,7 +13,7 @@
 
 namespace vitrail {
 
-// Another job writes that output.
+// It says that another job writes that output.
 struct BeingWritten : MachineError {
   BeingWritten(const std::string& message, std::string who, bool may_be_gone)
       : MachineError(message), holder(std::move(who)), is_only_named(may_be_gone) {}
@@ -24,10 +24,10 @@ struct BeingWritten : MachineError {
 // Returns OUTPUT.lock, the file of its lock.
 std::filesystem::path lock_path(std::filesystem::path output);
 
-// Held by the one job that may write a film: OUTPUT.lock beside it, which the system frees when the process
-// ends, however it ends. Throws BeingWritten where another job has it, and says which. Where the file system
-// has no locks, the process and host in that file are believed. Throws MachineError where there is no such
-// folder.
+// It is held by the one job that may write a film: OUTPUT.lock beside it, which the system frees when the
+// process ends, however it ends. Throws BeingWritten where another job has it, and says which. Where the file
+// system has no locks, the process and host in that file are believed. Throws MachineError where there is no
+// such folder.
 class OutputLock {
  public:
   explicit OutputLock(const std::filesystem::path& output);
@@ -40,17 +40,17 @@ class OutputLock {
   int descriptor_ = -1;
 };
 
-// The same, which tries again for so long where another job has it, once `before_waiting` has been called
+// Takes the lock, and tries again for so long where another job has it, once `before_waiting` has been called
 // with that refusal. A name that nobody can verify is not waited for.
 std::unique_ptr<OutputLock> wait_for_lock(
     const std::filesystem::path& output, std::chrono::milliseconds longest,
     const std::function<void(const BeingWritten&)>& before_waiting = {});
 
-// Whether a job has that lock, as far as this host can know: not where the process in the file is of this
-// host and has ended.
+// Returns whether a job has that lock, as far as this host can know. A process in the file that is of this
+// host and has ended does not have it.
 bool is_being_written(const std::filesystem::path& output);
 
-// The process that has it, where that is of this host and stopped (SIGSTOP, a debugger).
+// Returns the process that has it, where that is of this host and stopped (SIGSTOP, a debugger).
 std::optional<int> stopped_writer(const std::filesystem::path& output);
 
 }  // namespace vitrail

@@ -6,21 +6,22 @@
 
 namespace vitrail {
 
-// Room on a disk that others cannot take: a file without a name, which goes with the process however that
-// ends. Where the file system cannot reserve (NFS before 4.2, some FUSE), it is only looked whether there is
-// room now; writing zeros instead would send a film's bytes over the network for nothing.
+// It is room on a disk that others cannot take: a file without a name, which goes with the process however
+// that ends. Where the file system cannot reserve (NFS before 4.2, some FUSE), it is only looked whether
+// there is room now; writing zeros instead would send a film's bytes over the network for nothing.
 class ReservedSpace {
  public:
-  // In the folder of `beside`. Throws MachineError where there is no room.
+  // Reserves room in the folder of `beside`. Throws MachineError where there is no room.
   ReservedSpace(std::filesystem::path beside, std::uint64_t bytes);
   ~ReservedSpace();
   ReservedSpace(const ReservedSpace&) = delete;
   ReservedSpace& operator=(const ReservedSpace&) = delete;
 
   void release();
-  // False where there is no room any more.
+  // Returns false where there is no room any more.
   bool renew();
-  // What a file of so many bytes takes on this disk, by a part of it that is written there and synced.
+  // Returns the time that a file of so many bytes takes on this disk, by a part of it that is written there
+  // and synced.
   double time_to_write_s() const;
 
  private:

@@ -5,14 +5,14 @@
 namespace vitrail {
 
 void catch_signals();
-// USR1 alone, which would end a program that does not know it: for its first moment. The checkpoint is
-// written once there is a job.
+// Catches USR1 alone, which would end a program that does not know it: for its first moment. The checkpoint
+// is written once there is a job.
 void catch_checkpoint_signal();
-// The first of TERM and INT that came; 0: none did.
+// Returns the first of TERM and INT that came; 0 where none did.
 int stop_signal();
-// As a TERM that came.
+// Acts as a TERM that came.
 void ask_to_stop();
-// True once for each USR1 (or several in one).
+// Returns true once for each USR1 (or several in one).
 bool take_checkpoint_signal();
 
 }  // namespace vitrail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the threads of a rank did when, for `render --trace`: of each kind the last events, in memory whose
-// bound is known from the start.
+// A Timeline records what the threads of a rank did when, for `render --trace`. It keeps the last events of
+// each kind, in memory whose bound is known from the start.
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@ namespace vitrail {
 class Timeline {
  public:
   using Clock = std::chrono::steady_clock;
-  // With the values of an event. All but the last are spans of a thread's time, which do not overlap.
+  // The comment of a kind lists the values of its events. All but the last are spans of a thread's time,
+  // which do not overlap.
   enum class Kind : std::uint8_t {
     generate,  // a task of new rays: how many
     trace,     // a batch: domain, rays
@@ -35,13 +36,13 @@ class Timeline {
     bool operator==(const Event&) const = default;
   };
 
-  // For so many events of this rank. Ranks have fewer the more there are, since one file holds all.
+  // It holds so many events of this rank. Ranks have fewer the more there are, since one file holds all.
   explicit Timeline(std::size_t most_events);
   static std::size_t most_events(int ranks);
   static std::uint64_t most_bytes(int ranks);  // until all are gathered
 
   void add(Kind kind, int thread, Clock::time_point begin, Clock::time_point end, const Values& values = {});
-  // Ascending by their ends.
+  // Returns the events, ascending by their ends.
   std::vector<Event> events(Kind kind) const;
   std::uint64_t left_out(Kind kind) const;  // that were before these
 

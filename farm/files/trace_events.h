@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timelines as a file of Chrome's trace events ("Trace Event Format", Google 2016), which Perfetto opens: a
-// process a rank.
+// A TraceFile writes timelines as Chrome's trace events ("Trace Event Format", Google 2016), which Perfetto
+// opens: a process a rank.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// What one rank tells.
+// It holds the events that one rank tells.
 struct RankTimeline {
   std::string host;
   ClockOffset clock;  // to rank 0's
@@ -22,7 +22,7 @@ struct RankTimeline {
 
 class TraceFile {
  public:
-  // Times are of rank 0's clock and count from `origin_ns` on.
+  // Its times are of rank 0's clock and count from `origin_ns` on.
   TraceFile(const std::filesystem::path& file, std::int64_t origin_ns);
   void add(int rank, const RankTimeline& timeline);  // each once
   void commit();

@@ -8,8 +8,8 @@
 
 namespace vitrail {
 
-// FilmProgress::about of a render: {"scene": name, "camera": kind, "world_to_camera": 16 numbers, row by row,
-// of a matrix that takes columns; "world_to_ndc": the same, but of cameras that see all directions;
+// Returns FilmProgress::about of a render: {"scene": name, "camera": kind, "world_to_camera": 16 numbers, row
+// by row, of a matrix that takes columns; "world_to_ndc": the same, but of cameras that see all directions;
 // "parts": the scene in words (scene_parts.h); "mattes": {"crypto_object": names of masks,
 // "crypto_material"}, of films that keep them; "glazing", "sampling": what was asked for, where it was}.
 // Camera space is +x right, +y up, +z the view; in the other x and y go from −1 to 1 over the picture, right

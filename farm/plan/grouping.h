@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which lights a film keeps apart, as `vitrail render` is asked for it.
+// These functions find which lights a film keeps apart, as `vitrail render` is asked for it.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@
 
 namespace vitrail {
 
-// What is asked for.
+// It holds the groups that are asked for.
 struct LightGrouping {
-  // Lights by name (bundle/light_names.h), where * stands for any characters.
+  // It names lights (bundle/light_names.h); * stands for any characters.
   struct Group {
     std::string name;
     std::vector<std::string> lights;
@@ -24,15 +24,15 @@ struct LightGrouping {
   bool any() const { return each || !groups.empty(); }
 };
 
-// "day=sky-3,sun-*". Throws UsageError.
+// Reads "day=sky-3,sun-*". Throws UsageError.
 LightGrouping::Group parse_light_group(const std::string& text);
 
 struct Grouping {
   LightGroups groups;
   GroupedLights table;
 };
-// Nothing where nothing is asked for. Throws UsageError for a group without lights, a light in two groups,
-// and too many groups.
+// Returns nothing where nothing is asked for. Throws UsageError for a group without lights, a light in two
+// groups, and too many groups.
 Grouping group_lights(const LightGrouping& asked, const Manifest& manifest);
 
 }  // namespace vitrail

@@ -10,7 +10,7 @@
 
 namespace vitrail {
 
-// What a rank holds from the first step of a render to the last.
+// A rank holds it from the first step of a render to the last.
 struct Job {
   std::unique_ptr<RenderScene> scene;
   std::string about;  // of its film (about.h)
@@ -19,7 +19,7 @@ struct Job {
   std::unique_ptr<FilmKeeper> keeper;  // on rank 0, unless it is a dry run
 };
 
-// Reads the bundle. What is too large for its memory is refused before it takes the memory.
+// Reads the bundle. A bundle that is too large for its memory is refused before it takes the memory.
 Job set_up(const RenderOptions& options, const Place& place);
 
 }  // namespace vitrail

@@ -14,13 +14,13 @@ struct JobManifest {
   std::optional<Point3d> replaced_camera;  // RenderScene's
 };
 
-// The bundle's manifest, with what the options ask of the picture in place of what the scene says. Throws
-// UsageError for what the bundle cannot give, Error for what is wrong with it.
+// Returns the bundle's manifest, with the options' choices for the picture in place of the scene's. Throws
+// UsageError for choices that the bundle cannot give, Error for faults of the bundle.
 JobManifest read_job_manifest(const RenderOptions& options);
-// The same of a manifest that was read already.
+// Returns the same for a manifest that was read already.
 JobManifest job_manifest(const RenderOptions& options, Manifest manifest);
 
-// Of the film of such a job: nothing else of it counts.
+// Returns the key of such a job's film; it depends on nothing else of the job.
 FilmKey key_of(const Manifest& manifest, const PictureSettings& picture);
 
 }  // namespace vitrail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a job is to do and in how much memory: a function of the manifest and the options alone. Nothing is
-// traced, sent or allocated before it stands; `--dry-run` prints what came of it.
+// A JobPlan says what a job is to do and in how much memory: it is a function of the manifest and the options
+// alone. Nothing is traced, sent or allocated before it stands; `--dry-run` prints its memory and an estimate
+// of the time.
 #pragma once
 
 #include "farm/plan/memory.h"
@@ -12,13 +13,13 @@
 
 namespace vitrail {
 
-// Which rank of how many.
+// It says which rank this is, of how many.
 struct Place {
   int rank = 0, ranks = 1;
 };
 
-// Bytes of this rank once the scene is read: what it holds, the most that it held, and room for tiles of
-// images that are read later.
+// They are bytes of this rank once the scene is read: what it holds, the most that it held, and room for
+// tiles of images that are read later.
 struct SceneMemory {
   std::uint64_t resident = 0, peak = 0, textures = 0;
 };
@@ -41,15 +42,16 @@ struct JobPlan {
   Scheduler::Job scheduler;
 };
 
-// For tiles of images: all of them if there is no limit (memory_bytes = 0), else a quarter of it at most.
+// Returns the bytes for tiles of images: all of them if there is no limit (memory_bytes = 0), else a quarter
+// of it at most.
 std::uint64_t texture_budget(const Manifest& manifest, std::uint64_t memory_bytes);
 
-// `manifest`: read_job_manifest's. Reads the profile that options.resources.homes names. Throws MachineError
-// where options.resources.memory_bytes is too little, with what would do.
+// Plans the job. `manifest` is read_job_manifest's. It reads the profile that options.resources.homes names.
+// Throws MachineError where options.resources.memory_bytes is too little, with what would do.
 JobPlan plan_job(const Manifest& manifest, const RenderOptions& options, const Place& place,
                  const SceneMemory& scene);
 
-// Of the file of such a film: its sums, and what it says of itself.
+// Returns the bytes of the file of such a film: its sums, and what it says of itself.
 std::uint64_t film_file_bytes(const FilmSettings& film, const FilmKey& key);
 
 }  // namespace vitrail

@@ -20,7 +20,7 @@ namespace vitrail {
 
 enum class ProgressMode { none, bar, lines, json };
 
-// Of the picture's luminance, as film/film_noise.h has it.
+// It is an error of the picture's luminance, as film/film_noise.h has it.
 struct TargetError {
   double value = 0;
   bool just_noticeable = false;  // in just noticeable differences, root mean square; else relMSE
@@ -28,12 +28,14 @@ struct TargetError {
 
 enum class Integrator : std::uint8_t { path, direct, photon };
 
-// What is done with a film that was written, before the program ends: so long of any film, and of its bytes.
+// It is the time between writing a film and the end of the program: so long for any film, and for each of its
+// bytes.
 struct AfterFilm {
   double s = 0, s_per_byte = 0;
 };
 
-// What the picture is: with the scene it makes the film, to the bit. Empty optionals: as the scene says.
+// They say what the picture is: with the scene they make the film, to the bit. An empty optional is as the
+// scene says.
 struct PictureSettings {
   std::optional<int> samples_per_pixel;
   std::optional<int> max_depth;
@@ -63,8 +65,8 @@ struct PictureSettings {
   std::optional<TargetError> target_error;  // the render ends once this is reached
 };
 
-// What a job has, and how it takes it: nothing of it shows in the film but how many samples it has, where a
-// time limits them.
+// They say what a job has, and how it takes it. Nothing of it shows in the film but how many samples it has,
+// where a time limits them.
 struct JobResources {
   std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
   bool memory_is_jobs = false;     // memory_bytes is what the job has: with more it would be killed
@@ -74,23 +76,23 @@ struct JobResources {
   std::filesystem::path homes;      // a RayProfile: ranks answer for equal work; empty: for equal bytes
   bool homes_stay = false;          // until the end; else they settle where a job is long (run/settling.h)
   double checkpoint_every_s = 600;  // 0: only when asked by a signal
-  // From `start` to the end of what comes after the film; 0: none. The film then holds what was done. At
-  // least half of it is for tracing, and ends no sooner than with some samples.
+  // It runs from `start` to the end of all that comes after the film; 0 is no limit. The film then holds what
+  // was done. At least half of it is for tracing, and it ends no sooner than with some samples.
   double time_limit_s = 0;
   AfterFilm after_film;
   double stop_after_s = 0;  // from `start` on; 0: never. As if told to stop, by a TERM
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   double patience_s = 600;  // a rank that does not answer for so long ends the job; 0: never
-  // For tests: at most this for domains, whatever memory_bytes leaves, and so little for rays that they go to
-  // the disk; 0: no such limit.
+  // It is for tests: domains get at most this, whatever memory_bytes leaves, and rays get so little that they
+  // go to the disk; 0: no such limit.
   std::uint64_t domain_memory_bytes = 0;
-  // For tests: homes settle after so many seconds, however little time is left.
+  // It is for tests: homes settle after so many seconds, however little time is left.
   std::optional<double> settle_after_s;
-  // For tests: processes rays in an arbitrary order: no picture may depend on it.
+  // It is for tests: rays are processed in an arbitrary order, on which no picture may depend.
   std::optional<std::uint64_t> shuffle_seed;
 };
 
-// What a job writes, and says.
+// They say what a job writes and prints.
 struct JobOutputs {
   std::filesystem::path
       film;  // where the finished film goes; the checkpoint lies beside it (checkpoint_path)
@@ -104,7 +106,7 @@ struct JobOutputs {
   bool dry_run = false;           // renders until the time limit, writes nothing and says what all would take
   bool resume = false;            // says where there is nothing to go on from; going on needs no asking
   bool force = false;             // replaces what lies under the names of film and checkpoint, whatever it is
-  // On rank 0, of each checkpoint while the render goes on; empty: nothing.
+  // It is called on rank 0, with each checkpoint while the render goes on; empty: nothing is called.
   std::function<void(const std::filesystem::path&)> after_checkpoint;
   std::string command;            // that was typed, for the statistics
   std::filesystem::path stats;    // empty: none
@@ -114,7 +116,7 @@ struct JobOutputs {
   bool quiet = false;  // only problems are printed
 };
 
-// The options of `vitrail render`.
+// They are the options of `vitrail render`.
 struct RenderOptions {
   std::filesystem::path bundle;
   PictureSettings picture;

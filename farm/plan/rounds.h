@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a render is to reach, and the rounds of samples in which it gets there. After a round no ray is alive
-// and the film is whole on rank 0: what comes next follows from it alone, so it is the same on any number of
-// ranks, and after any number of kills.
+// A render reaches its goal in rounds of samples. After a round no ray is alive and the film is whole on rank
+// 0. The next round follows from that film alone, so it is the same on any number of ranks, and after any
+// number of kills.
 #pragma once
 
 #include <optional>
@@ -24,34 +24,36 @@ struct Goal {
   std::uint32_t first_samples(std::uint32_t pixels) const;  // a pixel, of the first round
 };
 
-// Where neither the number of samples nor the scene's counts: with --target-error and --time.
+// They bound the samples where --target-error or --time is given and no number of samples; the scene's number
+// does not count then.
 inline constexpr int most_samples_unasked = 65536;
 inline constexpr int most_iterations_unasked = 4096;  // of photon mapping
 
-// `scene`: its settings, with the integrator that the options choose.
+// Returns the goal. `scene` holds its settings, with the integrator that the options choose.
 Goal goal_of(const RenderOptions& options, const RenderSettings& scene);
 
-// What the film's error is in the unit of the target: relMSE, or just noticeable differences.
+// It is the film's error in the unit of the target: relMSE, or just noticeable differences.
 struct ReachedError {
   double estimate = 0;
   double upper = 0;  // the true error is below in most pictures, see film/film_noise.h
 };
 ReachedError reached_error(const Film& film, const TargetError& target);
 
-// Uniform, until every pixel has `samples`; or `more` of each pixel.
+// It is uniform, until every pixel has `samples`; or it has `more` of each pixel.
 struct NextRound {
   std::uint32_t samples = 0;
   std::vector<std::uint32_t> more;  // empty: uniform
 };
 
-// Of a film between two rounds. Empty: the goal is reached, or has no rounds.
+// Returns the round that follows a film between two rounds; nothing where the goal is reached, or has no
+// rounds.
 std::optional<NextRound> next_round(const Film& film, const Goal& goal);
 
-// How many samples a pixel the goal will take, by what is known so far.
+// Returns how many samples a pixel the goal will take, by what is known so far.
 double expected_samples(const Film& film, const Goal& goal);
 
-// The work of a round that follows `plan`. To be called by all ranks together; `next` and `film` are rank
-// 0's. Empty: there is none.
+// Returns the work of a round that follows `plan`; nothing where there is none. All ranks call it together;
+// `next` and `film` are rank 0's.
 std::optional<WorkPlan> agree_on_round(Transport& transport, std::optional<NextRound> next, const Film& film,
                                        const WorkPlan& plan);
 

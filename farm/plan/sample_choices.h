@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a job samples the picture in place of what the scene says and what is usual. Films that were sampled in
-// different ways do not merge, though most of them agree in the mean.
+// A job may sample the picture in other ways than the scene says and than is usual. Films that were sampled
+// in different ways do not merge, though most of them agree in the mean.
 #pragma once
 
 #include <optional>
@@ -11,25 +11,25 @@
 
 namespace vitrail {
 
-// Of images, in place of each one's own.
+// It is a filter of images, in place of each one's own.
 enum class TextureChoice : std::uint8_t {
   unfiltered,  // no coarser than they are, however far away: between texels as each image says
   nearest      // the texel there
 };
 
-// Empty optionals: as the scene says.
+// An empty optional is as the scene says.
 struct SampleChoices {
   std::optional<Filter> filter;
   std::optional<TextureChoice> textures;
   SamplingChoices sampling;
 };
 
-// What differs from the usual, as options of `vitrail render`: "--filter box:0.5 --roulette early"; a filter
-// with whatever shapes it. "" where nothing does.
+// Returns the choices that differ from the usual, as options of `vitrail render`: "--filter box:0.5
+// --roulette early"; a filter with all that shapes it. It returns "" where nothing differs.
 std::string words_of(const SampleChoices& choices);
 
-// Puts those of the picture and its images into the manifest. Where a picture may be another than without the
-// choices, so is its scene_hash.
+// Puts the choices for the picture and its images into the manifest. Where a picture may be another than
+// without the choices, so is its scene_hash.
 void apply(const SampleChoices& choices, Manifest& manifest);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Another place or angle of view for a bundle's camera.
+// These functions give a bundle's camera another place or angle of view.
 #pragma once
 
 #include <optional>
@@ -20,11 +20,11 @@ struct ViewEdit {
   std::optional<double> fov_deg;  // over the shorter side of the picture
 };
 
-// "0,-5,2,0,0,1" or with three numbers more of the direction that is up. Throws UsageError.
+// Reads "0,-5,2,0,0,1" or with three numbers more of the direction that is up. Throws UsageError.
 ViewEdit::LookAt parse_look_at(const std::string& text);
 
-// Before the film is given another size. Throws UsageError where the camera has no such thing, or the view no
-// direction.
+// Edits the view, before the film is given another size. Throws UsageError where the camera has no such
+// thing, or the view no direction.
 void edit_view(const ViewEdit& edit, Manifest& manifest);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The samples of a picture cut into work items: a tile of pixels and a range of sample numbers. Items are
+// The samples of a picture are cut into work items: a tile of pixels and a range of sample numbers. Items are
 // numbered alike on every rank, so that a film can say which of them it holds.
 #pragma once
 
@@ -17,8 +17,8 @@ struct WorkItem {
   std::uint32_t sample0 = 0, sample1 = 0;  // [sample0, sample1)
 };
 
-// Sample ranges one after the other, each over all tiles, row by row. A render that goes on from one of fewer
-// samples keeps that one's items and puts its own behind them: a part for each.
+// It has sample ranges one after the other, each over all tiles, row by row. A render that goes on from one
+// of fewer samples keeps that one's items and puts its own behind them: a part for each.
 //
 // In an adaptive round each pixel has samples of its own number: `held` by the film before the round, `more`
 // in it. A part then counts from the first of these, and its items end where a pixel's end.
@@ -44,26 +44,27 @@ struct WorkPlan {
   struct Range {
     std::uint32_t first = 0, end = 0;
   };
-  // The samples of a pixel in an item, by number.
+  // Returns the samples of a pixel in an item, by number.
   Range samples(const WorkItem& item, int x, int y) const;
   std::uint64_t samples(const WorkItem& item) const;  // of all its pixels
 };
 
-// `earlier_ends`: the samples a pixel of the renders that it goes on from, ascending, below `samples`.
+// Makes the plan. `earlier_ends` are the samples a pixel of the renders that it goes on from, ascending,
+// below `samples`.
 WorkPlan make_work_plan(const PixelRect& crop, std::uint32_t samples,
                         std::span<const std::uint32_t> earlier_ends = {}, bool one_by_one = false);
 
-// An adaptive round: `held` and `more` as in WorkPlan.
+// Makes the plan of an adaptive round: `held` and `more` are as in WorkPlan.
 WorkPlan make_adaptive_round(const PixelRect& crop, std::vector<std::uint32_t> held,
                              std::vector<std::uint32_t> more);
 
 // Marks the items of an adaptive round that have no samples as done: `done` has a bit an item.
 void mark_empty_items(const WorkPlan& plan, std::vector<std::uint64_t>& done);
 
-// Every item done, a bit each, in words of 64.
+// Returns bits that say that every item is done, one each, in words of 64.
 std::vector<std::uint64_t> all_done(std::uint64_t items);
 
-// Samples [first, end) of an item's, pixel by pixel: visit(x, y, sample).
+// Visits the samples [first, end) of an item, pixel by pixel: visit(x, y, sample).
 template <class Visit>
 void for_each_sample(const WorkPlan& plan, const WorkItem& item, std::uint64_t first, std::uint64_t end,
                      const Visit& visit) {
@@ -78,21 +79,21 @@ void for_each_sample(const WorkPlan& plan, const WorkItem& item, std::uint64_t f
     }
 }
 
-// Puts the items of a tile in some successive passes behind each other, of a share in ascending order:
+// Puts the items of a tile in some successive passes behind each other, in a share in ascending order:
 // workers take them together (tasks.cpp). The first passes stay alone, so that a picture is soon seen whole.
 void put_passes_together(const WorkPlan& plan, std::vector<std::uint64_t>& items);
-// Whether a worker may take `next` with `item`: the next samples of the same pixels.
+// Returns whether a worker may take `next` with `item`: it has the next samples of the same pixels.
 bool goes_on_with(const WorkPlan& plan, const WorkItem& item, const WorkItem& next);
 
-// Of memory: a rank's share of the items by number, of which photon mapping has those of an iteration at a
-// time, and a bit of each, twice.
+// Returns the bytes of memory for a rank's share of the items by number, and a bit of each, twice. Photon
+// mapping lists those of an iteration at a time.
 std::uint64_t list_bytes(const WorkPlan& plan, int ranks);
 
-// The items of `rank` of `ranks` among those not yet done, dealt out in turn, in ascending order.
-// `done` holds a bit an item, or is empty: none is. Of the items [first, end).
+// Returns the items of `rank` of `ranks` among those of [first, end) that are not yet done. They are dealt
+// out in turn, and ascend. `done` holds a bit an item, or is empty: none is.
 std::vector<std::uint64_t> share_of(const std::vector<std::uint64_t>& done, std::uint64_t first,
                                     std::uint64_t end, int rank, int ranks);
-// Of all of a plan's.
+// Returns the share of all of a plan's items.
 std::vector<std::uint64_t> share_of(const WorkPlan& plan, const std::vector<std::uint64_t>& done, int rank,
                                     int ranks);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of one kind that wait for one domain: a queue entry, and a message as it travels.
+// A batch holds rays of one kind that wait for one domain: it is a queue entry, and a message as it travels.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace vitrail {
 
-// The others travel as rays do and wait for no domain: photons that landed, what paths ask photons, and items
-// of work by number.
+// The last three kinds travel as rays do and wait for no domain: photons that landed, questions of paths to
+// photons, and items of work by number.
 enum class RayKind : std::uint32_t { path, shadow, landed, question, item };
 
 template <class Record>
@@ -27,7 +27,7 @@ constexpr RayKind kind_of() {
 }
 constexpr bool is_ray(RayKind kind) { return kind == RayKind::path || kind == RayKind::shadow; }
 
-// A header of 8 bytes, then records without gaps.
+// It has a header of 8 bytes, then records without gaps.
 class RayBatch {
  public:
   static constexpr std::size_t header_bytes = 8;
@@ -43,7 +43,7 @@ class RayBatch {
   std::uint32_t domain() const { return read<std::uint32_t>(0); }
   RayKind kind() const { return read<RayKind>(4); }
   std::size_t count() const { return bytes_.empty() ? 0 : (bytes_.size() - header_bytes) / record_bytes(); }
-  // Whether what was received is a batch for one of `domains`.
+  // Returns whether what was received is a batch for one of `domains`.
   bool is_whole(std::size_t domains) const {
     return bytes_.size() > header_bytes && domain() < domains && kind() <= RayKind::item &&
            (bytes_.size() - header_bytes) % record_bytes() == 0;
@@ -63,7 +63,7 @@ class RayBatch {
     return {reinterpret_cast<Record*>(bytes_.data() + header_bytes), count()};
   }
   const std::vector<std::byte>& bytes() const { return bytes_; }
-  // Of memory, with room to grow: a full batch has none.
+  // Returns the bytes of memory, with room to grow: a full batch has none.
   std::size_t held_bytes() const { return bytes_.capacity(); }
 
  private:

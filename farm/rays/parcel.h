@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Batches for one rank as one message: of each its bytes, as 8 bytes, and then the batch.
+// A parcel holds batches for one rank as one message: each batch's bytes, as 8 bytes, and then the batch.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,8 @@ class Parcel {
   std::vector<std::byte> bytes_;
 };
 
-// What is in a message that came. Throws MachineError where it is no parcel of batches for one of `domains`.
+// Returns the batches of a message that came. Throws MachineError where it is no parcel of batches for one of
+// `domains`.
 std::vector<RayBatch> unpack(const std::vector<std::byte>& message, std::size_t domains);
 
 }  // namespace vitrail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rays that wait on this rank, a queue a domain; the scheduler counts them. Those beyond what memory has
-// room for wait on the disk (scheduler/spill.h). Not synchronised: the rank's mutex guards it.
+// The rays that wait on this rank stand here, a queue a domain; the scheduler counts them. Those beyond what
+// memory has room for wait on the disk (scheduler/spill.h). It is not synchronised: the rank's mutex guards
+// it.
 #pragma once
 
 #include <memory>
@@ -15,11 +16,11 @@ namespace vitrail {
 
 class RayQueues {
  public:
-  // `most_bytes` in memory. With a `shuffle_seed`, batches and the rays in them leave in an arbitrary order:
-  // no picture may depend on it.
+  // Keeps at most `most_bytes` in memory. With a `shuffle_seed`, batches and the rays in them leave in an
+  // arbitrary order: no picture may depend on it.
   RayQueues(std::size_t domains, std::uint64_t most_bytes, std::optional<std::uint64_t> shuffle_seed);
 
-  // These throw MachineError where the disk cannot take what is too much.
+  // Both throw MachineError where the disk cannot take what is too much.
   template <class Record>
   void push(std::uint32_t domain, const Record& record) {
     RayBatch& batch = open_batch(domain, kind_of<Record>());
@@ -29,7 +30,7 @@ class RayQueues {
     make_room();
   }
   void push(RayBatch batch);
-  // The newest batch of a domain in memory, else one from the disk; there is one.
+  // Returns the newest batch of a domain in memory, else one from the disk; there is one.
   RayBatch pop(std::uint32_t domain);
 
   bool empty(std::uint32_t domain) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Batches of rays on the disk, of this process alone: the file has no name, so it goes with the process
-// however that ends.
+// A RayFile keeps batches of rays on the disk, of this process alone: the file has no name, so it goes with
+// the process however that ends.
 #pragma once
 
 #include "farm/rays/batch.h"
@@ -10,7 +10,7 @@ namespace vitrail {
 
 class RayFile {
  public:
-  // Where a batch lies.
+  // It says where a batch lies.
   struct Place {
     std::uint32_t unit = 0, bytes = 0;  // the first of FileRoom's units
   };
@@ -20,7 +20,7 @@ class RayFile {
   RayFile(const RayFile&) = delete;
   RayFile& operator=(const RayFile&) = delete;
 
-  // Throw MachineError: the disk is full or does not answer. The file is made with the first batch.
+  // They throw MachineError where the disk is full or does not answer. The file is made with the first batch.
   Place write(const RayBatch& batch);
   RayBatch read(Place place);  // its room is used again
   std::uint64_t written_bytes() const { return written_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Batches that wait for a worker, whatever their domain: what paths ask the photons of this rank. Those
-// beyond what memory has room for wait on the disk. Not synchronised: the rank's mutex guards it.
+// They hold batches that wait for a worker, whatever their domain: questions of paths to the photons of this
+// rank. Those beyond what memory has room for wait on the disk. It is not synchronised: the rank's mutex
+// guards it.
 #pragma once
 
 #include <vector>
@@ -16,7 +17,7 @@ class WaitingBatches {
 
   // Both throw MachineError where the disk cannot take what is too much, or lost it.
   void push(RayBatch batch);
-  // The newest in memory, else one from the disk; there is one.
+  // Returns the newest in memory, else one from the disk; there is one.
   RayBatch pop();
 
   bool empty() const { return memory_.empty() && disk_.empty(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film of a whole job on disk: all ranks' sums, and which work items they hold.
+// A checkpoint is the film of a whole job on disk: all ranks' sums, and which work items they hold.
 #pragma once
 
 #include "farm/plan/options.h"
@@ -10,19 +10,20 @@
 
 namespace vitrail {
 
-// NAME.film.partial of NAME.film; NAME.partial of NAME.work, the work file of a picture.
+// Returns NAME.film.partial for NAME.film, and NAME.partial for NAME.work, the work file of a picture.
 std::filesystem::path checkpoint_path(const std::filesystem::path& film);
 
 // Gathers all ranks' films and item bits on rank 0, whose film then holds everything and the others' nothing.
-// To be called by all ranks together while no ray is alive. `done` is the rank's own bits, and becomes the
-// job's on rank 0 and empty elsewhere.
+// All ranks call it together while no ray is alive. `done` is the rank's own bits, and becomes the job's on
+// rank 0 and empty elsewhere.
 void gather_film(Transport& transport, Film& film, std::vector<std::uint64_t>& done);
 
-// What such a film says of itself. One that is whole does not say in which steps it became so.
+// Returns the words that such a film has about itself. A film that is whole does not say in which steps it
+// became so.
 FilmProgress progress_of(const WorkPlan& plan, const std::vector<std::uint64_t>& done, double render_time_s,
                          const std::string& about);
 
-// What earlier runs left of this very job, in its film (finished, or stopped by a time limit) or in its
+// It is what earlier runs left of this very job, in its film (finished, or stopped by a time limit) or in its
 // checkpoint.
 struct EarlierWork {
   WorkPlan plan;                    // with what is to be done first
@@ -31,11 +32,11 @@ struct EarlierWork {
   bool finished = false;            // the film holds all that is asked for
 };
 
-// Rank 0 adds to `film` what lies under the job's two names, the one that holds more; every rank learns what
-// it is, and what is to be done first. Throws Error where either is of another picture or seed, was made by
-// another program, or aims at more than the goal's samples a pixel, and names each difference: its samples
-// would be lost. Left aside is what has no samples, and a work file whose picture was written. With
-// options.outputs.force nothing is looked at. `about`: FilmProgress's, of this job.
+// Adds to `film`, on rank 0, the samples of the file under the job's two names that holds more; every rank
+// learns what it is, and what is to be done first. Throws Error where either is of another picture or seed,
+// was made by another program, or aims at more than the goal's samples a pixel, and names each difference:
+// its samples would be lost. A file without samples is left aside, and so is a work file whose picture was
+// written. With options.outputs.force nothing is looked at. `about` is FilmProgress's, of this job.
 EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options, Film& film,
                               const Goal& goal, const std::string& about);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When the film is written while a job goes on and at its end, and what that takes. Rank 0 has the clock.
+// Checkpointing decides when the film is written while a job goes on and at its end, and measures what that
+// takes. Rank 0 has the clock.
 #pragma once
 
 #include <optional>
@@ -15,8 +16,8 @@ namespace vitrail {
 
 class Checkpointing {
  public:
-  // `about`: FilmProgress's; outlives it. `keeper`: on rank 0, unless it is a dry run. `time_before_s`:
-  // render time of earlier runs.
+  // `about` is FilmProgress's, and outlives it. `keeper` is set on rank 0, unless it is a dry run.
+  // `time_before_s` is the render time of earlier runs.
   Checkpointing(Transport& transport, RankState& state, const RenderOptions& options, FilmKeeper* keeper,
                 const std::string& about, double time_before_s);
 
@@ -25,17 +26,17 @@ class Checkpointing {
   // before the limit.
   void watch_clock();
   void rays_are_alive(std::int64_t rays) { rays_alive_ = rays; }
-  // Items are done that were not when this run began: before that no time limit ends it.
+  // Notes that items are done that were not when this run began: before that no time limit ends it.
   void has_gained() { has_gained_ = true; }
   bool wanted() const { return wanted_; }
   bool time_is_up() const { return time_is_up_; }
-  // From now on the job empties, so that it can be written.
+  // Notes that the job empties from now on, so that the film can be written.
   void pause_begins() {
     if (pause_) return;
     pause_ = RankState::Clock::now();
     alive_at_pause_ = rays_alive_;
   }
-  // All ranks together, while no ray is alive; no worker begins before it is written.
+  // All ranks call these together, while no ray is alive; no worker begins before the film is written.
   void write_checkpoint();
   void write_last(bool as_film);
   // Puts the film together on rank 0 between rounds.
@@ -58,11 +59,13 @@ class Checkpointing {
   const std::string& about_;
   double time_before_s_;
   bool wanted_ = false, time_is_up_ = false, has_gained_ = false;
-  // On rank 0, where time is limited: what is left for the film, of which the first is but for gathering.
+  // Rank 0 sets them where time is limited: the seconds for writing the film, and for all of its end, which
+  // begins with gathering it.
   double write_s_ = 0, ending_s_ = 0;
   RankState::Clock::time_point limit_start_, last_;
   double due_after_s_;  // since the last one; 0: never
-  // Since the start, where somebody looks at checkpoints: soon, then after twice the time and so on.
+  // The next checkpoint is due at this time since the start, where somebody looks at checkpoints: soon, then
+  // after twice the time and so on.
   double next_look_s_ = 0.25;
   std::optional<RankState::Clock::time_point> pause_;  // since when the job empties
   DrainTime drain_;

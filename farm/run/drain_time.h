@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long the rays that are alive take to end, once no new ones begin, by the last time that was waited for.
+// DrainTime expects how long the rays that are alive take to end, once no new ones begin, by the last time
+// that was waited for.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +17,8 @@ class DrainTime {
   }
   bool known() const { return known_; }
 
-  // Grows in proportion where more rays are alive: each may want a domain of its own. It is 0 where nothing
-  // was measured.
+  // Returns the time, which grows in proportion where more rays are alive: each may want a domain of its own.
+  // It is 0 where nothing was measured.
   double expected_s(std::int64_t rays_alive) const {
     const double share = static_cast<double>(rays_alive) / static_cast<double>(rays_);
     return seconds_ * std::max(1.0, share);

@@ -8,7 +8,8 @@
 
 namespace vitrail {
 
-// Where the rays of all ranks went; whole on rank 0. All ranks call it. `stats`: the job's, on rank 0.
+// Returns where the rays of all ranks went; it is whole on rank 0. All ranks call it. `stats` holds the
+// job's, on rank 0.
 RayProfile gather_profile(Transport& transport, const Manifest& manifest, const Profiling& mine,
                           const RenderStats& stats);
 

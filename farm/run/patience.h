@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long ranks wait for each other: who does not answer is named, and the job ends. From the start of the
-// job to its end, whatever ranks do meanwhile.
+// Ranks wait for each other only so long: a rank that does not answer is named, and the job ends. This holds
+// from the start of the job to its end, whatever ranks do meanwhile.
 #pragma once
 
 #include <chrono>
@@ -15,15 +15,15 @@ namespace vitrail {
 
 class Patience {
  public:
-  // To be made by all ranks together. Words are heard, and answered, in every wait of the transport; what
+  // All ranks make it together. Words are heard, and answered, in every wait of the transport; a step that
   // takes a while is done beside it (transport/agreement.h).
   Patience(Transport& transport, Watchdog& watchdog, double patience_s);
   ~Patience();
   Patience(const Patience&) = delete;
   Patience& operator=(const Patience&) = delete;
 
-  // The last step of a rank: waits for the others. One that has `failed`, and told nobody else, is not waited
-  // for by those that still work: they end the job.
+  // Waits for the others, as the last step of a rank. A rank that has `failed`, and told nobody else, is not
+  // waited for by those that still work: they end the job.
   void leave(bool failed);
 
  private:
@@ -41,7 +41,7 @@ class Patience {
   Watch watch_;
   bool leaving_ = false, failed_ = false;
   std::vector<std::string> names_;  // "node7, process 1234", by rank; empty until all have told theirs
-  // A clock that stands still while this rank does: where all of a job was suspended nobody is missing.
+  // It is a clock that stands still while this rank does: where all of a job was suspended nobody is missing.
   double now_s_ = 0;
   std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
 };

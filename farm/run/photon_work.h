@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photon mapping on one rank: each iteration has two phases with no ray alive between them. First photons
-// fly, and land at the ranks that answer for where they land: those of all domains that the radius reaches.
-// Then each pixel has one sample, whose path asks the rank that answers for where it ends. Nothing is left of
-// an iteration but the film.
+// Photon mapping on one rank has iterations of two phases with no ray alive between them. First photons fly,
+// and land at the ranks that answer for where they land: those of all domains that the radius reaches. Then
+// each pixel has one sample, whose path asks the rank that answers for where it ends. Nothing is left of an
+// iteration but the film.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace vitrail {
 class PhotonWork {
  public:
   // Each domain's first home answers for it. `scene` outlives it. `most_landed` (0: no limit) and
-  // `most_question_bytes`: in memory, the others are on the disk.
+  // `most_question_bytes` are the most in memory; the others are on the disk.
   PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size_t most_landed,
              std::uint64_t most_question_bytes, Homes homes, int rank, int ranks);
   PhotonWork(const PhotonWork&) = delete;  // its parts refer to each other
@@ -39,7 +39,8 @@ class PhotonWork {
   bool flying() const { return pass_.flying; }
 
   void land(const Photon& photon) { map_.add(photon); }
-  // Keeps a photon that landed, if this rank is to know of it, and tells who else is: a domain of each rank.
+  // Keeps a photon that landed, if this rank is to know of it, and calls send(domain) with one domain of each
+  // other rank that is to know.
   template <class Send>
   void deal_out(const Photon& photon, const Send& send);
 

@@ -16,19 +16,19 @@ class Profiling {
  public:
   enum class Manner : std::uint8_t { recorded, walking, plain };
   static constexpr std::size_t manners = 3;
-  // By kind of task, generating first, and manner: samples or rays, and seconds.
+  // They stand by kind of task, generating first, and manner: samples or rays, and seconds.
   using Sums = std::array<double, 4 * manners>;
 
   // It records one of so many tasks, lets one walk, and has the others traced as without a profile.
   explicit Profiling(std::size_t domains, std::uint64_t turns = manners)
       : traffic(domains), of_turns_(turns) {}
 
-  // How the next task of this kind is traced.
+  // Returns how the next task of this kind is traced.
   Manner next(Scheduler::Work work) {
     const std::uint64_t turn = turns_[index(work)]++ % of_turns_;
     return turn < manners ? static_cast<Manner>(turn) : Manner::plain;
   }
-  // One with so many samples, or rays, took so many seconds of the processor.
+  // Notes that a task with so many samples, or rays, took so many seconds of the processor.
   void took(Scheduler::Work work, Manner manner, std::uint64_t rays, double seconds) {
     const std::size_t at = 2 * (manners * index(work) + static_cast<std::size_t>(manner));
     sums[at] += static_cast<double>(rays);
@@ -41,7 +41,8 @@ class Profiling {
     for (std::size_t i = 1; i < sums.size(); i += 2) all_s += sums[i];
     return all_s;
   }
-  // What all tasks together would take, traced in this manner, or as those recorded where none was.
+  // Returns the seconds that all tasks together would take, traced in this manner, or as those recorded where
+  // none was.
   static double seconds_of_all(const Sums& sums, Manner manner) {
     double all_s = 0;
     for (std::size_t work = 0; work < 2; ++work) {
@@ -54,7 +55,7 @@ class Profiling {
     }
     return all_s;
   }
-  // How many times as many samples there are as were recorded.
+  // Returns how many times as many samples there are as were recorded.
   static double samples_a_recorded_one(const Sums& sums) {
     return sums[0] > 0 ? (sums[0] + sums[2] + sums[4]) / sums[0] : 1;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user sees while a picture is rendered: a bar on a terminal, a line a minute, JSON, or nothing.
+// Progress shows a user how far a picture is while it is rendered: a bar on a terminal, a line a minute,
+// JSON, or nothing.
 #pragma once
 
 #include <chrono>
@@ -17,11 +18,11 @@ namespace vitrail {
 
 class Progress {
  public:
-  // `film`: with what earlier runs did. `samples`: a pixel, on the average, that the render is expected to
-  // take. Silent on other ranks than 0.
+  // `film` has the samples of earlier runs. `samples` counts those a pixel, on the average, that the render
+  // is expected to take. It is silent on other ranks than 0.
   Progress(const RenderOptions& options, int rank, const Film& film, double samples);
   void expect(double samples) { samples_ = samples; }
-  // Called as often as one likes; prints at its own pace.
+  // It is called as often as one likes, and prints at its own pace.
   void show(const Round& round);
   void finish();
   double samples_left(const RoundSums& sums) const;  // of all pixels together
@@ -38,12 +39,12 @@ class Progress {
   ProgressLine line_;
 };
 
-// On rank 0, before the first ray, and once all is written: that line is a render's last, and names the
-// picture, or the film where that is the output.
+// They print on rank 0, before the first ray, and once all is written. The second prints a render's last
+// line, which names the picture, or the film where that is the output.
 void print_start(const RenderOptions& options, const Manifest& manifest, const Goal& goal, int ranks,
                  int threads);
 void print_end(const RenderOptions& options, const RenderStats& stats);
-// A line of --progress json.
+// Prints a line of --progress json.
 void print_event(const nlohmann::ordered_json& event);
 // Says so where more than a hundredth of the sunlight in glass met faces that are not parallel, which only
 // photons pass.

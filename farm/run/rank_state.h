@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the threads of a rank share, under one mutex that is held for moments; tracing runs outside it.
+// A RankState holds what the threads of a rank share, under one mutex that is held for moments; tracing runs
+// outside it.
 #pragma once
 
 #include <chrono>
@@ -19,13 +20,13 @@
 
 namespace vitrail {
 
-// Items that are this rank's, of the phase at hand.
+// It holds the items that are this rank's, of the phase at hand.
 struct ItemShare {
   std::vector<std::uint64_t> items;  // that are not dealt, the next one last
   std::uint64_t at = 0;              // samples of the open item that are dealt
 };
 
-// What the rank has traced so far, and where its time went.
+// It counts what the rank has traced so far, and where its time went.
 struct RankWork {
   TraceCounters counters;
   std::optional<Profiling> profiling;  // empty: nothing is recorded
@@ -34,7 +35,8 @@ struct RankWork {
   double idle_s = 0, load_s = 0;
 };
 
-// `mutex` guards all of it but the film, the scene and `begun`: functions that want it held take a Locked.
+// Its `mutex` guards all of it but the film, the scene and `begun`: functions that want it held take a
+// Locked.
 struct RankState {
   using Clock = std::chrono::steady_clock;
   RankState(const RenderScene& scene, Film& film, WorkPlan work, const JobPlan& plan,
@@ -52,8 +54,8 @@ struct RankState {
   RayQueues outgoing;  // of the others' domains
   ResidentDomains domains;
   ItemShare share;
-  // Bits of the items dealt that rank 0 does not hold yet; all of them on rank 0. They are done when no ray
-  // is alive.
+  // They are bits of the items dealt that rank 0 does not hold yet; all of them on rank 0. The items are done
+  // when no ray is alive.
   std::vector<std::uint64_t> done;
   std::optional<PhotonWork> photons;  // while they fly, the share is of their chunks
   RankWork work;
@@ -66,11 +68,11 @@ struct RankState {
   bool photons_fly() const { return photons && photons->flying(); }
 };
 
-// Proof that a rank's mutex is held.
+// It proves that a rank's mutex is held.
 class Locked {
  public:
   explicit Locked(RankState& state) : lock_(state.mutex) {}
-  // Runs something meanwhile without it.
+  // Runs something meanwhile without the mutex.
   template <class F>
   void without(const F& something) {
     lock_.unlock();
@@ -84,11 +86,11 @@ class Locked {
   std::unique_lock<std::mutex> lock_;
 };
 
-// Into the timeline, where one is recorded: what the thread that moves rays has done since `begin`.
+// Adds to the timeline, where one is recorded, what the thread that moves rays has done since `begin`.
 void note(RankState& state, Timeline::Kind kind, RankState::Clock::time_point begin,
           const Timeline::Values& values = {});
 
-// What a thread did wrong; the first counts.
+// Notes the exception of a thread that failed; the first counts.
 void fail(RankState& state, std::exception_ptr why);
 
 }  // namespace vitrail

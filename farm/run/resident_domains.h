@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The domains and objects that are mapped, as scheduler/residency.h decides.
+// They hold the domains and objects that are mapped, as scheduler/residency.h decides.
 #pragma once
 
 #include <atomic>
@@ -14,37 +14,39 @@
 
 namespace vitrail {
 
-// The resident domains at one moment. A worker keeps its own reference while it traces, so a domain that is
-// evicted meanwhile is unmapped when the last worker lets go of it.
+// It holds the resident domains at one moment. A worker keeps its own reference while it traces, so a domain
+// that is evicted meanwhile is unmapped when the last worker lets go of it.
 struct ResidentTable {
   std::vector<std::shared_ptr<const DomainView>> domains;  // with their files
   std::vector<const DomainView*> views;
 };
 
-// A domain that has room, and those of its objects that are in memory already.
+// It is for a domain that has room, and holds those of its objects that are in memory already.
 struct Reservation {
   LoadStep::Load load;
   std::map<std::uint32_t, SharedDomain> held;  // by number
   bool again = false;                          // the domain was loaded before
 };
 
-// Not synchronised, except `load`: the rank's mutex guards it. No two loads under way bring the same object.
+// It is not synchronised, except `load`: the rank's mutex guards it. No two loads under way bring the same
+// object.
 class ResidentDomains {
  public:
   ResidentDomains(const Manifest& manifest, std::filesystem::path bundle, Traversal traversal);
 
   std::shared_ptr<const ResidentTable> table() const { return table_; }
-  // If it is Embree's, all views are of EmbreeDomains.
+  // All views are of EmbreeDomains if this is Embree's.
   Traversal traversal() const { return traversal_; }
-  // A bit a domain: it was loaded at least once.
+  // It has a bit a domain: it was loaded at least once.
   const std::vector<bool>& touched() const { return touched_; }
 
-  // Lets the evicted go, keeps what the load needs of them.
+  // Lets the evicted go, but keeps the objects of theirs that the load needs.
   std::optional<Reservation> begin(LoadStep step);
-  // Maps and verifies, and builds Embree's tree if that is wanted; may be called without the mutex.
+  // Maps and verifies the domain, and builds Embree's tree if that is wanted; may be called without the
+  // mutex.
   std::shared_ptr<const DomainView> load(const Reservation& reservation);
   void insert(std::uint32_t domain, std::shared_ptr<const DomainView> loaded);
-  // Bytes unmapped since it was asked last. Workers let go without a notice.
+  // Returns the bytes unmapped since it was asked last. Workers let go without a notice.
   std::uint64_t take_released() { return released_->exchange(0); }
 
  private:

@@ -10,9 +10,9 @@
 
 namespace vitrail {
 
-// How a job came to its end.
+// It says how a job came to its end.
 enum class Ending { none, finished, time_is_up, interrupted, terminated };
-// Into the film rather than a checkpoint.
+// Returns whether the end is written as a film rather than a checkpoint.
 constexpr bool writes_film(Ending e) { return e == Ending::finished || e == Ending::time_is_up; }
 
 // It tells what came of homes that settled (run/settling.h).
@@ -23,16 +23,16 @@ struct Settled {
   double busiest_trace_s = 0;  // and of the rank that traced longest since then
 };
 
-// The statistics of a render, of one rank and, after `gather_stats`, of the job: sums, and maxima for the
-// memory.
+// It holds the statistics of a render, of one rank and, after `gather_stats`, of the job: sums, and maxima
+// for the memory.
 struct RenderStats {
   int ranks = 1, threads = 1, spectral_bins = 0;
   std::uint64_t spp = 0, seed = 0, samples = 0;
   double wall_s = 0, cpu_s = 0, load_s = 0, trace_s = 0, idle_s = 0;
   double busiest_trace_s = 0;  // of the rank that traced longest
   Settled settled;
-  // Of those in the midst of the job, from the moment from which no ray is born until work goes on: all, and
-  // the longest.
+  // They are the seconds of checkpoints in the midst of the job, from the moment from which no ray is born
+  // until work goes on: of all, and of the longest.
   double checkpoint_s = 0, longest_checkpoint_s = 0;
   TraceCounters traced;
   bool adaptive = false;
@@ -47,7 +47,7 @@ struct RenderStats {
   std::uint64_t tiles_read = 0;     // of textures, from their files
   std::uint64_t items_given = 0;    // from rank to rank
   std::uint64_t checkpoints = 0;
-  // Of photon mapping: landings of all iterations, and most of an iteration that a rank kept.
+  // They are for photon mapping: landings of all iterations, and most of an iteration that a rank kept.
   std::uint64_t photons_landed = 0, photons_kept = 0;
   std::uint64_t memory_budget_bytes = 0, peak_rss_bytes = 0, base_rss_bytes = 0, setup_peak_rss_bytes = 0;
   std::uint64_t film_hash = 0;
@@ -60,12 +60,14 @@ struct RenderStats {
   double expected_s = 0;         // of a dry run: how long all that is left takes
 };
 
-// All ranks together; the job's on rank 0. `touched`: a bit a domain, of this rank.
+// Gathers the job's statistics on rank 0; all ranks call it together. `touched` has a bit a domain, of this
+// rank.
 void gather_stats(Transport& transport, RenderStats& stats, const std::vector<bool>& touched);
-// All ranks together, when no more memory will be used: peak_rss_bytes anew, the job's and each rank's.
+// Gathers peak_rss_bytes anew, the job's and each rank's. All ranks call it together, when no more memory
+// will be used.
 void gather_peaks(Transport& transport, RenderStats& stats);
 
-// One JSON object with the keys of the stats contract; flat but for "hosts" and "by_rank".
+// Returns one JSON object with the keys of the stats contract; flat but for "hosts" and "by_rank".
 std::string to_json(const RenderStats& stats);
 
 }  // namespace vitrail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread that sees that this process goes on, from before MPI starts until after it ends. It needs nothing
-// of the others: where the disk, MPI or a lock holds them for ever it still speaks and ends the process.
+// A Watchdog is a thread that sees that this process goes on, from before MPI starts until after it ends. It
+// needs nothing of the others: where the disk, MPI or a lock holds them for ever it still speaks and ends the
+// process.
 #pragma once
 
 #include <atomic>
@@ -21,17 +22,18 @@ class Watchdog {
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  // How messages call this process, "rank 1 of 4 (node7)". Before that, and alone, nothing.
+  // Sets how messages call this process, "rank 1 of 4 (node7)". Before that, and in a job of one rank, they
+  // call it nothing.
   void call_it(std::string name);
 
-  // The thread that speaks to other ranks calls the second again and again while they are expected.
+  // The thread that speaks to other ranks calls the second again and again while reports are expected.
   void expect_reports(bool from_now_on = true) { reports_expected_ = from_now_on; }
   void report() { reports_.fetch_add(1, std::memory_order_relaxed); }
 
-  // It has found a standstill and said so: the job ends. Who sees that ends all ranks; where nobody does,
-  // this process ends some seconds later.
+  // Returns whether it has found a standstill and said so: the job ends. A thread that sees that ends all
+  // ranks; where none does, this process ends some seconds later.
   bool has_given_up() const { return given_up_; }
-  // This rank ends the job, which may hang too.
+  // Notes that this rank ends the job, which may hang too.
   void gives_up() { given_up_ = true; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The threads of a rank: workers that generate and trace rays, some that load domains.
+// These are the threads of a rank: workers that generate and trace rays, and some that load domains.
 #pragma once
 
 #include <thread>

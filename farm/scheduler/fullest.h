@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Domains by how many rays wait for them: the fullest and the emptiest of 65,535 without looking at each.
+// Fullest orders domains by how many rays wait for them: it finds the fullest and the emptiest of 65,535
+// without looking at each.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ class Fullest {
   void erase(std::uint32_t domain);
   void set(std::uint32_t domain, std::uint64_t rays);  // of one that is in it
 
-  // Empty: no domain is in it; `most` of those that rays wait for alone.
+  // They return nothing where no domain is in it; `most` looks only at those that rays wait for.
   std::optional<std::uint32_t> most() const;
   std::optional<std::uint32_t> fewest() const;
 

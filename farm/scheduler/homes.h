@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which ranks answer for a domain: rays for it wait at one of them.
+// Homes say which ranks answer for a domain: rays for it wait at one of them.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ namespace vitrail {
 
 class Homes {
  public:
-  // One each: `home[d]` is domain d's.
+  // Each domain has one home: `home[d]` is domain d's.
   Homes(const std::vector<int>& home, int ranks) : Homes(home, home, ranks) {}
-  // Those of domain d are ranks [first[d], last[d]].
+  // The homes of domain d are ranks [first[d], last[d]], the last included.
   Homes(std::vector<int> first, std::vector<int> last, int ranks)
       : first_(std::move(first)), last_(std::move(last)), ranks_(ranks) {}
 
@@ -31,19 +31,19 @@ class Homes {
   int ranks_;
 };
 
-// Contiguous runs of domains in kd order, of about equal bytes: neighbours share a rank and rays stay home
-// longer.
+// Returns contiguous runs of domains in kd order, of about equal bytes: neighbours share a rank and rays stay
+// home longer.
 Homes homes_by_bytes(const Manifest& manifest, int ranks);
 
-// The same of about equal work, as `profile` saw it. A domain with more than a rank's share has as many homes
-// as shares, and where the border of two shares lies within a domain or near to it, both ranks are its homes.
-// `bytes_share`: how much of a domain's weight are its bytes, in [0, 1]. Throws Error for a profile of
-// another bundle.
+// Returns the same with about equal work, as `profile` saw it. A domain with more than a rank's share has as
+// many homes as shares. Where the border of two shares lies within a domain or near to it, both ranks are its
+// homes. `bytes_share` says how much of a domain's weight are its bytes, in [0, 1]. Throws Error for a
+// profile of another bundle.
 Homes homes_by_work(const Manifest& manifest, const RayProfile& profile, int ranks, double bytes_share = .02);
 
-// The same with no more of the bytes than needed, so that the domains and copies of each rank fit into
-// `bytes_a_rank`. Empty: they do not, or the busiest rank would have nearly as much work as with `now`. Where
-// `now` does not fit either, nothing has to.
+// Returns the same with no more of the bytes than needed, so that the domains and copies of each rank fit
+// into `bytes_a_rank`. It returns nothing where they do not, or where the busiest rank would have nearly as
+// much work as with `now`. Where `now` does not fit either, nothing has to.
 std::optional<Homes> better_homes(const Manifest& manifest, const RayProfile& profile, const Homes& now,
                                   std::uint64_t bytes_a_rank);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long the thread that moves messages sleeps before it looks again: longer and longer while nothing
-// moves. A rank that spins takes the core from one that works.
+// Nap says how long the thread that moves messages sleeps before it looks again: longer and longer while
+// nothing moves. A rank that spins takes the core from one that works.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ class Nap {
   static constexpr Time shortest{20}, longest{1000};
 
   void moved() { next_ = shortest; }
-  // The next one; it is taken.
+  // Returns the next nap, which is then taken.
   Time take() {
     const Time nap = next_;
     next_ = std::min(next_ * 2, longest);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every rank adds to a round; the sums are what all ranks decide by, so they decide alike.
+// Every rank adds its numbers to a round; all ranks decide by the sums, so they decide alike.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct RoundSums {
   std::int64_t idle = 0;     // 1: has nothing to do, and no item left
   std::int64_t working = 0;  // 1: a worker or a loader has something in hand
 };
-// What each rank tells all others beside.
+// It is what each rank tells all others beside.
 struct RankReport {
   std::int64_t waiting = 0;   // rays that wait to be traced
   std::int64_t resident = 0;  // domains
@@ -38,8 +38,8 @@ struct Round {
   RoundSums sums;
   std::vector<RankReport> ranks;
 };
-// From one round to the next, at least: each tells every rank some numbers of every other, which takes longer
-// the more there are, and some milliseconds of work are in flight in between.
+// Returns the least seconds from one round to the next. Each round tells every rank some numbers of every
+// other, which takes longer the more there are; some milliseconds of work are in flight in between.
 inline double round_interval_s(int ranks) { return std::max(1e-3, .4e-6 * ranks); }
 inline constexpr std::size_t round_values = sizeof(RoundSums) / sizeof(std::int64_t);
 

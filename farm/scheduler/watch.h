@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who has stopped answering. A round ends when all ranks have joined it, so one that hangs is missed by all
-// and known to none: ranks that have waited long ask. As the scheduler, without threads, clocks and messages.
+// Watch finds who has stopped answering. A round ends when all ranks have joined it, so one that hangs is
+// missed by all and known to none: ranks that have waited long ask. Watch, like the scheduler, has no
+// threads, clocks or messages.
 #pragma once
 
 #include <vector>
 
 namespace vitrail {
 
-// Of one rank. The first two ranks ask, so that each of them is missed by the other; where both are silent
-// the others end without having been asked. Seconds are of the caller's clock.
+// It is the watch of one rank. The first two ranks ask, so that each of them is missed by the other; where
+// both are silent the others end without having been asked. Seconds are of the caller's clock.
 class Watch {
  public:
   static constexpr int asking_ranks = 2;
 
   // A rank that does not answer is named once a round has stood for `patience_s`, and none that answers
-  // within half of that ever is. 0: never.
+  // within half of that ever is. A patience of 0 is without end.
   Watch(int rank, int ranks, double patience_s);
 
-  // Events.
+  // These are the events.
   void round_begins(double now_s);  // this rank joined it
   void round_ends() { waiting_ = false; }
   void asked(double now_s) { heard_s_ = now_s; }  // and is to answer at once, whatever else it does

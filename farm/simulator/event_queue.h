@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens next under the simulated clock.
+// An EventQueue gives the event that is next under the simulated clock.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace vitrail {
 
 struct SimulationEvent {
-  // Those behind `wants_rest` alone bring nothing on.
+  // Events behind `wants_rest` alone bring nothing on.
   enum class Kind {
     task_done,
     load_done,
@@ -26,14 +26,15 @@ struct SimulationEvent {
   };
   Kind kind = Kind::task_done;
   int rank = 0;
-  // Of the message or its head, the domain that was loaded, or the worker of the task; or how many items.
+  // It is the number of the message or its head, of the domain that was loaded, or of the worker of the task;
+  // or it counts items.
   std::uint64_t number = 0;
   double time = 0;
   std::uint64_t order = 0;  // of events at one time
   bool operator<(const SimulationEvent& e) const { return time != e.time ? time > e.time : order > e.order; }
 };
 
-// The earliest comes first; of those at one time, the one that was put in first.
+// It gives the earliest event first; of those at one time, the one that was put in first.
 class EventQueue {
  public:
   void at(double time_s, SimulationEvent event);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What came of a job up to a moment. Of a long job the beginning, a steady middle and the end are simulated;
-// more of the middle is reckoned.
+// These functions lengthen the simulation of a long job: its beginning, a steady middle and the end are
+// simulated; more of the middle is reckoned.
 #pragma once
 
 #include <vector>
@@ -9,22 +9,23 @@
 
 namespace vitrail {
 
-// What a rank did so far.
+// It says what a rank did so far.
 struct Busy {
   double working_s = 0;  // of all its workers
   double loading_s = 0;
 };
-// A moment of a job: what came together so far, and the ranks' part in it.
+// It is a moment of a job: the sums so far, and the ranks' part in them.
 struct Moment {
   SimulationResult sums;
   std::vector<Busy> ranks;
   double link_s = 0;  // that the busiest link sent, or received
 };
 
-// Adds to `end` what came between two moments `times` times more. What was most at any moment stays.
+// Adds to `end`, `times` times, the difference of the sums of two moments. The greatest values of any moment
+// stay.
 void lengthen(Moment& end, const Moment& from, const Moment& to, double times);
 
-// What of the time the ranks were busy, for a job that has ended.
+// Computes the shares of the time in which the ranks were busy, for a job that has ended.
 void add_shares(Moment& end, const Machine& machine);
 
 }  // namespace vitrail

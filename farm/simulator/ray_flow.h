@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the rays of a task go from domain to domain, as numbers.
+// A RayFlow moves the rays of a task from domain to domain, as numbers.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// What a task comes to, as is known when it begins.
+// It counts the rays of a task, which are known when it begins.
 struct TaskRays {
   std::uint64_t generated = 0, traced = 0;
   std::uint64_t born = 0, died = 0;             // those that are generated are born
@@ -25,10 +25,11 @@ class RayFlow {
 
   explicit RayFlow(const Workload& workload);
 
-  // Rays that wait for a domain, of `resident` ones, go on as far as these reach. `before_s` comes on top.
+  // Traces rays that wait for a domain; in `resident` domains they go on as far as these reach. `before_s` is
+  // added to the task's seconds.
   TaskRays trace(std::uint32_t domain, std::uint64_t rays, double before_s, const Domains& resident,
                  SimulatedMachine& machine);
-  // So many camera rays do.
+  // Does the same with so many camera rays, which are born.
   TaskRays generate(std::uint64_t rays, const Domains& resident, SimulatedMachine& machine);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulation itself, over any scheduler, watch, spill and way to receive, so that tests can put broken
-// ones in their place: ranks (simulated_rank.h) in a world that they share (simulated_world.h), to which one
-// event after the other happens. After each it is looked for what may never happen (invariants.h).
+// The simulation runs over any scheduler, watch, spill and way to receive, so that tests can put broken ones
+// in their place: ranks (simulated_rank.h) in a world that they share (simulated_world.h), to which one event
+// after the other happens. After each the job looks for what may never happen (invariants.h).
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +19,8 @@
 
 namespace vitrail {
 
-// How a rank receives a message whose head has come: it goes on meanwhile, or waits for the rest.
+// A rank receives a message whose head has come in one of two ways: it goes on meanwhile, or waits for the
+// rest.
 struct ReceivesBeside {
   static constexpr bool waits = false;
 };
@@ -51,7 +52,7 @@ class SimulatedJob {
   SimulatedJob(const SimulatedJob&) = delete;
   SimulatedJob& operator=(const SimulatedJob&) = delete;
 
-  // Once.
+  // It is called once.
   SimulationResult run() {
     try {
       start();
@@ -95,7 +96,7 @@ class SimulatedJob {
     check_progress(e);
   }
 
-  // Whether the rank is inside a receive: what comes for it waits too.
+  // Returns whether the rank is inside a receive: all that comes for it waits too.
   bool waits(const Event& e) {
     Waiting& w = waiting_[static_cast<std::size_t>(e.rank)];
     if (!w.message) {
@@ -200,12 +201,12 @@ class SimulatedJob {
     r.watch.round_begins();
   }
 
-  // False: all is done.
+  // Returns false where all is done.
   bool goes_on_after_quiet(Rank& r, const RoundSums& sums) {
     if (quiet_round_ != r.round) note_kept(r, sums);
     quiet_round_ = r.round;
     r.check_queues();
-    // Written when all ranks have given what they have of it.
+    // A checkpoint is written when all ranks have given their part of it.
     if (++quiet_[r.round] == ranks_.size() && sums.pause > 0) world_.result.kept = kept_;
     if (sums.items_done == static_cast<std::int64_t>(world_.workload.items)) {
       if (++r.rounds_of_samples == world_.mishaps.rounds_of_samples) return false;
@@ -220,8 +221,8 @@ class SimulatedJob {
     return true;
   }
 
-  // The first rank finds that all is quiet: what a checkpoint would hold now. No item is open; of those dealt
-  // all rays were generated.
+  // The first rank that finds that all is quiet notes what a checkpoint would hold now. No item is open; all
+  // rays of those dealt were generated.
   void note_kept(const Rank& first, const RoundSums& sums) {
     if (world_.alive != 0)
       invariant::broken(
@@ -262,7 +263,7 @@ class SimulatedJob {
     return all.sums;
   }
 
-  // A third, and two, of the items are dealt.
+  // Notes the moments when one third and two thirds of the items are dealt.
   void note_thirds() {
     const Workload& w = world_.workload;
     if (w.middle_again == 0 || thirds_.size() == 2) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the scene a simulated rank has in memory: resident domains, those whose load is under way, and what
-// left the table while workers still hold it. Objects count once.
+// It is the part of the scene that a simulated rank has in memory: resident domains, those whose load is
+// under way, and those that left the table while workers still hold them. Objects count once.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class SimulatedMemory {
   SimulatedMemory(const Manifest& manifest, int rank) : manifest_(manifest), rank_(rank) {}
 
   const std::set<std::uint32_t>& resident() const { return resident_; }
-  // Under way, with the objects that each brings.
+  // They are the loads under way, with the objects that each brings.
   const std::map<std::uint32_t, std::vector<std::uint32_t>>& loads() const { return loads_; }
   std::set<std::uint32_t> resident_and_loading() const;
   std::uint64_t table_bytes() const;                  // of these
@@ -26,11 +26,11 @@ class SimulatedMemory {
   std::uint64_t most_bytes() const { return most_; }
   std::uint64_t steps() const { return steps_; }  // taken
 
-  // Evicts and reserves; gives the bytes that its load brings. Throws InvariantBroken where the step evicts
+  // Evicts and reserves; returns the bytes that its load brings. Throws InvariantBroken where the step evicts
   // what is absent or loads what is there.
   std::uint64_t take(const LoadStep& step);
   void finish_load(std::uint32_t domain);
-  // Workers let go of what was evicted in the first so many steps. Gives its bytes.
+  // Lets go of what was evicted in the first so many steps, which workers no longer hold. Returns its bytes.
   std::uint64_t release(std::uint64_t steps);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rays that wait on a simulated rank, in memory and on its disk.
+// These are the rays that wait on a simulated rank, in memory and on its disk.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 
 namespace vitrail {
 
-// Over any spill, so that tests can put a broken one in its place.
+// It works over any spill, so that tests can put a broken one in its place.
 template <class SpillType>
 class SimulatedQueues {
  public:
@@ -29,7 +29,7 @@ class SimulatedQueues {
   std::uint64_t rays(std::uint32_t domain) const { return rays_[domain]; }
   std::uint64_t bytes_in_memory() const { return bytes_in_memory_; }
 
-  // Gives how many rays, of any domain, went to the disk for it.
+  // Returns how many rays, of any domain, went to the disk for it.
   std::uint64_t put(std::uint32_t domain, std::uint64_t rays) {
     rays_[domain] += rays;
     hold(domain, static_cast<std::int64_t>(rays));
@@ -42,7 +42,7 @@ class SimulatedQueues {
     }
     return spilled;
   }
-  // Those in memory first; gives how many the others are.
+  // Takes those in memory first; returns how many come from the disk.
   std::uint64_t take(std::uint32_t domain, std::uint64_t rays) {
     rays_[domain] -= rays;
     const std::uint64_t held = std::min(rays, in_memory_[domain]);

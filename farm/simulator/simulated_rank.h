@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rank of a simulated job: a scheduler, a watch and a spill, and what threads, memory and messages are to
-// them. Tests put broken ones, derived from the farm's own, in their place.
+// It is a rank of a simulated job: a scheduler, a watch and a spill, and simulated threads, memory and
+// messages. Tests put broken ones, derived from the farm's own, in their place.
 #pragma once
 
 #include <fmt/format.h>
@@ -83,7 +83,7 @@ class SimulatedRank {
     moved_s_ = world_.machine.now_s();
   }
 
-  // Of a message in two parts.
+  // They move a message in two parts.
   void ask_for_rest(std::uint64_t message) {
     world_.send({SimulationEvent::Kind::wants_rest, world_.routes.at(message).from, message});
   }
@@ -193,7 +193,7 @@ class SimulatedRank {
     wake_workers();
   }
 
-  // False: there is none.
+  // Returns false where there is no task.
   bool begin_task(std::size_t worker) {
     Worker& w = workers_[worker];
     const auto task = scheduler.next_task();
@@ -236,7 +236,7 @@ class SimulatedRank {
     }
   }
 
-  // False: there is none.
+  // Returns false where there is no step.
   bool take_load_step() {
     const LoadStep step = scheduler.loader_is_free();
     if (step.load) invariant::check_load(number_, memory_, *step.load, world_.workload.manifest);
@@ -258,7 +258,7 @@ class SimulatedRank {
     world_.events.at(until_s, {SimulationEvent::Kind::load_done, number_, load.domain});
   }
 
-  // What workers that began before an eviction hold is let go when they are done.
+  // Lets go of what workers hold that began before an eviction, when they are done.
   void release() {
     std::uint64_t oldest = memory_.steps() + 1;
     for (const Worker& w : workers_)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rounds of a simulated job that are under way: some ranks have joined, or not all have left.
+// These rounds of a simulated job are under way: some ranks have joined, or not all have left.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ class SimulatedRounds {
  public:
   explicit SimulatedRounds(int ranks) : ranks_(static_cast<std::size_t>(ranks)) {}
 
-  // Whether all ranks have joined it now.
+  // Returns whether all ranks have joined it now.
   bool join(std::uint64_t round, int rank, const RoundSums& mine, const RankReport& report);
 
   struct Told {
     RoundSums sums;
     std::shared_ptr<const std::vector<RankReport>> reports;
   };
-  // What each rank is told at the end.
+  // Returns the sums and reports that each rank is told at the end.
   Told leave(std::uint64_t round);
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rank's watch over the others: it is looked at when it is due, and what it asks goes over the network.
+// It is a rank's watch over the others: it is looked at when it is due, and its questions go over the
+// network.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +25,7 @@ class SimulatedWatch {
   }
   void round_ends() { watch_.round_ends(); }
 
-  // It is due.
+  // Takes the watch's next step when that is due.
   void look_after_others() {
     is_expected_ = false;
     const auto step = watch_.step(world_.machine.now_s());
@@ -36,7 +37,7 @@ class SimulatedWatch {
     expect();
   }
 
-  // Another rank's: this one answers at once.
+  // Answers another rank's question at once.
   void asked(int by) {
     watch_.asked(world_.machine.now_s());
     world_.send({SimulationEvent::Kind::answer, by, as_number()});

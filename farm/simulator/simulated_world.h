@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all ranks of a simulated job share: the picture, the machine, what is under way, and the sums.
+// All ranks of a simulated job share this world: the picture, the machine, what is under way, and the sums.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ struct SimulatedWorld {
   SimulatedWorld(const Workload& picture, const Machine& of, const Mishaps& wrong, std::uint64_t seed)
       : workload(picture), mishaps(wrong), machine(of, seed), flow(picture) {}
 
-  // An event that a rank hears of by the network.
+  // Sends an event that a rank hears of by the network.
   void send(const SimulationEvent& event);
-  // Counts what a task comes to as it begins: the rays that it makes are alive from then on.
+  // Counts a task's rays as it begins: the rays that it makes are alive from then on.
   void count(const TaskRays& task);
 
   const Workload& workload;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A job of many ranks under a simulated clock: the schedulers are the farm's own, while threads, network and
-// disks are events. What may never happen is looked for after every event.
+// It simulates a job of many ranks: the schedulers are the farm's own, while threads, network and disks are
+// events of a simulated clock. After every event it looks for what may never happen.
 #pragma once
 
 #include <limits>
@@ -13,7 +13,7 @@
 
 namespace vitrail {
 
-// The cluster. Seconds and bytes a second.
+// It is the cluster, in seconds and bytes a second.
 struct Machine {
   int ranks = 1;
   int workers = 1;  // a rank
@@ -22,8 +22,8 @@ struct Machine {
   std::optional<Homes> homes;      // empty: by bytes
   Distribution distribution = Distribution::automatic;
   std::int64_t rays_allowed = 0;  // alive in the whole job
-  // A rank, for rays that wait; the others go to its scratch disk, and a worker that takes them waits for
-  // writing and reading them.
+  // It is a rank's memory for rays that wait; the others go to its scratch disk, and a worker that takes them
+  // waits for writing and reading them.
   std::uint64_t queue_bytes = std::numeric_limits<std::uint64_t>::max();
   double scratch_bytes_s = 1e9;
   std::uint64_t bytes_a_ray = 48;
@@ -40,13 +40,13 @@ struct Machine {
   double round_interval_s = 1e-3;
   double jitter = 0;      // any of these takes up to 1 + this times as long: messages overtake
   double patience_s = 0;  // Watch's; 0: a rank that is silent is waited for
-  // Before the first ray, on each rank, and after the last.
+  // It is the time before the first ray, on each rank, and after the last.
   double setup_s = 0;
   double film_bytes = 0;           // that come together on rank 0
   double reduction_bytes_s = 9e8;  // of a rank that adds up another's film: measured, two ranks on two cores
 };
 
-// What a checkpoint holds: whole rounds of samples, and items of the next one.
+// It is what a checkpoint holds: whole rounds of samples, and items of the next one.
 struct KeptWork {
   int rounds = 0;
   std::uint64_t items = 0;
@@ -59,13 +59,13 @@ struct Silence {
   double to_s = std::numeric_limits<double>::infinity();  // ∞: it is dead
 };
 
-// From a moment on no file can be loaded on a rank: the job ends everywhere.
+// No file can be loaded on a rank from a moment on: the job ends everywhere.
 struct DiskError {
   int rank = -1;
   double from_s = std::numeric_limits<double>::infinity();
 };
 
-// What goes wrong on purpose.
+// These mishaps happen on purpose.
 struct Mishaps {
   int checkpoints = 0;        // at random moments
   int rounds_of_samples = 1;  // the items come so many times
@@ -75,12 +75,12 @@ struct Mishaps {
   DiskError disk_error;
   // Messages come in two parts: the head, and when the sender has heard that it came, the rest.
   bool in_two_parts = false;
-  // The number of a message, from 0, that never arrives.
+  // It is the number of a message, from 0, that never arrives.
   std::optional<std::uint64_t> lost_message;
   KeptWork kept;  // of an earlier run: this one goes on from there
 };
 
-// Something that may never happen did. The message says what, where and when.
+// It says that something happened that never may. The message says what, where and when.
 struct InvariantBroken : std::logic_error {
   using std::logic_error::logic_error;
 };
@@ -90,7 +90,8 @@ struct SimulationResult {
   double around_s = 0;    // of these before the first ray and after the last
   double busy_s = 0;      // of all workers
   double efficiency = 0;  // busy_s ÷ (seconds × workers)
-  // Of the rank, or the link, where it is most, the share of the time. A loader waits for one file at least.
+  // They are the share of the time of the rank, or the link, where it is greatest. A loader waits for one
+  // file at least.
   double busiest_workers = 0, busiest_loader = 0, busiest_link = 0;
   std::uint64_t events = 0, messages = 0, rays = 0, forwarded_rays = 0, loads = 0, evictions = 0;
   std::uint64_t rounds = 0, checkpoints = 0;
@@ -106,7 +107,7 @@ struct SimulationResult {
   KeptWork kept;                     // in its last checkpoint
 };
 
-// The same seed gives the same run. Throws InvariantBroken.
+// Simulates the job; the same seed gives the same run. Throws InvariantBroken.
 SimulationResult simulate(const Workload& workload, const Machine& machine, const Mishaps& mishaps,
                           std::uint64_t seed);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the rays of a picture behave, as the simulator sees them: numbers of rays that move between domains.
+// A Workload says how the rays of a picture behave, as the simulator sees them: numbers of rays that move
+// between domains.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +29,13 @@ struct Workload {
   double middle_again = 0;  // the middle third of the items so many times more, which is reckoned
 };
 
-// What a profile saw of a bundle, for `pictures` times its samples. Of many, items are larger than the
-// farm's, so that there are at most `most_items`. Throws Error for a profile of another bundle.
+// Returns a workload as a profile saw it in a bundle, for `pictures` times its samples. For many, items are
+// larger than the farm's, so that there are at most `most_items`. Throws Error for a profile of another
+// bundle.
 Workload workload_of(const Manifest& manifest, const RayProfile& profile, double pictures, double most_items);
 
-// Domains in a row, each of whose rays end, stay near or go anywhere; of unlike sizes, some with objects in
-// common.
+// Returns domains in a row, each of whose rays end, stay near or go anywhere; the domains have unlike sizes,
+// some with objects in common.
 Workload random_workload(std::mt19937_64& random, std::uint32_t domains, std::uint64_t items,
                          std::uint32_t rays_an_item);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps that all ranks take together or not at all.
+// All ranks take these steps together or not at all.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@ struct OtherRankFailed : std::runtime_error {
   bool bad_input;
 };
 
-// Runs what may take longer than others have patience, in a thread of its own where there are other ranks:
-// the transport's words are heard meanwhile. It must not use the transport.
+// Runs a step that may take longer than others have patience, in a thread of its own where there are other
+// ranks: the transport's words are heard meanwhile. It must not use the transport.
 void beside(Transport& transport, const std::function<void()>& step);
 
 // Waits for the round that this rank has joined.
@@ -27,17 +27,17 @@ Round wait_for_round(Transport& transport);
 // it did throw what happened, the others OtherRankFailed.
 void agree(Transport& transport, const std::function<void()>& step);
 
-// The same of a step of rank 0 alone, which may take as long as it likes, as other programs do.
+// Does the same with a step of rank 0 alone, which may take as long as it likes, as other programs do.
 void agree_on_root(Transport& transport, const std::function<void()>& step);
 
-// Returns how many times all ranks have failed together, by what one of them threw. Whoever catches that can
-// go on with another step where the number has grown: the ranks are in step.
+// Returns how many times all ranks have failed together, by what one of them threw. Code that catches that
+// can go on with another step where the number has grown: the ranks are in step.
 std::uint64_t agreed_failures();
 
 // Throws `own` where it is set, OtherRankFailed elsewhere.
 [[noreturn]] void leave(const std::exception_ptr& own, const RoundSums& sums);
 
-// Whether it is an Error: exit status 3 rather than 4.
+// Returns whether it is an Error: exit status 3 rather than 4.
 bool is_bad_input(const std::exception_ptr& failure);
 
 }  // namespace vitrail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What this rank does at the moment, in the words of messages: "tracing rays". Ranks go through a job in
-// step, so it is also what a rank does that does not answer.
+// It says what this rank does at the moment, in the words of messages: "tracing rays". Ranks go through a job
+// in step, so a rank that does not answer does the same.
 #pragma once
 
 #include <atomic>

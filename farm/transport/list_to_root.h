@@ -8,8 +8,8 @@
 
 namespace vitrail {
 
-// The list that `rank` has, on rank 0; on the others nothing. All ranks call it, for one rank after the
-// other, so that memory holds one list. It travels as the sum with the others' zeros.
+// Returns the list that `rank` has, on rank 0; on the others nothing. All ranks call it, for one rank after
+// the other, so that memory holds one list. It travels as the sum with the others' zeros.
 std::vector<std::int64_t> list_to_root(Transport& transport, int rank, std::vector<std::int64_t> mine);
 
 }  // namespace vitrail

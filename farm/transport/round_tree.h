@@ -3,7 +3,7 @@
 // there are. MPI_Iallgather connects everybody with everybody.
 #pragma once
 
-// The C interface only.
+// OMPI_SKIP_MPICXX leaves the C interface only.
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
 
@@ -17,17 +17,18 @@
 
 namespace vitrail {
 
-// A rank's place: it gathers for the ranks [rank, end). Ranks side by side, often of one node, are near.
+// It is a rank's place: it gathers for the ranks [rank, end). Ranks side by side, often of one node, are
+// near.
 struct TreePlace {
   static constexpr int most_children = 4;
   int parent = -1;  // −1: none
   int end = 1;
   std::vector<int> children{};  // ascending; each gathers for the ranks up to the next one, or `end`
 };
-// Of ranks 0 … ranks − 1.
+// Returns the place of `rank` in the tree of ranks 0 … ranks − 1.
 TreePlace place_in_tree(int rank, int ranks);
 
-// One round at a time, as Transport has them.
+// It holds one round at a time, as Transport has them.
 class RoundTree {
  public:
   RoundTree(int rank, int ranks);
@@ -36,7 +37,7 @@ class RoundTree {
   std::optional<Round> finish();
 
  private:
-  // Sums, then a report a rank.
+  // They are sums, then a report a rank.
   using Numbers = std::vector<std::int64_t>;
   enum class Step : std::uint8_t { gathers, hears, tells };
 

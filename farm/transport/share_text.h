@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// The text that rank 0 has, on all ranks. All of them call it.
+// Gives all ranks the text that rank 0 has. All of them call it.
 void share_from_root(Transport& transport, std::string& text);
 
 }  // namespace vitrail
