@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Crops of one picture are compared where they overlap.
+// This file cuts crops of one picture to where they overlap, before they are compared.
 #pragma once
 
 #include "film/develop.h"
 
 namespace vitrail {
 
-// Cuts both to what both show of the same whole picture; those of other wholes have to have the same size,
-// and are compared pixel by pixel. Throws Error where there is nothing to compare.
+// Cuts both pictures to the pixels that both show of the same whole picture. Pictures of different wholes are
+// compared pixel by pixel. Throws Error where nothing overlaps, or where the sizes of such pictures differ.
 void align(Picture& image, Picture& reference);
 
 }  // namespace vitrail

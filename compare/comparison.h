@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One comparison from end to end: the value of a metric, the verdict, and where the errors are.
+// This file makes one comparison from end to end: the value of a metric, the verdict, the places of errors.
 #pragma once
 
 #include <array>
@@ -15,26 +15,26 @@ namespace vitrail {
 
 enum class Metric { relmse, mse, rmse, mae, psnr, smape, flip, ztest, bitwise, ssim, welch };
 
-// Empty for an unknown name.
+// Returns the metric of that name, or nothing for an unknown name.
 std::optional<Metric> metric_of(const std::string& name);
 const std::vector<std::string>& metric_names();
 
-// A pixel of great error.
+// A WorstPixel is a pixel of great error, with its colours in both images.
 struct WorstPixel {
   int x = 0, y = 0;  // in the whole picture
   std::array<float, 3> image{}, reference{};
   double error = 0;  // of the metric
 };
 
-// What a comparison found.
+// A Comparison holds what one comparison found.
 struct Comparison {
   Metric metric = Metric::relmse;
-  // For ztest the fraction of values that fail, for bitwise of pixels that differ, for welch the distance of
-  // its p-values from evenly spread ones.
+  // It is the metric's value: the fraction of values that fail for ztest, of pixels that differ for bitwise.
+  // For welch it is the distance of its p-values from evenly spread ones.
   double value = 0;
   std::optional<double> threshold, mean_within;
-  // All of these hold: value ≤ threshold; the means of X, Y and Z differ by no more than the fraction
-  // mean_within (without one, ztest tests the means too); every pixel is finite in both images. Without a
+  // It is true if value ≤ threshold, every pixel is finite in both images, and the means of X, Y and Z differ
+  // by at most the fraction mean_within. Without that fraction ztest tests the means itself. Without a
   // threshold and a fraction nothing is judged.
   bool passed = true;
   bool judged() const { return threshold.has_value() || mean_within.has_value(); }
@@ -49,21 +49,21 @@ struct Comparison {
   std::vector<double> error_map;  // one value a pixel, ≥ 0; NaN where not finite
 };
 
-// The images of `input` by a metric; its variances are needed by ztest alone. Without a threshold, ztest has
-// ztest_tolerated, bitwise 0, welch its allowed distance, and the others pass. FLIP looks at a pixel's
-// neighbours: where pixels are left out, `given_map` is that of the whole images without them (flip.h);
-// empty: hdr_flip of the images given. For bitwise it is 1 at pixels that differ in more than their colours.
-// `welch`: the test of that name, which is not made here.
+// Compares the images of `input` by a metric; ztest alone needs their variances. Without a threshold, ztest
+// takes ztest_tolerated, bitwise 0, welch its allowed distance, and the other metrics pass. FLIP looks at a
+// pixel's neighbours. Where pixels are left out, `given_map` is therefore the map of the whole images without
+// them (flip.h). If it is empty, hdr_flip of the images is taken. For bitwise, `given_map` is 1 at pixels
+// that differ in more than their colours. `welch` is the Welch test of the pictures, which is not made here.
 Comparison compare(const ZTestInput& input, Metric metric, std::optional<double> threshold,
                    std::optional<double> mean_within = std::nullopt, std::vector<double> given_map = {},
                    std::optional<WelchTest> welch = std::nullopt);
 
-// A few lines for people; one JSON object for programs (numbers that are not finite become null).
+// They return a few lines for people, and one JSON object for programs (non-finite numbers become null).
 std::string to_text(const Comparison& comparison);
 std::string to_json(const Comparison& comparison);
 
-// The pixels of the greatest errors that are not 0, at most `count`. `error_map` has a value a pixel of the
-// images, whose first pixel is at (x0, y0) of the whole picture.
+// Returns the pixels of the greatest errors that are not 0, at most `count`. `error_map` has a value a pixel
+// of the images, whose first pixel is at (x0, y0) of the whole picture.
 std::vector<WorstPixel> worst_pixels(const std::vector<double>& error_map, const Image& image,
                                      const Image& reference, int x0, int y0, std::size_t count);
 

@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// What a page shows: the images are linear sRGB of the same size.
+// A ComparisonPage holds what a page shows. Both images are linear sRGB of the same size.
 struct ComparisonPage {
   std::string image_name, reference_name;
   const Image* image = nullptr;
@@ -18,10 +18,10 @@ struct ComparisonPage {
   bool low_range = false;         // FLIP is that of images for screens
 };
 
-// One HTML file that a browser shows without a network: both images and the maps of their errors, flipped
-// between or split, at any exposure and size, with the values of the pixel under the pointer, histograms and
-// all metrics. Pixels are kept as half floats in units of the greatest:
-// of 11 bits.
+// Returns one HTML file that a browser shows without a network. It shows both images and their error
+// maps, flipped between or split, at any exposure and size. Beside them are the values of the pixel under
+// the pointer, histograms and all metrics. The page holds pixels as half floats, of 11 significant bits,
+// in units of the greatest value.
 std::string comparison_page(const ComparisonPage& page);
 
 }  // namespace vitrail

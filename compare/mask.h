@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Leaving pixels out of a comparison. What remains of an image is one row of pixels, which every metric
-// takes.
+// This file leaves pixels out of a comparison. The pixels of an image that remain form
+// one row, which every metric takes.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// True: the pixel is left out.
+// True means that the pixel is left out.
 using Mask = std::vector<bool>;
 
 // Leaves out the pixels of the rectangles, and those that are black in `kept`, unless it is 0 × 0. Throws
@@ -19,10 +19,10 @@ using Mask = std::vector<bool>;
 Mask make_mask(int width, int height, std::span<const PixelRect> ignored, const Image& kept);
 
 Image without(const Image& image, const Mask& mask);
-// `values` has so many a pixel of the mask.
+// `values` holds the same number of values for each pixel of the mask.
 std::vector<double> without(const std::vector<double>& values, const Mask& mask);
 std::vector<int> without(const std::vector<int>& values, const Mask& mask);
-// One value a pixel that remained becomes one a pixel of the image, 0 in those left out.
+// Spreads one value a pixel that remained to one a pixel of the image, 0 in pixels that were left out.
 std::vector<double> spread(const std::vector<double>& values, const Mask& mask);
 
 }  // namespace vitrail

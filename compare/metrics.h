@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far an image is from a reference. Images are linear sRGB, 3 channels, of the same size.
+// These metrics tell how far an image is from a reference. Images are linear sRGB, 3 channels, of one size.
 #pragma once
 
 #include <cstddef>
@@ -11,42 +11,42 @@
 
 namespace vitrail {
 
-// Errors of one channel, a the image and b the reference.
+// They return errors of one channel, where a is the image and b the reference.
 double squared_error(double a, double b);   // (a − b)²
 double absolute_error(double a, double b);  // |a − b|
-// (a − b)²/(b² + ε) with ε = 0.01 against division by black (after Rousselle, Knaus, Zwicker 2011).
+// Returns (a − b)²/(b² + ε), where ε = 0.01 avoids division by black (after Rousselle, Knaus, Zwicker 2011).
 double relative_squared_error(double a, double b);
-// 2|a − b|/(|a| + |b|), 0 where both are 0 (Makridakis 1993).
+// Returns 2|a − b|/(|a| + |b|), 0 where both are 0 (Makridakis 1993).
 double symmetric_relative_error(double a, double b);
 
-// The mean of a channel error over the channels of each pixel; NaN in pixels that are not finite in either
+// Returns each pixel's mean of a channel error over the channels, NaN in pixels that are not finite in either
 // image. Throws Error if the sizes differ.
 std::vector<double> error_map(const Image& image, const Image& reference,
                               const std::function<double(double, double)>& channel_error);
 
-// 1 in pixels with any bit different, else 0: NaN equals itself, −0 differs from 0.
+// Returns 1 in pixels with any bit different, else 0: NaN equals itself, −0 differs from 0.
 std::vector<double> difference_map(const Image& image, const Image& reference);
 
-// The mean of the values that are not NaN; NaN if all are.
+// Returns the mean of the values that are not NaN; NaN if all are.
 double mean_of_valid(std::span<const double> values);
 
-// 10 log₁₀(1/MSE) dB, for a peak of 1; ∞ for equal images.
+// Returns 10 log₁₀(1/MSE) dB, for a peak of 1; ∞ for equal images.
 double psnr_of_mse(double mse);
 
-// Pixels with a channel that is not finite.
+// Returns the number of pixels with a channel that is not finite.
 std::size_t count_nonfinite(const Image& image);
 
-// Means of the image over means of the reference, over the pixels that are finite in both: 1 without bias.
-// NaN where the reference is black.
+// MeanRatios are means of the image over means of the reference, over the pixels that are finite in both.
+// Without bias they are 1; they are NaN where the reference is black.
 struct MeanRatios {
   double x = 0, luminance = 0, z = 0, red = 0, green = 0, blue = 0;
 };
-// Of images of one size.
+// Returns the ratios of two images of one size.
 MeanRatios mean_ratios(const Image& image, const Image& reference);
 
-// The standard error of the ratio of the means of luminance, if the pixels' differences are independent but
-// for what splatting makes alike (Neighbours::of_mean): of noise they are, of a wrong shadow they are not.
-// NaN where the reference is black.
+// Returns the standard error of the ratio of mean luminances. It holds if pixels' differences are
+// independent but for what splatting makes alike (Neighbours::of_mean): noise is, a wrong shadow is not. It
+// is NaN where the reference is black.
 double luminance_ratio_error(const Image& image, const Image& reference, double neighbours_of_mean = 1);
 
 // Throws Error unless they are of one size.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Is an image a sample of what the reference shows? A two-sided test of each value, corrected for the number
-// of pixels after Šidák (1967); a small fraction of values may fail, since estimated variances miss rare
-// bright paths. The rule is that of Mitsuba's renderer tests.
+// The z-test asks whether an image is a sample of what the reference shows. It is a two-sided test of each
+// value, corrected for the number of pixels after Šidák (1967). A small fraction of values may fail, since
+// estimated variances miss rare bright paths. The rule is that of Mitsuba's renderer tests.
 //
 // A film estimates each pixel's variance from two groups of samples. With one degree of freedom Student's
 // distribution has long tails: one pixel of 10⁴ would have to be off by 10⁵ σ to be found. So estimates are
@@ -21,40 +21,41 @@ inline constexpr double ztest_tolerated = 0.0025;  // fraction of values that ma
 // fails this test.
 inline constexpr double ztest_mean_significance = 1e-4;
 
-// Two images and the variances of their means.
+// A ZTestInput holds two images and the variances of the difference of their means.
 struct ZTestInput {
   const Image* image = nullptr;
   const Image* reference = nullptr;
-  // Of image − reference: one value a pixel, of its luminance, or three, of its X, Y and Z.
+  // It is that of image − reference: one value a pixel, of its luminance, or three, of its X, Y and Z.
   std::vector<double> variance;
-  // z's distribution in each pixel: Student's with so many degrees of freedom, where the variance is an
-  // estimate. Empty: the normal distribution, where the variances are known well.
+  // z of each pixel has Student's distribution with so many degrees of freedom, where the variance is an
+  // estimate. Empty means the normal distribution, where the variances are known well.
   std::vector<int> degrees_of_freedom;
-  // Standard error of the ratio of the means that all pixels have in common, of both images together; 0 where
-  // pixels are independent.
+  // It is the standard error of the ratio of the means that all pixels have in common, of both images
+  // together; 0 where pixels are independent.
   double shared_error = 0;
-  // The variance of a mean over pixels, over that of independent ones (film/neighbours.h).
+  // It is the variance of a mean over pixels, over that of independent pixels (film/neighbours.h).
   double neighbours_of_mean = 1;
 };
 
-// What the test found.
+// A ZTest holds what the test found.
 struct ZTest {
   std::vector<double> z;          // the greatest |z| of each pixel; NaN where either image is not finite
   std::size_t values = 0;         // tested: pixels × (1 or 3)
   std::size_t failed = 0;         // of them, the non-finite ones among them
   double value_significance = 0;  // after the correction
-  // By how many standard errors the means differ, of luminance or of the worst of X, Y and Z. A difference
-  // that rounding the reference to half floats can make is taken off first. Then whether that is too many.
+  // It counts the standard errors by which the means differ, of luminance or the worst of
+  // X, Y and Z. A difference that rounding the reference to half floats can make is taken
+  // off. means_differ: it is too many.
   double mean_sigmas = 0;
   bool means_differ = false;
   double noise_rms = 0, difference_rms = 0;  // of luminance: expected of the variances, and found
 };
 
-// z = (a − b)/√variance for luminance, or for X, Y and Z; 0 for equal values.
+// Tests z = (a − b)/√variance for luminance, or for X, Y and Z; z is 0 for equal values.
 ZTest ztest(const ZTestInput& input);
 
-// P(|T| > t) for Student's distribution with ν degrees of freedom (Abramowitz & Stegun 1964, 26.7.3
-// and 26.7.4); the normal distribution for ν = 0.
+// Returns P(|T| > t) for Student's distribution with ν degrees of freedom (Abramowitz & Stegun 1964, 26.7.3
+// and 26.7.4); for the normal distribution where ν = 0.
 double two_sided_p(double t, int degrees_of_freedom);
 
 }  // namespace vitrail
