@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture with its noise estimated away.
+// This file removes the noise of a picture by a network's estimate.
 #pragma once
 
 #include "denoise/denoiser.h"
@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// The albedo and the normals (of shading, else of the surface) among the picture's layers.
+// Returns the albedo and the normals (of shading, else of the surface) among the picture's layers.
 DenoiserGuides guides_of(const Picture& picture);
 
 // Denoises the colours, and each bin of the spectra as a grey picture, all by the picture's own guides. The

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Intel Open Image Denoise (Áfra 2019–), a convolutional network trained on path-traced pictures, on the
-// cores of this machine. Equal machines give equal images; others may differ in the last bits, as instruction
-// sets do: law 1 is one of films, not of what is estimated of them.
+// The Denoiser is Intel Open Image Denoise (Áfra 2019–), a convolutional network trained on path-traced
+// pictures, on the cores of this machine. Equal machines give equal images; others may differ in the last
+// bits, as instruction sets do: law 1 holds for films, not for estimates made from them.
 #pragma once
 
 #include <initializer_list>
@@ -13,7 +13,7 @@
 
 namespace vitrail {
 
-// What was seen first in each pixel, of three channels; 0 × 0 where it is not known.
+// Guides are albedo and normals of the first surface seen in each pixel, 3 channels; 0 × 0 if not known.
 struct DenoiserGuides {
   Image albedo;   // in [0,1]
   Image normals;  // components in [−1,1]; 0 where nothing is seen. Used beside an albedo alone
@@ -24,13 +24,13 @@ class Denoiser {
   // Loads the library (oidn_library.h). Throws MachineError where there is none, or none that runs here.
   Denoiser();
 
-  // With its version: "Intel Open Image Denoise 2.5.1".
+  // Returns the name with its version: "Intel Open Image Denoise 2.5.1".
   const std::string& name() const { return name_; }
 
-  // Guides without their own noise, of lenses, motion and textures.
+  // Returns guides without their own noise, which comes of lenses, motion and textures.
   DenoiserGuides denoised(const DenoiserGuides& guides) const;
-  // Three channels of linear light without bound; below 0 counts as 0. `guides`: denoised ones. All images
-  // are of one size. Throws MachineError.
+  // Denoises three channels of linear light without bound; below 0 counts as 0. `guides` are denoised ones.
+  // All images are of one size. Throws MachineError.
   Image denoised(const Image& colors, const DenoiserGuides& guides) const;
 
  private:

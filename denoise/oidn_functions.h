@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is called of Intel Open Image Denoise 2.x, as its programming interface for C defines it
-// (openimagedenoise.org/documentation). Declared here, because the library is loaded at run time, and the
-// packages of it that are easy to have come without headers.
+// These are the functions that Vitrail calls of Intel Open Image Denoise 2.x, as its C interface defines them
+// (openimagedenoise.org/documentation). They are declared here because the library is loaded at run time, and
+// its packages that are easy to have come without headers.
 #pragma once
 
 #include <cstddef>
@@ -21,12 +21,12 @@ struct Functions {
   void (*SetDeviceBool)(Device, const char* name, bool value);
   int (*GetDeviceInt)(Device, const char* name);
   void (*CommitDevice)(Device);
-  // The first error since the last call, and what it is in words, which stay until the next one. Of no
-  // device: why there is none.
+  // Returns the first error since the last call, and its message, which stays valid until the next call. Of
+  // no device, it says why there is none.
   int (*GetDeviceError)(Device, const char** message);
   void (*ReleaseDevice)(Device);
   Filter (*NewFilter)(Device, const char* type);
-  // Pixels that stay the caller's. Strides in bytes; 0: without gaps.
+  // Sets pixels that stay the caller's. Strides are in bytes; 0 means without gaps.
   void (*SetSharedFilterImage)(Filter, const char* name, void* pixels, int format, std::size_t width,
                                std::size_t height, std::size_t offset, std::size_t pixel_stride,
                                std::size_t row_stride);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where Open Image Denoise is on this machine.
+// This file finds Open Image Denoise on this machine.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,14 @@
 
 namespace vitrail::oidn {
 
-// Where the PyPI package pyoidn keeps the library in Python environments: that of $VIRTUAL_ENV, of
-// $CONDA_PREFIX, of the first python3 on the $PATH, the user's own, and the system's. What there is, in this
-// order.
+// Returns the files of the library that the PyPI package pyoidn keeps in Python environments. They
+// are, in this order, those of $VIRTUAL_ENV, of $CONDA_PREFIX, of the first python3 on the $PATH,
+// the user's own, and the system's.
 std::vector<std::filesystem::path> python_libraries();
 
-// Loads the library once, from $VITRAIL_OIDN (the file, or the folder that it is in), and where that is not
-// set from where the loader looks for libraries, then from python_libraries(). Throws MachineError with what
-// to install.
+// Loads the library once, from $VITRAIL_OIDN (the file, or its
+// folder). Where that is not set, it asks the loader first, then
+// takes python_libraries(). Throws MachineError with what to install.
 const Functions& functions();
 
 }  // namespace vitrail::oidn
