@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be traded: each axis is a setting of the programs with a few values of it.
+// Axes are what can be traded: each is a setting of the programs with a few values of it.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace vitrail {
 
-// One value of an axis, as arguments: of `render`, and of what makes the bundle from the scene.
+// A Choice is one value of an axis, as arguments of `render` and of what makes the bundle from the scene.
 struct Choice {
   std::string label;
   std::vector<std::string> render, partition;
   int least_spp = 1;  // of fewer samples a pixel it is nothing else than the first
 };
 
-// What a change may do to the pictures: nothing (law 1: time and memory alone), change their noise and keep
-// their mean, or change the mean, which no samples bring back.
+// An Effect is what a change may do to the pictures. It does nothing (law 1: it changes time and memory
+// alone), changes their noise and keeps their mean, or changes the mean, which no samples bring back.
 enum class Effect { nothing, noise, bias };
 const char* name_of(Effect effect);
 
@@ -26,25 +26,25 @@ struct Axis {
   bool limits_memory = false;  // too little of it is a finding, no failure of the machine
 };
 
-// What the values depend on.
+// PictureFacts are what the values of the axes depend on.
 struct PictureFacts {
   double mean_luminance = 1;
   bool is_direct = false;  // of direct light alone, as the scene says
 };
 
-// All axes. One more is one more line of this function.
+// Returns all axes. One more axis is one more line of this function.
 std::vector<Axis> known_axes(const PictureFacts& facts);
 std::vector<std::string> axis_names();
 
-// Those named, or all where `names` is empty. Throws UsageError for unknown ones.
+// Returns the axes of these names, or all where `names` is empty. Throws UsageError for unknown ones.
 std::vector<Axis> chosen_axes(const std::vector<Axis>& known, const std::vector<std::string>& names);
 
-// The index of a choice for each axis.
+// A Setting holds the index of a choice for each axis.
 using Setting = std::vector<std::size_t>;
 
-// "depth 4, clamp 16"; "as the scene says" where every choice is the first.
+// Returns "depth 4, clamp 16", or "as the scene says" where every choice is the first.
 std::string name_of(const std::vector<Axis>& axes, const Setting& setting);
-// The greatest effect of what is not the first choice, and the least samples.
+// They return the greatest effect of the choices that are not the first, and the least samples.
 Effect effect_of(const std::vector<Axis>& axes, const Setting& setting);
 int least_spp(const std::vector<Axis>& axes, const Setting& setting);
 bool limits_memory(const std::vector<Axis>& axes, const Setting& setting);

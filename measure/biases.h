@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of the biases of all settings, and which of them are small enough.
+// This file knows the biases of all settings, and which of them are small enough.
 #pragma once
 
 #include <map>
@@ -8,20 +8,20 @@
 
 namespace vitrail {
 
-// What a change of the picture's mean light is beside the most that is allowed, after its interval.
+// A verdict sets a change of the picture's mean light, with its interval, against the most that is allowed.
 enum class LightVerdict { within, beyond, unsure };
 LightVerdict judge(const Estimate& luminance, double most);
 
-// They depend on the axes that have one, whatever the others are.
+// Biases depend on the choices of the axes of Effect::bias, whatever the other axes' choices are.
 class Biases {
  public:
   explicit Biases(const Measurement& m);
 
-  // Where the bias of relMSE, and where the light, of such a setting is known best. Null where neither was
-  // measured.
+  // They return where such a setting's bias of relMSE, and where its light, is known best. They return
+  // null where it was not measured.
   const MeasuredSetting* of(const Setting& setting) const;
   const MeasuredSetting* light_of(const Setting& setting) const;
-  // With the bias that is known best.
+  // Returns `t` with the bias that is known best.
   Tradeoff with(Tradeoff t, const Setting& setting) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole measurement of a scene: which renders, what they show, what to take.
+// This file makes the whole measurement of a scene: which renders, what they show, what to take.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace vitrail {
 
-// What to measure, and for how long.
+// MeasureOptions say what to measure, and for how long.
 struct MeasureOptions {
   std::filesystem::path scene, folder;
   std::vector<std::string> axes;   // empty: all
@@ -31,15 +31,15 @@ struct MeasureOptions {
   std::optional<double> seconds;  // wall time of the whole picture of the scene's size to recommend for
 };
 
-// Of the whole picture on a cluster: start_s + samples · sample_s, about; 0 where it was not planned.
+// A FarmTime is about start_s + samples · sample_s for the whole picture on a cluster; 0: not planned.
 struct FarmTime {
   double start_s = 0, sample_s = 0;
-  // Whether it was planned; seconds of so many samples.
+  // They return whether it was planned, and the seconds of so many samples.
   bool is_known() const { return sample_s > 0; }
   double operator()(double samples) const { return start_s + samples * sample_s; }
 };
 
-// One setting and what its pictures show.
+// A MeasuredSetting is one setting and what its pictures show.
 struct MeasuredSetting {
   Setting setting;
   std::string name;
@@ -56,12 +56,12 @@ struct MeasuredSetting {
   double peak_memory_bytes = 0, bundle_bytes = 0;
   Image first, mean;  // a picture, and the mean of all
 
-  // Error and time, as they are weighed against others.
+  // Returns error and time, as they are weighed against others.
   Tradeoff tradeoff() const;
   std::ptrdiff_t changes() const;  // of the scene's own
 };
 
-// Which setting to take for a goal.
+// A Recommendation is the setting to take for a goal.
 struct Recommendation {
   std::string goal;  // in words
   Goal asked;        // for the whole picture
@@ -80,12 +80,12 @@ struct Recommendation {
   Estimate luminance;                  // off, as ErrorStatistics
 };
 
-// All that was measured.
+// A Measurement holds all that was measured.
 struct Measurement {
   std::vector<Axis> axes;
   Reference reference;
   int reference_spp = 0;  // of each half
-  // The scene's own first, then one change each, then what the search for a recommendation tried.
+  // They begin with the scene's own, then one change each, then what the search for a recommendation tried.
   std::vector<MeasuredSetting> settings;
   std::vector<MeasuredSetting> samples;  // the scene's own at other counts, ascending
   ScalingLaw law;
@@ -97,7 +97,7 @@ struct Measurement {
   std::vector<Recommendation> recommendations;
 };
 
-// What happens on the way: a line to say, and how far it is.
+// MeasureNews tells what happens on the way: a line to say, and how far the measurement is.
 struct MeasureNews {
   std::function<void(const std::string&)> say;
   std::function<void(double fraction, const char* what)> progress;

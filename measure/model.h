@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a setting would reach with other samples, and which one to take.
+// The model predicts what a setting would reach with other samples, and picks the setting to take.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace vitrail {
 
-// How a render of the scene behaves: noise falls as samples^−slope, and time is start + samples · each.
+// The law of a scene's renders: noise falls as samples^−slope, and time is start + samples · each.
 struct ScalingLaw {
   double slope = 1;
   double start_s = 0;
 };
 
-// Of a setting, at `spp` samples a pixel.
+// A Tradeoff holds what a setting gives and costs at `spp` samples a pixel.
 struct Tradeoff {
   double noise = 0, bias = 0;  // relMSE; bias ≥ 0
   int spp = 1;
@@ -26,13 +26,13 @@ struct Tradeoff {
 
 double predicted_error(const Tradeoff& t, const ScalingLaw& law, double spp);
 double predicted_cpu_s(const Tradeoff& t, const ScalingLaw& law, double spp);
-// The processor seconds of a sample of every pixel, of a render that traced for so long. No core traces one
-// of a pixel in less than 20 ns: where the measured start is longer than a render, on a busy machine, a
-// sample would cost nothing, and any number of them would be affordable.
+// Returns the processor seconds of a sample of every pixel, of a render that traced for so long. No core
+// traces one of a pixel in less than 20 ns. On a busy machine the measured start can be longer than a render;
+// a sample would then cost nothing, and any number of them would be affordable.
 double sample_time_s(double tracing_s, double spp, std::size_t pixels);
-// The least samples that reach an error; empty where the bias alone is greater.
+// Returns the least samples that reach an error, or nothing where the bias alone is greater.
 std::optional<double> samples_for_error(const Tradeoff& t, const ScalingLaw& law, double error);
-// The most samples that fit; empty where not even one does.
+// Returns the most samples that fit, or nothing where not even one does.
 std::optional<double> samples_within(const Tradeoff& t, const ScalingLaw& law, double cpu_s);
 
 struct Goal {
@@ -43,19 +43,19 @@ struct Prediction {
   int spp = 0;
   double error = 0, cpu_s = 0;
 };
-// For an error: the cheapest that reaches it. For a time: the least error within it. Empty where none does.
+// Returns the cheapest that reaches an error, or the least error within a time; nothing where none does.
 std::optional<Prediction> best(std::span<const Tradeoff> tradeoffs, const ScalingLaw& law, const Goal& goal);
 
-// A guess at a setting that takes choices of several axes, of those that take one of them each: noise and
-// time multiply; of the biases the greatest, less than which they are only where they cancel. It is
-// optimistic, so that the search that measures what looks best does not pass it by.
+// Guesses the tradeoff of a setting that takes choices of several axes, from settings that take one of them
+// each. Noise and time multiply. The bias is the greatest of theirs; the true one is less only where biases
+// cancel. The guess is optimistic, so that the search, which measures what looks best, does not pass it by.
 Tradeoff combined(const Tradeoff& base, std::span<const Tradeoff> changes, const ScalingLaw& law);
 
-// The slope of log noise over log samples by least squares, within what such curves are: [0.7, 1.6]; 1 for
-// fewer than two counts. Points whose noise is not positive are left out.
+// Returns the slope of log noise over log samples by least squares, clamped to [0.7, 1.6], the range of such
+// curves; 1 for fewer than two counts. Points whose noise is not positive are left out.
 double fitted_slope(std::span<const double> spp, std::span<const double> noise);
 
-// Which of (cost, error) no other beats in both.
+// Returns which of (cost, error) no other beats in both.
 std::vector<bool> pareto_front(std::span<const double> cost, std::span<const double> error);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a measurement will take, before it begins.
+// A Plan says what a measurement will take, before it begins.
 #pragma once
 
 #include <vector>
@@ -15,9 +15,9 @@ struct Plan {
   double wall_s = 0;       // of `renders`, about
 };
 
-// `sample_wall_s`: wall time of a sample of every pixel; `start_wall_s`: of what a render takes beside
-// samples. Samples that the options leave open are those that the budget allows, with room for a short
-// search.
+// `sample_wall_s` is the wall time of a sample of every pixel, `start_wall_s` that of a render
+// beside its samples. Samples that the options leave open are those that the budget allows,
+// with room for a short search.
 Plan make_plan(const MeasureOptions& options, const std::vector<Axis>& axes, double sample_wall_s,
                double start_wall_s);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Renders that are kept: each is a file that appears when it is done, so that an interrupted measurement goes
-// on where it was.
+// Runs keeps renders: each is a file that appears when the render is done, so that an interrupted
+// measurement goes on where it was.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,23 @@
 
 namespace vitrail {
 
-// Runs a program of the suite, of this name and these arguments, to its end; throws where it fails. What it
-// prints goes to a file where one is named.
+// Runs a program of the suite, of this name and these arguments, to its end; throws where it fails. It writes
+// what the program prints to a file where one is named.
 using Execute = std::function<void(const std::string& program, const std::vector<std::string>& arguments,
                                    const std::filesystem::path& standard_output)>;
 
-// A cluster that jobs are planned on.
+// A Farm is a cluster that jobs are planned on.
 struct Farm {
   int ranks = 64, threads = 16;  // of a rank; no ranks: nothing is planned
 };
 
-// What `vitrail plan` says of a job there. Without seconds where it says nothing.
+// A PlannedJob is what `vitrail plan` says of a job there. It has no seconds where plan says nothing.
 struct PlannedJob {
   double seconds = 0, efficiency = 0;
   std::string limit;  // what its efficiency is lost to
 };
 
-// What is asked for, and what of it is not for the eye.
+// A RunRequest is one render that is asked for; `profile` asks for a record beside the picture.
 struct RunRequest {
   std::vector<std::string> render, partition;  // arguments
   int spp = 1;
@@ -47,17 +47,17 @@ struct RunResult {
 
 class Runs {
  public:
-  // `folder` is made. `width`: of the pictures, in pixels.
+  // The constructor makes `folder`. `width` is that of the pictures, in pixels.
   Runs(std::filesystem::path scene, std::filesystem::path folder, int width, Execute execute);
 
-  // Renders, or reads what was rendered before. A scene file that changed since is rendered again; files that
-  // it names are not looked at.
+  // Renders, or reads what was rendered before. A scene file that changed since is rendered again; files
+  // that it names are not looked at.
   RunResult operator()(const RunRequest& request);
 
-  // Of `times` as many samples, for a request with a profile that was rendered.
+  // Plans a job of `times` as many samples, for a request with a profile that was rendered.
   PlannedJob plan_job(const RunRequest& request, const Farm& farm, double times);
 
-  // Pixels of the whole picture that the scene asks for, over those of one that is measured.
+  // Returns the pixels of the whole picture that the scene asks for, over those of one that is measured.
   double full_size_ratio();
   int scene_spp();         // that it asks for
   bool scene_is_direct();  // asks for direct light alone

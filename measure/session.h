@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settings become statistics: which renders each takes, and how far all are.
+// A Session turns settings into statistics: it makes the renders of each, and tells how far all are.
 #pragma once
 
 #include <map>
@@ -13,27 +13,27 @@ namespace vitrail {
 
 class Session {
  public:
-  // `renders`: how many there are at most, for the progress.
+  // `renders` is how many there are at most, for the progress.
   Session(Runs& runs, const MeasureOptions& options, int spp, int renders, const MeasureNews& news);
 
-  // Of paths without a limit, whatever the scene's own is: what depth costs is to be seen.
+  // Renders with paths of any depth, whatever the scene's own limit, so that the cost of a limit is seen.
   Reference reference(int spp);
-  // The scene's own setting, then one change of it each, appended to `m.settings`. One that cannot change
-  // the picture takes one seed. Throws MachineError where the machine fails, but for settings of little
-  // memory: those have a `failure`.
+  // Measures the scene's own setting, then one change of it each, and appends them to `m.settings`. A change
+  // that cannot change the picture takes one seed. Throws MachineError where the machine fails; a setting of
+  // little memory has a `failure` instead.
   void measure_axes(Measurement& m);
-  // The scene's own at other counts of samples, and the law that they follow.
+  // Measures the scene's own setting at other counts of samples, and fits the law that they follow.
   void measure_samples(Measurement& m);
-  // Of `spp` samples, or as many as the setting takes at least.
+  // Measures with `spp` samples, or as many as the setting takes at least.
   MeasuredSetting measure_setting(const Measurement& m, const Setting& setting, int spp);
-  // The same, once more, for its error alone: what is known of its bias stays.
+  // Measures a setting once more, for its error alone: what is known of its bias stays.
   MeasuredSetting check(const Measurement& m, const MeasuredSetting& known, int spp);
-  // As many samples of a setting as a check may have, of those that are wanted, within the budget.
+  // Returns how many of the wanted samples a check of the setting can take within the budget.
   int checkable(const MeasuredSetting& s, int wanted_spp) const;
-  // What `plan` says of a setting that was measured so, on the options' farm. Throws as the programs do.
+  // Returns what `plan` says of a setting that was measured so, on the options' farm. Throws as programs do.
   FarmTime plan_farm(const Measurement& m, const MeasuredSetting& setting);
 
-  // CPU seconds a second of all renders.
+  // Returns the CPU seconds a second of all renders.
   double parallelism() const { return wall_s_ > 0 ? cpu_s_ / wall_s_ : 1; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A measurement in words, for the terminal and the page.
+// These functions put a measurement in words, for the terminal and the page.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace vitrail {
 
-// What a setting buys, against the scene's own: one sentence.
+// Returns what a setting buys, against the scene's own: one sentence.
 std::string what_it_buys(const Measurement& m, const MeasuredSetting& setting);
-// What was found of reference, samples and time: a sentence each.
+// Returns what was found of reference, samples and time: a sentence each.
 std::vector<std::string> findings(const Measurement& m);
-// "render …" and its promise; or that nothing reaches the goal.
+// Returns "render …" and its promise; or that nothing reaches the goal.
 std::string advice(const Recommendation& r);
-// One line a setting, with a head.
+// Returns one line a setting, with a head.
 std::string table(const Measurement& m);
 
-// Of the settings that made pictures, those that no other beats in CPU time and in error at these samples.
+// Returns which settings that made pictures no other beats in CPU time and in error at these samples.
 std::vector<bool> front(const Measurement& m);
 
 }  // namespace vitrail
