@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each file adds to the module.
+// These functions each add one file's classes and functions to the module.
 #pragma once
 
 #include <nanobind/nanobind.h>
