@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The xxh3 of an array of a film, which may lie in its scratch.
+// These functions take the xxh3 of an array of a film, which may lie in its scratch.
 #pragma once
 
 #ifndef XXH_INLINE_ALL
@@ -15,7 +15,7 @@
 
 namespace vitrail {
 
-// Of all bytes of an array that is visited part by part: `visit` sees each part before it is counted.
+// Returns that of all bytes of an array, visited part by part: `visit` sees each part before it counts.
 template <class T, class Visit>
 std::uint64_t checksum_of(std::span<T> array, FilmScratch* scratch, Visit&& visit) {
   XXH3_state_t state;
@@ -31,7 +31,7 @@ std::uint64_t checksum_of(std::span<T> array, FilmScratch* scratch) {
   return checksum_of(array, scratch, [](std::span<T>) {});
 }
 
-// A film's, of the checksums of its sums, counts, ids and mattes.
+// Returns a film's hash, that of the checksums of its sums, counts, ids and mattes.
 inline std::uint64_t hash_of_arrays(const std::array<std::uint64_t, 4>& checksums, bool has_ids,
                                     bool has_mattes) {
   const std::size_t used = has_mattes ? 4 : has_ids ? 3 : 2;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mattes as compositors read them (Friedman & Jones, "Fully Automatic ID Mattes with Support for Motion Blur
-// and Transparency", 2015; Cryptomatte Specification 1.2): ids are hashes of names, as floats; of each pixel,
-// pairs of id and coverage, the greatest coverage first.
+// Cryptomatte is the form of mattes that compositors read (Friedman & Jones, "Fully Automatic ID Mattes with
+// Support for Motion Blur and Transparency", 2015; Cryptomatte Specification 1.2). Ids are hashes of names,
+// as floats. Each pixel has pairs of id and coverage, the greatest coverage first.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,19 @@ namespace vitrail {
 
 struct PictureChannel;
 
-// MurmurHash3_x86_32 with seed 0.
+// Returns MurmurHash3_x86_32 with seed 0.
 std::uint32_t murmur_hash(std::string_view text);
-// The hash of a name with an exponent that makes it an ordinary float; never 0.
+// Returns the hash of a name with an exponent that makes it an ordinary float; never 0.
 std::uint32_t matte_id(std::string_view name);
 
-// JSON, names to eight hexadecimal digits of their ids.
+// Returns JSON that maps names to eight hexadecimal digits of their ids.
 std::string matte_manifest(std::span<const std::string> names);
 
-// What covers something of a pixel: what covers nothing or less, by filters that go below 0, is left out.
+// Counts the things that cover something of a pixel; filters below 0 can make coverages of 0 or less.
 std::size_t things_of(const MattePixel& pixel);
 
-// "CryptoObject00.R" (an id), ".G" (its coverage), ".B", ".A", "CryptoObject01.R" …: as many as a pixel with
-// `most` things needs, which no pixel has more of.
+// Returns "CryptoObject00.R" (an id), ".G" (its coverage), ".B", ".A", "CryptoObject01.R" …: as many as a
+// pixel with `most` things needs. No pixel may have more things.
 std::vector<PictureChannel> matte_channels(const Film& film, Layer layer, std::size_t most);
 
 }  // namespace vitrail

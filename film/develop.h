@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film becomes a picture.
+// Developing turns a film into a picture.
 #pragma once
 
 #include "film/film.h"
@@ -10,7 +10,7 @@
 
 namespace vitrail {
 
-// Where a picture comes from. An empty field or 0 is unknown.
+// A PictureOrigin tells where a picture comes from. An empty field or 0 is unknown.
 struct PictureOrigin {
   std::string software, scene, scene_hash, seeds, film_hash;
   std::string glazing;    // in which state it was set; empty: as the scene says
@@ -18,11 +18,11 @@ struct PictureOrigin {
   std::string denoiser;   // with its version; empty: the noise is the render's
   std::string groups;     // weights of groups of lights; empty: all 1
   int least_samples = 0;  // of a pixel
-  // 16 numbers each, row by row, of matrices that take columns; empty where unknown.
+  // They have 16 numbers each, row by row, of matrices that take columns; they are empty where unknown.
   std::vector<float> world_to_camera, world_to_ndc;
 };
 
-// A channel beside the colours.
+// A PictureChannel is a channel beside the colours.
 struct PictureChannel {
   std::string name;
   bool is_id = false;
@@ -30,13 +30,13 @@ struct PictureChannel {
   std::vector<std::uint32_t> ids;  // 0: none
 };
 
-// Masks among the channels (cryptomatte.h).
+// PictureMattes are masks among the channels (cryptomatte.h).
 struct PictureMattes {
   std::string layer;     // what their channels begin with: "CryptoObject"
   std::string manifest;  // the names of their ids (matte_manifest); "" where names are not known
 };
 
-// An image and what is known of how it came to be. Zero stands for unknown.
+// A Picture is an image and what is known of how it came to be. Zero stands for unknown.
 struct Picture {
   Image rgb;       // linear sRGB
   Image variance;  // of the mean luminance of each pixel, one channel; 0 × 0 where unknown
@@ -53,29 +53,29 @@ struct Picture {
   std::vector<PictureMattes> mattes;
 };
 
-// The means of the film in linear sRGB, not clamped, and the variances of their luminance;
+// Returns the means of the film in linear sRGB, not clamped, and the variances of their luminance.
 // `samples_per_pixel` is the most that a pixel has. Throws Error if the film is saturated.
 Picture develop(const Film& film);
 
-// The same of a film that stays in its file, of which some rows at a time are in memory.
+// Develops a film that stays in its file, of which some rows at a time are in memory.
 Picture develop(const FilmRows& film);
 
-// The same of some rows of a film, of which `whole` is known.
+// Develops some rows of a film, of which `whole` is known.
 Picture develop(const Film& rows, const FilmSurvey& whole);
 
-// The same of the colours, their place and their alpha alone.
+// Develops the colours, their place and their alpha alone.
 Picture develop_colors(const Film& film);
 
-// The same of a film that stays in its file.
+// Develops the same of a film that stays in its file.
 Picture develop_colors(const FilmRows& film);
 
-// Throws Error where deposits were too large, and says what to do. `file`: the film's.
+// Throws Error where deposits were too large, and says what to do. `file` is the film's.
 void require_unsaturated(const Refused& refused, const std::filesystem::path& file);
 
 // Throws Error where nothing was rendered yet.
 void require_samples(std::uint64_t samples, const std::filesystem::path& file);
 
-// Brighter by `ev` stops: values and spectra times 2^ev, variances times 4^ev.
+// Makes a picture brighter by `ev` stops: values and spectra times 2^ev, variances times 4^ev.
 void expose(Picture& picture, double ev);
 
 }  // namespace vitrail

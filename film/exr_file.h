@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures as OpenEXR files, without the library: what is rendered is written where there is no OpenImageIO.
+// This file writes OpenEXR files without the library, for `render`, where there is no OpenImageIO.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@
 
 namespace vitrail {
 
-// A file of scan lines, compressed by ZIP in blocks of 16 (OpenEXR, "File Layout"), written as its rows come:
-// no more than a block of them is in memory. Channels are sorted by name, as the format asks for. "DateTime"
-// and "Software" are called capDate and software there. Throws MachineError.
+// An ExrFile has scan lines, compressed by ZIP in blocks of 16 (OpenEXR, "File Layout"). It is written as its
+// rows come: no more than a block of them is in memory. Channels are sorted by name, as the format asks for.
+// "DateTime" and "Software" are called capDate and software there. Throws MachineError.
 class ExrFile {
  public:
   ExrFile(const std::filesystem::path& file, const PictureFile& picture);
 
-  // The next row from the top: 32 bits each, interleaved as the picture's channels.
+  // Adds the next row from the top: 32 bits each, interleaved as the picture's channels.
   void add_row(std::span<const std::uint32_t> pixels);
-  // After all rows. The file appears now.
+  // Ends the file after all rows. The file appears now.
   void commit();
 
  private:

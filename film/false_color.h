@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Luminance as colours, with a scale beside the picture that says which are which.
+// False colours show luminance, with a scale beside the picture that says which colour is how much.
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@ struct FalseColor {
   bool logarithmic = false;  // over three decades
 };
 
-// Of a picture in linear sRGB whose Y is W·m⁻²·sr⁻¹·nm⁻¹ over ∫ȳ, as films give it. The result is linear
-// sRGB, too, wider by the scale, as high, and high enough for it; what is brighter than the scale has its
-// last colour. The colours are viridis (Smith and van der Walt 2015): of even steps for the eye, and in grey.
+// Takes a picture in linear sRGB whose Y is W·m⁻²·sr⁻¹·nm⁻¹ over ∫ȳ, as films give it. The result is linear
+// sRGB, too, wider by the scale, and high enough for it; light above the scale has its last colour. The
+// colours are viridis (Smith and van der Walt 2015): of even steps for the eye, and in grey.
 Image false_colored(const Image& rgb, FalseColor manner);
 
-// The least 1, 2 or 5 times a power of ten that is not below x > 0.
+// Returns the least 1, 2 or 5 times a power of ten that is not below x > 0.
 double round_above(double x);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes of a film file, for those who read and write it. docs/why/color-and-film.md has them one by one.
+// These are the bytes of a film file, for its reader and writer. docs/why/color-and-film.md has each of them.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 namespace vitrail::film_layout {
 
 inline constexpr char film_magic[8] = {'v', 'i', 't', 'f', 'i', 'l', 'm', '\n'};
-// Of the last two, what photons its samples gathered, or which lights it keeps apart, follows the header.
+// The last two have, behind the header, the photons that samples gathered, or the lights kept apart.
 inline constexpr std::uint32_t film_version = 4, adaptive_version = 5, photon_version = 7, groups_version = 8;
 
-// What a film was rendered with, in Header::options.
+// Header::options has these bits for what a film was rendered with.
 inline constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, option_camera_space = 4,
                                option_adaptive = 8, option_open_round = 16, option_splats = 32,
                                option_one_sequence = 64, option_hides_emitters = 128,
@@ -51,7 +51,7 @@ struct Header {
 };
 static_assert(sizeof(Header) == 184);
 
-// Of a film that keeps groups of lights: followed by their names, each with a zero behind it.
+// A film that keeps groups of lights has a GroupsHeader, then their names, each with a zero behind it.
 struct GroupsHeader {
   std::uint64_t lights;
   std::uint32_t groups, text_bytes;
@@ -60,20 +60,20 @@ inline constexpr std::uint32_t most_text_bytes = 1 << 20;
 std::vector<char> text_of(const LightGroups& groups);
 GroupsHeader header_of(const LightGroups& groups);
 
-// Of the header, without that field.
+// Returns the checksum of the header without that field.
 std::uint64_t checksum(const Header& h);
 
-// What a header that makes sense says of the arrays behind it: their elements. Of the last two there is no
-// array where there are none.
+// Arrays holds the numbers of elements that a valid header says the arrays behind it have. The file has no
+// arrays of mattes or of `more` where there are none.
 struct Arrays {
   FilmLayers layers;
   std::uint64_t done, sums, counts, ids, mattes, more;
 };
-// `groups`: of lights.
+// `groups` is the number of groups of lights.
 Arrays arrays_of(const Header& h, std::uint64_t groups);
 
-// Bytes of each array in the order of the file, the light groups' and the photons' first. The checksum that
-// follows each is not counted. `groups` is 0 where the film has none.
+// Returns the bytes of each array in the order of the file, those of light groups and photons first. The
+// checksum that follows each is not counted. `groups` is 0 where the film has none.
 std::vector<std::uint64_t> bytes_of_arrays(const Header& h, const GroupsHeader& groups);
 
 }  // namespace vitrail::film_layout

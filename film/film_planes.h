@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the sums of a film stand (Film::sums), and what they count in. For film.cpp, film_statistics.cpp
-// and film_survey.cpp alone.
+// This file says where the sums of a film stand (Film::sums), and what they count in. Only film.cpp,
+// film_statistics.cpp and film_survey.cpp use it.
 #pragma once
 
 #include <bit>

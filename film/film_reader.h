@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film file, read from its beginning to its arrays of sums. For film_file.cpp and film_rows.cpp alone.
+// A FilmReader reads a film file from its beginning to its sums. Only film_file.cpp and film_rows.cpp use it.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace vitrail {
 
-// Throws Error, with the file, for what is not there or is not as its checksum says.
+// Throws Error, with the file, for what is not there or does not match its checksum.
 class FilmReader {
  public:
   explicit FilmReader(const std::filesystem::path& file);
@@ -33,7 +33,7 @@ class FilmReader {
         checksum_of(std::span(array), scratch, [&](auto part) { read(part.data(), part.size_bytes()); });
     require_checksum(sum, what);
   }
-  // Passes over an array, of which `visit` sees part by part. Returns its checksum.
+  // Passes over an array, which `visit` sees part by part. Returns its checksum.
   template <class T, class Visit>
   std::uint64_t pass_array(std::uint64_t count, const char* what, Visit&& visit) {
     std::vector<T> part(std::min<std::uint64_t>(count, scratch_part_bytes / sizeof(T)));
@@ -62,7 +62,7 @@ class FilmReader {
   std::uint64_t size_ = 0;
 };
 
-// What stands before the sums.
+// A FilmHead is all that stands before the sums.
 struct FilmHead {
   FilmSettings settings;
   FilmKey key;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film that stays in its file, of which some rows at a time are in memory.
+// FilmRows is a film that stays in its file, of which some rows at a time are in memory.
 #pragma once
 
 #include <cstdint>
@@ -25,15 +25,15 @@ class FilmRows {
 
   const std::filesystem::path& file() const;
   std::uint64_t samples() const;  // of all pixels
-  // As Film has them.
+  // They return the same as those of Film.
   const FilmSettings& settings() const;
   const FilmKey& key() const;
   const Refused& refused() const;
   std::size_t pixels() const;  // of the crop
   int height() const { return settings().crop.y1 - settings().crop.y0; }
 
-  // A film of these rows of the crop, from 0 on, whose crop they are. Its sums beside the planes are those of
-  // the whole. `with_sums` false: all sums are 0.
+  // Returns a film whose crop is these rows of the crop, counted from 0. Its sums beside the planes are those
+  // of the whole. If `with_sums` is false, all sums are 0.
   Film rows(int y0, int y1, bool with_sums = true) const;
 
  private:
@@ -43,10 +43,10 @@ class FilmRows {
   std::unique_ptr<Contents> contents_;
 };
 
-// As of films.
+// Returns the difference as for films (film.h).
 std::string difference(const FilmRows& a, const FilmRows& b);
 
-// Film::hash of the films merged in this order.
+// Returns Film::hash of the films merged in this order.
 std::uint64_t hash_of(std::span<const FilmRows> films);
 
 }  // namespace vitrail

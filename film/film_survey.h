@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a picture says of its film as a whole, found in one pass over its rows.
+// A FilmSurvey is what a picture says of its film as a whole, found in one pass over its rows.
 #pragma once
 
 #include <array>
@@ -22,16 +22,16 @@ struct FilmSurvey {
   std::uint64_t hash = 0;  // Film::hash
 };
 
-// From the top down. The hash is the caller's.
+// Adds rows from the top down. The caller sets the hash.
 void add_rows(FilmSurvey& survey, const Film& rows);
 
-// Of all of a film.
+// Returns the survey of a whole film.
 FilmSurvey survey_of(const Film& film);
 
-// Film::clamped_share; `rows`: any of them.
+// Returns Film::clamped_share; `rows` are any of the film.
 double clamped_share(const FilmSurvey& survey, const Film& rows);
 
-// The part of all that things cover that has no mask, as pixels show more than most_mattes things.
+// Returns the part of things' coverage that has no mask, as pixels show more than most_mattes things.
 double share_without_matte(const FilmSurvey& survey, Layer layer);
 
 }  // namespace vitrail

@@ -6,9 +6,9 @@
 
 namespace vitrail {
 
-// The date of pictures in UTC: SOURCE_DATE_EPOCH, else 1970, so that equal pictures give equal files.
+// Returns the date of pictures in UTC: SOURCE_DATE_EPOCH, else 1970, so that equal pictures give equal files.
 std::tm fixed_date();
-// The same as EXIF and OpenEXR write it: "1970:01:01 00:00:00".
+// Returns the same as EXIF and OpenEXR write it: "1970:01:01 00:00:00".
 std::string fixed_date_text();
 
 }  // namespace vitrail

@@ -13,14 +13,14 @@ inline constexpr int weight_bits = 16;
 inline constexpr int most_splat_pixels = 9;           // of a sample, an axis
 inline constexpr double greatest_splat_radius = 4.5;  // of a filter whose samples reach no more than these
 
-// The pixels that a sample adds to: `wide` by `high` of them, of which the first is (x, y) from its own, row
-// by row from the top left. Their weights are the filter's values there, ∫f = 1.
+// A Footprint is the pixels that a sample adds to: `wide` by `high` of them, row by row from the top left.
+// The first is (x, y) from the sample's own. Their weights are the filter's values there, ∫f = 1.
 struct Footprint {
   int x = 0, y = 0, wide = 0, high = 0;
   std::array<std::int32_t, std::size_t{most_splat_pixels} * most_splat_pixels> weights;
 };
 
-// Of a sample of `pixel`, in a picture of width × height: visit(pixel, weight) of those in it that get any.
+// Calls visit(pixel, weight) for the pixels inside width × height that a sample of `pixel` adds to.
 template <class Visit>
 void for_each_pixel(const Footprint& of, std::uint32_t pixel, int width, int height, Visit&& visit) {
   const auto across = static_cast<std::uint32_t>(width);

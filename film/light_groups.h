@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights that a film keeps apart: the picture of each group by itself, in the quanta of the film's own sums.
-// The sums of the groups add up to the film's, to the bit.
+// Light groups are lights that a film keeps apart: the picture of each group by itself, in the quanta of the
+// film's own sums. The sums of the groups add up to the film's, to the bit.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@
 
 namespace vitrail {
 
-// The groups of lights that a film keeps apart.
+// LightGroups names the groups of lights that a film keeps apart.
 struct LightGroups {
   std::vector<std::string> names;  // ascending numbers from 0; empty: nothing is kept apart
   std::uint64_t lights = 0;        // checksum of which light is in which group
 
-  // Whether lights are kept apart.
+  // Returns whether lights are kept apart.
   bool any() const { return !names.empty(); }
   bool operator==(const LightGroups&) const = default;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which things a pixel shows and how much of it each covers: masks for compositors. Sums are whole numbers,
-// so that pixels merge in any order.
+// Mattes say which things a pixel shows and how much of it each covers: masks for compositors. Sums are whole
+// numbers, so that pixels merge in any order.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace vitrail {
 
-// Of at most so many things, in the order of their ids. Which of more have no place depends on the ids alone,
-// so that it is the same however samples are put together: a thing that is kept in the end was kept always.
+// A pixel keeps at most so many things, in the order of their ids. If there are more, the ids alone decide
+// which have no place. So a thing that is kept in the end was kept always, however samples are put together.
 inline constexpr std::size_t most_mattes = 8;
 
 struct MattePixel {
@@ -21,13 +21,13 @@ struct MattePixel {
 };
 static_assert(sizeof(MattePixel) == 8 * (1 + most_mattes) + 4 * most_mattes);
 
-// `id` ≠ 0.
+// Adds `sum` to the thing `id` ≠ 0.
 void add(MattePixel& pixel, std::uint32_t id, std::int64_t sum);
-// From many threads at once.
+// Adds the same, safe from many threads at once.
 void add_shared(MattePixel& pixel, std::uint32_t id, std::int64_t sum);
 MattePixel& operator+=(MattePixel& a, const MattePixel& b);
 
-// Whether samples can have made it: of files, so that sums of two have room.
+// Returns whether samples can have made it. It is for files; the bound leaves room for the sums of two.
 bool makes_sense(const MattePixel& pixel);
 
 }  // namespace vitrail

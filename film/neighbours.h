@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples that splat add to several pixels, so that the noise of neighbours is alike, and what is put
-// together of many pixels is known less well than of as many independent ones.
+// Samples that splat add to several pixels, so the noise of neighbours is alike. An estimate over many pixels
+// is then known less well than one over as many independent ones.
 #pragma once
 
 #include <span>
@@ -8,21 +8,21 @@
 
 namespace vitrail {
 
-// With ρ(Δ) the correlation of pixels that are Δ apart, over all Δ in whole pixels:
+// ρ(Δ) is the correlation of pixels that are Δ apart; the sums are over all Δ in whole pixels.
 struct Neighbours {
   double of_mean = 1;       // Σ ρ: the variance of a mean over pixels, over that of independent ones
   double of_variances = 1;  // Σ ρ²: the same of a mean of their estimated variances
   bool operator==(const Neighbours&) const = default;
 };
 
-// Of samples that lie evenly, along an axis: `correlations` are ∫f(x) f(x + Δ) dx of their filter, for Δ = 0,
-// 1, …
+// Returns those of evenly lying samples, along an axis: `correlations` are ∫f(x) f(x + Δ)
+// dx of their filter, for Δ = 0, 1, …
 Neighbours along_axis(std::span<const double> correlations);
 
-// Of both axes of a separable filter.
+// Returns those of both axes of a separable filter.
 Neighbours product(const Neighbours& x, const Neighbours& y);
 
-// What a film says of itself (FilmProgress::about). Independent pixels where it says nothing.
+// Returns what a film says of itself (FilmProgress::about). Pixels are independent where it says nothing.
 Neighbours neighbours_of(const std::string& about);
 
 }  // namespace vitrail

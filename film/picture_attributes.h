@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an .exr says of itself beside its pixels, by the names of OpenEXR and pbrt where they have one. For
-// image_io.cpp and picture_reading.cpp alone.
+// They are what an .exr says of itself beside its pixels, by the names of OpenEXR and pbrt where they have
+// one. Only image_io.cpp and picture_reading.cpp use them.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ inline constexpr const char *samples_name = "samplesPerPixel", *least_name = "sa
                             *time_name = "renderTimeSeconds", *of_mean_name = "neighboursOfMean",
                             *of_variances_name = "neighboursOfVariances";
 
-// OpenEXR's matrices take rows, those of a picture's origin columns: either of the other.
+// OpenEXR's matrices take rows, those of a picture's origin columns: this turns either into the other.
 constexpr std::array<float, 16> transposed(std::span<const float, 16> m) {
   std::array<float, 16> t{};
   for (std::size_t i = 0; i < 4; ++i)

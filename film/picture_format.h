@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The formats that pictures are written in, and what each of them takes.
+// A PictureFormat is one that pictures are written in; these functions say what each takes.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is in memory while an .exr is made of a film that stays in its file.
+// These functions tell what is in memory while an .exr is made of a film that stays in its file.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@ namespace vitrail {
 
 inline constexpr int exr_block_rows = 16;  // of ZIP: they are compressed together
 
-// How many rows of the film are taken at once: some megabytes of them, one at least.
+// Returns how many rows of the film are taken at once: some megabytes of them, one at least.
 int rows_at_once(const FilmSettings& film, const FilmKey& key);
 
-// Bytes of `films` of them that are merged: their rows, the picture of these, and a block of the file as it
-// is, rearranged and compressed.
+// Returns the bytes that merging `films` films takes: their rows, the picture of these, and a block of the
+// file as it is, rearranged and compressed.
 std::uint64_t exr_memory(const FilmSettings& film, const FilmKey& key, int films = 1);
 
 }  // namespace vitrail

@@ -8,12 +8,12 @@
 
 namespace vitrail {
 
-// What one thread adds to a pixel is put together here until the next pixel comes, and goes to the film then:
-// the same sums with fewer operations that other threads share. Of a film that is_plain. Outlived by the
-// film.
+// PixelSums puts together what one thread adds to a pixel. It gives that to the film when the next
+// pixel comes: the sums are the same with fewer operations that other threads share. The film has to
+// be is_plain, and has to outlive it.
 class PixelSums {
  public:
-  // Whether the film has nothing but X, Y, Z and samples to add to, in one pixel for a sample.
+  // Returns whether the film has nothing but X, Y, Z and samples to add to, in one pixel for a sample.
   static bool is_plain(const Film& film);
 
   explicit PixelSums(Film& film) : film_(film) {}
@@ -21,7 +21,7 @@ class PixelSums {
   PixelSums(const PixelSums&) = delete;
   PixelSums& operator=(const PixelSums&) = delete;
 
-  // As of Film.
+  // They do the same as those of Film.
   bool deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value);
   void count_sample(std::uint32_t pixel, std::uint32_t sample);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of OpenEXR's usual kind, read by its own library: that one loads in a hundredth of OpenImageIO's
-// time.
+// This file reads pictures of OpenEXR's usual kind by its own library, which loads in a
+// hundredth of OpenImageIO's time.
 #pragma once
 
 #include <filesystem>

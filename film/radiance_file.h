@@ -8,8 +8,8 @@
 namespace vitrail {
 
 // Writes the colours, linear, as Radiance's .hdr: 8 bits a component and 8 of their common exponent, rows
-// run-length encoded (Ward, "Real Pixels", Graphics Gems II, 1991). Components are cut off, as Radiance's own
-// programs do, which read the middle of what is left; what is below 0 or no number is 0. The file appears
+// run-length encoded (Ward, "Real Pixels", Graphics Gems II, 1991). Components are cut off, as in Radiance's
+// own programs, which read the middle of what is left. Values below 0 and NaN become 0. The file appears
 // whole or not at all. Throws MachineError.
 void write_radiance(const std::filesystem::path& file, const Picture& picture);
 

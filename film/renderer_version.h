@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which program made a film. Films of different programs are not samples of one picture.
+// A RendererVersion is that of the program that made a film. Films of other programs show other pictures.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct RendererVersion {
 
 RendererVersion this_renderer();
 
-// "vitrail 0.1.0, pictures of revision 2"
+// Returns "vitrail 0.1.0, pictures of revision 2".
 std::string to_string(const RendererVersion& renderer);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light as the numbers that screens take.
+// This file turns light into the numbers that screens take.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace vitrail {
 
-// By sRGB's transfer function, clamped, rounded to nearest: the greatest Integer is white. As many as
-// `linear`.
+// Encodes by sRGB's transfer function, clamped, rounded to nearest; the greatest Integer is white.
+// `out` gets as many as `linear` has.
 template <class Integer>
 void to_srgb_integers(std::span<const float> linear, Integer* out) {
   constexpr double most = std::numeric_limits<Integer>::max();

@@ -9,9 +9,9 @@
 namespace vitrail {
 
 // Writes the colours as write_picture (image_io.h) has them, of 8 or 16 `bits`, as a TIFF whose strips are
-// deflated; where the pixels have more than `most_bytes` a BigTIFF, as the places in others have 32 bits. Its
-// tags say the date, who made it, who denoised it, and the place of a part in the whole picture. Beside the
-// picture a strip of 32 rows is in memory. The file appears whole or not at all. Throws MachineError.
+// deflated. It is a BigTIFF where the pixels have more than `most_bytes`, as the places in others have 32
+// bits. Its tags say the date, who made it, who denoised it, and a part's place in the whole picture. Beside
+// the picture a strip of 32 rows is in memory. The file appears whole or not at all. Throws MachineError.
 void write_tiff(const std::filesystem::path& file, const Picture& picture, int bits = 16,
                 std::uint64_t most_bytes = 4'000'000'000);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory that is zero and takes none until it is touched: the system's pages, as calloc gives them, or those
-// of files.
+// Untouched memory is zero and takes none until it is touched: the system's pages, as calloc
+// gives them, or those of files.
 #pragma once
 
 #include <cstdlib>
@@ -14,8 +14,8 @@
 
 namespace vitrail {
 
-// Makes elements without writing to them, so only for vectors that are made in their size and do not grow:
-// what is freed and given out again within a vector's capacity is not zero.
+// It makes elements without writing to them, so it is only for vectors that are made in their size and do not
+// grow. Memory that is freed and given out again within a vector's capacity is not zero.
 template <class T>
 struct UntouchedAllocator {
   using value_type = T;
@@ -46,7 +46,7 @@ struct UntouchedAllocator {
   bool operator==(const UntouchedAllocator&) const = default;
 };
 
-// Of a T whose value is zero bytes.
+// T is a type whose value is zero bytes.
 template <class T>
 using UntouchedVector = std::vector<T, UntouchedAllocator<T>>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums of 128 bits, in two's complement, that many threads add to at once. Addition modulo 2¹²⁸ is exact in
-// any order.
+// Wide sums are of 128 bits, in two's complement, and many threads add to them at once. Addition
+// modulo 2¹²⁸ is exact in any order.
 #pragma once
 
 #include <atomic>
@@ -29,7 +29,7 @@ inline WideSum& operator+=(WideSum& a, const WideSum& b) {
   return a;
 }
 
-// Without a lock: the one thread whose addition wraps the lower half carries into the upper one. The two
+// Adds without a lock: the one thread whose addition wraps the lower half carries into the upper one. The two
 // halves belong together again once all threads are done.
 inline void add_shared(WideSum& sum, const WideSum& addend) {
   std::uint64_t high = addend.high;
@@ -40,7 +40,7 @@ inline void add_shared(WideSum& sum, const WideSum& addend) {
   if (high != 0) std::atomic_ref(sum.high).fetch_add(high, std::memory_order_relaxed);
 }
 
-// A whole number below 2¹²⁷ in size.
+// `whole` is a whole number below 2¹²⁷ in size.
 inline WideSum wide_sum_of(double whole) {
   if (std::abs(whole) < 0x1p62) return wide_sum(static_cast<std::int64_t>(whole));
   return wide_sum(static_cast<Int128>(whole));
