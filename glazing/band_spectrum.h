@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A spectrum for glass of which only averages are published.
+// A band spectrum stands for glass of which only averages are published.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ struct BandAverages {
   PaneValues solar, visible;
 };
 
-// Constant in the visible, 380 to 780 nm, and another constant outside, so that the averages of NFRC 300-2003
-// are these. Where no constant within [0, 1] makes the sun's, the nearest is taken and `notes` says so.
+// Returns values constant from 380 to 780 nm, and another constant outside, with these averages of NFRC
+// 300-2003. Where no constant within [0, 1] makes the sun's, the nearest is taken and `notes` says so.
 OpticalRows band_spectrum(const BandAverages& bands, std::vector<std::string>& notes);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that a data sheet says of a glazing, of each of its states.
+// A data sheet has all figures of a glazing, for each of its states.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,14 @@
 
 namespace vitrail {
 
-// At normal incidence by one standard's weights.
+// StandardValues are those at normal incidence by one standard's weights.
 struct StandardValues {
   std::string standard;
   PaneValues visible, solar;
   double ultraviolet_t = 0;
 };
 
-// Light and sun from one direction, by NFRC 300-2003. `absorbed` is the part of the sun in each pane.
+// AngleValues are for light from one direction, by NFRC 300-2003. `absorbed` is each pane's part of the sun.
 struct AngleValues {
   std::optional<double> theta_deg;  // none: the hemisphere
   PaneValues visible, solar;
@@ -28,8 +28,8 @@ struct AngleValues {
   std::optional<double> shgc;  // where the panes say what heat needs
 };
 
-// U and g in W/(m²K) and parts of 1 (glazing/heat_balance.h, glazing/en_673.h); temperatures at night in
-// winter and in the sun of summer.
+// They are U in W/(m²K) and g in parts of 1 (glazing/heat_balance.h, glazing/en_673.h), and the temperatures
+// at night in winter and in the sun of summer.
 struct HeatValues {
   double u_nfrc = 0;
   std::optional<double> u_en_673,
@@ -37,7 +37,7 @@ struct HeatValues {
   HeatBalance winter, summer;
 };
 
-// All figures of one state.
+// A DataSheetState has all figures of one state.
 struct DataSheetState {
   std::string name;  // "state 0.5", "40 °C"; empty where nothing switches
   std::vector<StandardValues> standards;
@@ -48,7 +48,7 @@ struct DataSheetState {
   SystemSpectrum normal;  // 300 to 2500 nm
 };
 
-// A glazing in each of its states.
+// A DataSheet is a glazing in each of its states.
 struct DataSheet {
   GlazingSystem system;
   Polarisation polarisation = Polarisation::apart;
@@ -57,15 +57,15 @@ struct DataSheet {
   std::vector<PaneScattering> scattering;
 };
 
-// A system in one of its states; the name is as above.
+// A NamedState is a system in one of its states; the name is as above.
 struct NamedState {
   std::string name;
   GlazingSystem system;
 };
 std::vector<NamedState> states_of(const GlazingSystem& system);
 
-// Evaluates the system; one that switches, in each measured state and in the one that it is in. Throws
-// Error.
+// Evaluates the system; one that switches, in each measured
+// state and in the one that it is in. Throws Error.
 DataSheet data_sheet(const GlazingSystem& system, Polarisation polarisation);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// EnergyPlus input as IDF and epJSON have it in common. Inside.
+// This file has what IDF and epJSON share of EnergyPlus input, for use inside glazing alone.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace vitrail {
 
-// One object: its named fields as texts, and the rows of its repeated group. Field names are epJSON's.
+// An object has named fields as texts, and the rows of its repeated group. Field names are epJSON's.
 struct EnergyPlusObject {
   std::string type, name;  // the type in lower case
   int line = 0;            // 0 in epJSON
@@ -21,8 +21,8 @@ struct EnergyPlusObject {
   std::optional<Error> refused{};  // why it is none, where its form is wrong
 };
 
-// The glazing among them, also what cannot be read (Product::refused). References between objects are by
-// name, whatever the case.
+// Returns the glazing among the objects, also what cannot be read (Product::refused). References between
+// objects are by name, whatever the case.
 std::vector<Product> energyplus_products(const std::vector<EnergyPlusObject>& objects,
                                          const std::string& file);
 
@@ -30,8 +30,8 @@ inline constexpr const char* glazing_type = "windowmaterial:glazing";
 inline constexpr const char* spectral_data_type = "materialproperty:glazingspectraldata";
 inline constexpr const char* thermochromic_type = "windowmaterial:glazinggroup:thermochromic";
 
-// WindowMaterial:Glazing's fields behind its name, in the order of an IDF. Those of heat keep their places;
-// later ones are about strength, and the tables of SpectralAndAngle, which is refused.
+// They are WindowMaterial:Glazing's fields behind its name, in the order of an IDF. Those of heat keep their
+// places; later ones are about strength, and the tables of SpectralAndAngle, which is refused.
 inline constexpr std::array glazing_fields{
     "optical_data_type",
     "window_glass_spectral_data_set_name",

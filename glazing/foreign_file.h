@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of the same trade that are no glazing: they are refused by what they are.
+// Foreign files are of the same trade but no glazing: messages that refuse them say what they are.
 #pragma once
 
 #include <string>

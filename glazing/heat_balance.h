@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heat through the centre of a vertical glazing, after ISO 15099:2003.
+// Heat balances are those of the centre of a vertical glazing, after ISO 15099:2003.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct HeatEnvironment {
   double irradiance_w_m2 = 0;  // of the sun
 };
 
-// NFRC 100-2010: −18 °C and 21 °C, wind of 5.5 m/s, no sun; 32 °C and 24 °C, wind of 2.75 m/s, 783 W/m².
+// NFRC 100-2010 has −18 °C and 21 °C, wind of 5.5 m/s, no sun; 32 °C and 24 °C, 2.75 m/s, 783 W/m².
 inline constexpr HeatEnvironment nfrc_winter{255.15, 294.15, 26, 0};
 inline constexpr HeatEnvironment nfrc_summer{305.15, 297.15, 15, 783};
 
@@ -27,18 +27,18 @@ struct HeatBalance {
   double into_room_w_m2 = 0;                  // without the sun that comes through
 };
 
-// Steady temperatures of all surfaces: of each, what it absorbs of the sun (half of the pane's share), what
-// it takes from the gap's gas (glazing/gap_convection.h) and from radiation, and what its pane conducts sum
-// to 0 (ISO 15099:2003, 5.3). `absorbed_w_m2` is the sun in each pane. Throws Error where check_heat does, or
-// where no balance is found.
+// Returns steady temperatures of all surfaces. At each, what comes of the sun (half
+// of the pane's share), the gap's gas (glazing/gap_convection.h), radiation and
+// conduction of the pane sum to 0 (ISO 15099:2003, 5.3). `absorbed_w_m2` is the sun
+// in each pane. Throws Error where check_heat does, or where no balance is found.
 HeatBalance heat_balance(const GlazingSystem& system, const HeatEnvironment& environment,
                          const std::vector<double>& absorbed_w_m2, double height_m = 1);
 
-// U = flow ÷ difference of temperatures, W/(m²K), without sun.
+// Returns U = flow ÷ difference of temperatures, W/(m²K), without sun.
 double u_value(const GlazingSystem& system, const HeatEnvironment& environment);
 
-// The part of the sun that becomes heat in the room: what comes through, `transmittance`, and the flow that
-// the absorbed part, `absorptance` of each pane, adds to it.
+// Returns the part of the sun that becomes heat in the room. It is what comes through, `transmittance`, and
+// the flow that the absorbed part, `absorptance` of each pane, adds to it.
 double solar_heat_gain(const GlazingSystem& system, const HeatEnvironment& environment, double transmittance,
                        const std::vector<double>& absorptance);
 

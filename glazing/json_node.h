@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A place in a JSON file: what is read there, and what is said where it is not what it has to be. Inside.
+// A JsonNode is a place in a JSON file: what is read there, and what errors say of it. For glazing alone.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ class JsonNode {
   bool is_text() const { return json_->is_string(); }
   bool is_null() const { return json_->is_null(); }
 
-  // The member of that name; not there, or null: nothing, and an Error.
+  // They return the member of that name. If it is absent or null, find returns nothing and `at` throws Error.
   std::optional<JsonNode> find(const std::string& key) const;
   JsonNode at(const std::string& key) const;
   std::vector<JsonNode> items() const;                            // of an array
@@ -32,9 +32,9 @@ class JsonNode {
   double number_or(const std::string& key, double otherwise) const;
   std::string text_or(const std::string& key, const std::string& otherwise) const;
 
-  // "FILE: /layers/1/pane: message".
+  // Throws Error "FILE: /layers/1/pane: message".
   [[noreturn]] void fail(const std::string& message) const;
-  // An Error where a member is none of these: a word that is misspelt is not passed over.
+  // Throws Error where a member is none of these: a word that is misspelt is not passed over.
   void only(std::initializer_list<std::string_view> known) const;
 
  private:

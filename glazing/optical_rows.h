@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is measured of a pane at normal incidence, as a spectrophotometer gives it.
+// Optical rows are what a spectrophotometer measures of a pane at normal incidence.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace vitrail {
 
-// Fractions of the light that falls on a pane: let through, reflected from its front and from its back. The
-// front looks outside unless the pane is turned round. Transmittance is the same from either side.
+// They are fractions of the light that falls on a pane: let through, reflected from its front and its back.
+// The front looks outside unless the pane is turned round. Transmittance is the same from either side.
 struct PaneValues {
   double t = 0, rf = 0, rb = 0;
   bool operator==(const PaneValues&) const = default;
@@ -19,7 +19,7 @@ struct OpticalRow {
   PaneValues at;
 };
 
-// Complex index of refraction n − ik, at one wavelength.
+// An IndexRow is the complex index of refraction n − ik, at one wavelength.
 struct IndexRow {
   double nm = 0, n = 1, k = 0;
 };
@@ -27,19 +27,19 @@ struct IndexRow {
 using OpticalRows = std::vector<OpticalRow>;  // ascending wavelengths, at least one
 using IndexRows = std::vector<IndexRow>;      // likewise
 
-// From first to last, nm; without data in common first is above last.
+// A range is from first to last, nm; without data in common first is above last.
 struct WavelengthRange {
   double first_nm = 0, last_nm = 1e9;
 };
 WavelengthRange range_of(const OpticalRows& rows);
 WavelengthRange common(WavelengthRange a, WavelengthRange b);
 
-// Linear in the wavelength, held beyond the ends.
+// They return values linear in the wavelength, held beyond the ends.
 PaneValues value_at(const OpticalRows& rows, double nm);
 IndexRow index_at(const IndexRows& rows, double nm);
 
-// Sorts rows, makes those of one wavelength their mean, and brings noise of measurement into 0 ≤ T, R and
-// T + R ≤ 1: a reflectance gives way, as in Optics. What was done is appended to `notes` in words.
+// Sorts rows and makes those of one wavelength their mean. Brings noise of measurement into 0 ≤ T, R and T +
+// R ≤ 1, where a reflectance gives way, as in Optics. What was done is appended to `notes` in words.
 OpticalRows tidy(OpticalRows rows, std::vector<std::string>& notes);
 IndexRows tidy(IndexRows rows, std::vector<std::string>& notes);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One pane at any angle: from what was measured at normal incidence, or from its layers.
+// A Pane is one pane at any angle: by measurements at normal incidence, or by its layers.
 #pragma once
 
 #include <variant>
@@ -10,25 +10,25 @@
 
 namespace vitrail {
 
-// The electric field perpendicular (s) and parallel (p) to the plane of incidence.
+// They are for the electric field perpendicular (s) and parallel (p) to the plane of incidence.
 struct PolarisedValues {
   PaneValues s, p;
 };
 PaneValues mean(const PolarisedValues& v);
 
-// A sheet of homogeneous glass whose T and R at normal incidence are known: the index follows from R and T
-// through the infinite series of inner reflections, the absorption from T; then Fresnel's equations and the
-// longer path in the glass give every angle. Furler, "Angular dependence of optical properties of homogeneous
+// Returns values of homogeneous glass with known T and R at normal incidence. The index follows from R and T
+// by the infinite series of inner reflections, the absorption from T. Fresnel's equations and the longer path
+// in the glass then give every angle. Furler, "Angular dependence of optical properties of homogeneous
 // glasses", ASHRAE Transactions 97 (1991); Finlayson et al., "WINDOW 4.0: documentation of calculation
 // procedures", LBL-33943 (1993). Each face takes the index of its own reflectance.
 PolarisedValues clear_glass(PaneValues normal, double cosine);
 
-// What that inverts to: real index n and extinction k of the glass.
+// Returns the index that clear_glass finds: real index n and extinction k of the glass.
 IndexRow clear_glass_index(double nm, double t, double r, double thickness_mm);
 
-// Anything else that is measured at normal incidence alone: the shape of the curves of 3 mm clear (T > 0.645)
-// or bronze glass, polynomials in the cosine, whatever the polarisation (Finlayson et al. 1993, table of
-// "polynomial coefficients"). Judged at each wavelength by its own T, as WINDOW's engine does.
+// Returns values of any other pane that is measured at normal incidence alone. Their curves have the shape of
+// 3 mm clear (T > 0.645) or bronze glass, polynomials in the cosine, whatever the polarisation (Finlayson et
+// al. 1993, table of "polynomial coefficients"). T of each wavelength decides, as in WINDOW's engine.
 PaneValues coated_glass(PaneValues normal, double cosine);
 
 struct MeasuredPane {
@@ -37,8 +37,8 @@ struct MeasuredPane {
   OpticalRows scattered{};  // the part of `rows` that leaves in all directions (system.h); values_at has all
 };
 
-// Thick sheets that light passes without interference, with coherent films on their faces, from outside. All
-// in optical contact: a laminate is several slabs, a coated glass one with films.
+// Slabs are thick sheets that light passes without interference; coherent films lie on their faces, from
+// outside. All are in optical contact: a laminate is several slabs, a coated glass one with films.
 struct FilmLayer {
   IndexRows index;
   double thickness_nm = 0;
@@ -54,19 +54,19 @@ struct StackPane {
 
 using Pane = std::variant<MeasuredPane, StackPane>;
 
-// In air, `cosine` of the angle of incidence in [0, 1]; up to 1e-6 all light is reflected.
+// Returns values in air, for `cosine` of the incidence in [0, 1]; up to 1e-6 all light is reflected.
 PolarisedValues values_at(const Pane& pane, double nm, double cosine);
 
-// The wavelengths that a pane is given at, ascending: of its rows; of layers 300 to 2500 nm, whatever their
-// tables hold.
+// Returns the wavelengths that a pane is given at, ascending: those of its rows; for layers 300 to
+// 2500 nm, whatever their tables hold.
 std::vector<double> wavelengths_of(const Pane& pane);
 
-// Where there are data, beyond which values are held: between the ends of its rows, or of all tables of its
-// layers (a table of one row is a constant and has no ends).
+// Returns the range of the data, beyond which values are held. It is between the ends of its rows, or of all
+// tables of its layers (a table of one row is a constant and has no ends).
 WavelengthRange range_of(const Pane& pane);
 
-// Of a product with rows, or with an index where `thickness_mm` (or the product's own) is above 0. Throws
-// Error.
+// Makes a pane of a product with rows, or with an index where `thickness_mm` (or the product's
+// own) is above 0. Throws Error.
 Pane pane_of(const Product& product, double thickness_mm = 0);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What panes and gaps are to heat.
+// This file has what panes and gaps are to heat.
 #pragma once
 
 #include <optional>
@@ -24,13 +24,13 @@ inline constexpr double freezing_k = 273.15;                // 0 °C
 // This is that of soda-lime glass without a coating.
 inline constexpr double glass_emissivity = 0.84;
 
-// Adds emissivities from rows of the thermal infrared, 5 to 25 µm at least: 1 − T − R, weighted by a black
-// body of 300 K, to the hemisphere by NFRC 301's polynomials, of glass where this is above 0.8 and of
-// coatings elsewhere. What is known already stays; nothing is added where rows end before.
+// Adds emissivities 1 − T − R from rows of 5 to 25 µm at least, weighted by a black body of 300 K. NFRC 301's
+// polynomials take them to the hemisphere: that of glass above 0.8, that of coatings elsewhere. Emissivities
+// that are known stay; nothing is added where rows end before.
 void add_emissivities(PaneHeat& heat, const OpticalRows& rows);
 
-// Throws Error where heat cannot be computed: a pane without a thickness or an emissivity, two panes without
-// a gap between them, or values that no window has.
+// Throws Error where heat cannot be computed: for a pane without a thickness or an emissivity, for two panes
+// without a gap, or for values that no window has.
 void check_heat(const GlazingSystem& system);
 
 }  // namespace vitrail

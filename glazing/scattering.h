@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Panes that scatter light: frits, etched and opal glass.
+// These functions report panes that scatter light: frits, etched and opal glass.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace vitrail {
 
 // One pane alone, as it stands in its system, lets through and reflects so much in all, and scatters this
-// part of it in all directions. At normal incidence, by NFRC 300-2003.
+// part of it in all directions. Values are at normal incidence, by NFRC 300-2003.
 struct PaneScattering {
   std::size_t pane = 0;  // from outside, from 0
   PaneValues visible, solar, visible_scattered, solar_scattered;
@@ -19,7 +19,7 @@ struct PaneScattering {
 // Returns the panes that scatter; none where no pane does.
 std::vector<PaneScattering> scattering_of(const GlazingSystem& system);
 
-// The same in words, and what is supposed of it (streams.h).
+// Returns the same in words, and what is supposed of it (streams.h).
 std::vector<std::string> scattering_notes(const GlazingSystem& system);
 
 }  // namespace vitrail

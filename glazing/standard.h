@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a spectrum is weighted by, and how the weights are summed: the methods of a standard.
+// A standard has methods: what a spectrum is weighted by, and how the weights are summed.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace vitrail {
 
-// Wavelengths in nm, ascending, and relative values; linear in between, held beyond the ends. Empty: 1.
+// A table has nm, ascending, and relative values; linear in between, held beyond the ends. Empty is 1.
 using WeightTable = std::vector<std::pair<double, double>>;
 
 double weight_at(const WeightTable& table, double nm);
 
-// exp(a − b·λ), λ in µm: damage by ultraviolet light (CIE 89/3, Krochmann 1978).
+// The action is exp(a − b·λ), λ in µm: damage by ultraviolet light (CIE 89/3, Krochmann 1978).
 struct DamageAction {
   double a = 0, b = 0;
 };
@@ -40,22 +40,22 @@ struct Standard {
   std::vector<Method> methods;
 };
 
-// nullptr where a standard has no such method.
+// Returns nullptr where a standard has no such method.
 const Method* find_method(const Standard& standard, const std::string& name);
 
-// NFRC 300-2003 as WINDOW has it: the sun of ASTM E891-87, D65, the CIE observers of 1931 (light) and 1964
-// (colour). Its numbers are in standard_tables.cpp with their sources.
+// Returns NFRC 300-2003 as WINDOW has it: the sun of ASTM E891-87, D65, the CIE observers of 1931 (light) and
+// 1964 (colour). Its numbers are in standard_tables.cpp with their sources.
 const Standard& nfrc_2003();
 
-// Sun (SOLAR), ultraviolet (TUV) and light (PHOTOPIC) of Europe's standards. EN 410: table 2 of 1998, air
-// mass 1. ISO 9050 of 1990: Moon's sun at air mass 2. ISO 9050 of 2003: ISO 9845-1's global sun at air
-// mass 1.5, by the trapezoidal rule at that table's own wavelengths.
+// They return sun (SOLAR), ultraviolet (TUV) and light (PHOTOPIC) of Europe's standards. EN 410 has table 2
+// of 1998, air mass 1. ISO 9050 of 1990 has Moon's sun at air mass 2. ISO 9050 of 2003 has ISO 9845-1's
+// global sun at air mass 1.5, by the trapezoidal rule at that table's own wavelengths.
 const Standard& en_410();
 const Standard& iso_9050_1990();
 const Standard& iso_9050_2003();
 
-// A WINDOW standard (.std) with the files of weights that it names, beside it. Methods of thermal radiation
-// are left out. Throws Error.
+// Reads a WINDOW standard (.std) with the files of weights that it names, beside it. Methods of thermal
+// radiation are left out. Throws Error.
 Standard read_standard(const std::filesystem::path& file);
 
 }  // namespace vitrail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light in panes of which some scatter, as two streams. Direct light comes at one angle and goes straight on
-// or is mirrored; panes scatter a part of it. What is scattered is diffuse from there on: it comes from all
-// of the hemisphere alike, as Lambert's law has it, also behind the next pane.
+// Streams are light in panes of which some scatter. Direct light comes at one angle and goes straight on or
+// is mirrored; panes scatter a part of it. Scattered light is diffuse from there on: it comes from all of the
+// hemisphere alike, as Lambert's law has it, also behind the next pane.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace vitrail {
 
-// Returns two panes, or groups of panes, as one; the first is outside. It sums all reflections between them,
-// a geometric series.
+// Returns two panes, or groups of panes, as one; the first is outside. It sums all reflections
+// between them, a geometric series.
 PaneValues joined(const PaneValues& outside, const PaneValues& inside);
 
-// It says what a pane, or panes together, do with light of 1.
+// Streams say what a pane, or panes together, do with light of 1.
 struct Streams {
   PaneValues direct;        // of direct light: what stays direct
   PaneValues scattered;     // of direct light: what becomes diffuse; t of light from the front
@@ -25,8 +25,8 @@ struct Streams {
 };
 Streams joined(const Streams& outside, const Streams& inside);
 
-// Returns which share of direct light from outside each pane absorbs, `panes` from outside: with t and rf of
-// the whole they sum to 1.
+// Returns which share of direct light from outside each pane absorbs, `panes` from outside: with
+// t and rf of the whole they sum to 1.
 std::vector<double> absorbed_by(const std::vector<Streams>& panes);
 
 }  // namespace vitrail

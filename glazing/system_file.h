@@ -8,23 +8,23 @@
 
 namespace vitrail {
 
-// What was read, and what was repaired or approximated in words that begin with the file's name.
+// A ReadSystem has what was read, and what was repaired or approximated in words after the file's name.
 struct ReadSystem {
   GlazingSystem system;
   std::vector<std::string> notes;
 };
 
-// Panes from outside, each "FILE" or "FILE#NAME" of a product (glazing/product.h), with "#state=0.6" or
-// "#temperature=40" behind it where it switches (each at most once), or a system file, whose layers take its
-// place. A system file is JSON (docs/why/glazing.md):
+// Reads panes from outside. Each is "FILE" or "FILE#NAME" of a product (glazing/product.h), or a system file,
+// whose layers take its place. One that switches may have "#state=0.6" or "#temperature=40" behind it, each
+// at most once. A system file is JSON (docs/why/glazing.md):
 //   {"name": "…", "layers": [{"pane": "low-e.json", "flipped": true}, {"gap_mm": 12.7},
 //                            {"stack": [{"index": "glass.txt", "thickness_mm": 4},
 //                                       {"index": "silver.txt", "thickness_nm": 12}, …]}]}
 // with files beside it; a pane that switches has "states". Throws Error.
 ReadSystem read_system(const std::vector<std::string>& files);
 
-// Whether read_system may take a file: JSON with "layers" or "spectral_data", Optics, EnergyPlus, or
-// "FILE#NAME".
+// Returns whether read_system may take a file: JSON with "layers" or "spectral_data",
+// Optics, EnergyPlus, or "FILE#NAME".
 bool is_glazing_file(const std::string& name);
 
 }  // namespace vitrail

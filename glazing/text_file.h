@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers of glazing files share: whole small texts, lines, numbers. Inside.
+// The readers of glazing files share these: whole small texts, lines, numbers. For glazing alone.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace vitrail {
 
-// At most 64 MiB, as UTF-8: a byte-order mark is left out, and a text that is not UTF-8 counts as Latin-1.
-// Throws Error, MachineError.
+// Returns at most 64 MiB, as UTF-8: a byte-order mark is left out, and a text that is not UTF-8 counts as
+// Latin-1. Throws Error, MachineError.
 std::string read_text(const std::filesystem::path& file);
 
-// The lines of a text, counted from 1, without their ends.
+// Lines gives the lines of a text, counted from 1, without their ends.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text) {}
@@ -35,7 +35,7 @@ std::string_view next_word(std::string_view& rest);
 // micrometres …); 0 where it is none.
 double nanometres_in(std::string_view unit);
 
-// The whole word as a finite number.
+// Reads the whole word as a finite number; returns false where it is none.
 bool parse_number(std::string_view word, double& value);
 
 }  // namespace vitrail

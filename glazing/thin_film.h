@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interference in thin films, and sheets too thick for it between them.
+// This file computes interference in thin films, and sheets too thick for it between them.
 #pragma once
 
 #include <complex>
@@ -9,8 +9,8 @@
 
 namespace vitrail {
 
-// Fractions of the power that an interface reflects and transmits, from the first medium to the last and
-// back.
+// They are fractions of the power that an interface reflects and transmits, from the
+// first medium to the last and back.
 struct InterfaceValues {
   double r = 0, t = 0, r_back = 0, t_back = 0;
 };
@@ -20,13 +20,13 @@ struct FilmAt {
   double thickness_nm = 0;
 };
 
-// Films between two media, by the product of their characteristic matrices (Abelès 1950; Born & Wolf,
-// ch. 1.6; Macleod, "Thin-Film Optical Filters", ch. 2). `sine` is n·sin θ, the same in all media; media
-// that light comes from count as transparent. `parallel` is the p polarisation.
+// Returns those of films between two media, by the product of their characteristic matrices (Abelès 1950;
+// Born & Wolf, ch. 1.6; Macleod, "Thin-Film Optical Filters", ch. 2). `sine` is n·sin θ, the same in all
+// media; media that light comes from count as transparent. `parallel` is the p polarisation.
 InterfaceValues film_stack(double n_first, std::span<const FilmAt> films, std::complex<double> n_last,
                            double sine, double nm, bool parallel);
 
-// All of a pane in air, for one polarisation: films coherent, slabs by the sum over all inner reflections.
+// Returns a pane in air, for one polarisation: films coherent, slabs by the sum of all inner reflections.
 PaneValues stack_values(const StackPane& stack, double nm, double cosine, bool parallel);
 
 }  // namespace vitrail
