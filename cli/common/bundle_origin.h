@@ -6,18 +6,18 @@
 
 namespace vitrail {
 
-// Of which scene a bundle was made, by which program, with which options. For people alone: nothing depends
-// on it.
+// A BundleOrigin says of which scene a bundle was made, by which program, with which options. It is for
+// people alone: nothing depends on it.
 struct BundleOrigin {
   std::string scene, program, options;
 };
 
-// BUNDLE/origin.json; `program` is this one. Throws MachineError.
+// Writes BUNDLE/origin.json; `program` is this one. Throws MachineError.
 void write_bundle_origin(const std::filesystem::path& bundle, const BundleOrigin& origin);
-// Empty where there is none.
+// Returns the origin, empty where there is none.
 BundleOrigin read_bundle_origin(const std::filesystem::path& bundle);
 
-// When a file was last written, "2026-07-11 10:00:00 UTC"; "" where that is unknown.
+// Returns when a file was last written, "2026-07-11 10:00:00 UTC"; "" where that is unknown.
 std::string time_of(const std::filesystem::path& file);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A command line as people type it.
+// This file reads a command line as people type it.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How domains are shared out among ranks: what `render` and `plan` have in common.
+// `render` and `plan` share these options, which say how domains are shared out among ranks.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// `homes`: a profile; `stay`: set in its place by the word bytes.
+// `homes` becomes the name of a profile; the word bytes sets `stay` instead.
 void declare_distribution(CLI::App& app, Distribution& distribution, std::filesystem::path& homes,
                           bool& stay);
 

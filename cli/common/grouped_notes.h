@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is not exact, by importance: equal notes together.
+// Grouped notes say what is not exact, by importance, equal notes together.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace vitrail {
 
-// Notes of one kind of record that say the same, whatever the record is called: `material "wood": …` and
-// `material "tin": …`.
+// A NoteGroup has notes of one kind of record that say the same, whatever the record is called: `material
+// "wood": …` and `material "tin": …`.
 struct NoteGroup {
   Fidelity fidelity = Fidelity::approximated;
   RecordKind kind = RecordKind::any;
@@ -18,8 +18,8 @@ struct NoteGroup {
   std::vector<SourceLocation> places;
 };
 
-// What is dropped first, then what is approximated; each with what changes the whole picture first (camera,
-// integrator, film, lights, media), then materials and textures, then shapes. All of them.
+// Returns all notes: dropped things first, then approximated ones. In each, what changes the whole picture
+// comes first (camera, integrator, film, lights, media), then materials and textures, then shapes.
 std::vector<NoteGroup> grouped_notes(const Diagnostics& diagnostics);
 
 }  // namespace vitrail

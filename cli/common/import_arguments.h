@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// -D name=value, --camera N, --missing, --sky, --glazing, --lamps, --include, --root, --all-media and limits:
-// what a scene is loaded with.
+// These options say how a scene is loaded: -D name=value, --camera N, --missing, --sky, --glazing, --lamps,
+// --include, --root, --all-media and limits.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -24,24 +24,24 @@ struct ImportArguments {
   bool lamps_are_off() const { return lamps == "off"; }
 };
 
-// --rgb jakob-hanika|matrix-r|bands: how a scene's colours become spectra as it is partitioned. "": as its
-// file means them.
+// Declares --rgb jakob-hanika|matrix-r|bands: how a scene's colours become spectra as it is partitioned. ""
+// takes them as the scene's file means them.
 void declare_rgb_option(CLI::App& app, std::string& method);
 RgbMethod rgb_method(const std::string& method);
 
-// Of --no-cache.
+// It is the help of --no-cache.
 inline constexpr const char* no_cache_help =
     "bake all images without the cache in $XDG_CACHE_HOME/vitrail or ~/.cache/vitrail";
 
-// A definition that is not name=value is refused as the options are parsed.
+// Declares the options. A definition that is not name=value is refused as they are parsed.
 void declare_import_options(CLI::App& app, ImportArguments& arguments);
 
 void declare_lamps_option(CLI::App& app, ImportArguments& arguments);
 
-// What --root allows holds from then on.
+// Returns the options. What --root allows holds from then on.
 ImportOptions import_options(const ImportArguments& arguments);
 
-// The words of a command line that give them again; none for what is as usual.
+// Returns the words of a command line that give them again; none for what is as usual.
 std::vector<std::string> arguments_of(const ImportArguments& arguments);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which kind of file a verb was given, for a message where it takes another.
+// An InputKind is the kind of file that a verb was given, for a message where it takes another.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,10 @@
 
 namespace vitrail {
 
-// `other`: a missing file, or one whose name does not tell its kind.
+// `other` is a missing file, or one whose name does not tell its kind.
 enum class InputKind { bundle, film, picture, scene, other };
 
-// By the file's name; a folder with manifest.json is a bundle. Files are not opened.
+// Returns the kind by the file's name; a folder with manifest.json is a bundle. Files are not opened.
 InputKind kind_of_input(const std::filesystem::path& file);
 
 // Throws Error, which names the kind of `file` and the verbs that take it, unless its kind is wanted or

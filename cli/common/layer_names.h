@@ -12,7 +12,7 @@ inline constexpr const char* layers_help =
     "geo_normal, sh_normal (or normal), uv, depth, shape_index, material_index, prim_index, alpha, motion, "
     "cryptomatte (crypto_object and crypto_material); none; default: as the scene says";
 
-// What `--aov` names. Throws UsageError for unknown ones.
+// Returns the layers that `--aov` names. Throws UsageError for unknown ones.
 FilmLayers parse_layers(const std::string& names);
 
 }  // namespace vitrail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where every program catches what it could not handle: one message on stderr and the exit status that says
-// who has to act.
+// Every program catches here what it could not handle. It writes one message on stderr and ends with the exit
+// status that says who has to act.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,11 +10,11 @@
 
 namespace vitrail {
 
-// The exit status of every program.
+// These are the exit statuses of every program.
 inline constexpr int exit_done = 0, exit_differs = 1, exit_usage = 2, exit_bad_input = 3, exit_machine = 4;
 
-// A signal asked for an end, and what was under way is in order: exit status 128 + its number, as a shell has
-// it of a program that the signal ended.
+// A signal asked for an end, and all work under way is in order. The exit status is 128 + its number, as a
+// shell has it of a program that the signal ended.
 struct Interrupted : std::runtime_error {
   Interrupted(int number, const std::string& message) : std::runtime_error(message), signal(number) {}
   int signal;
@@ -33,18 +33,18 @@ struct FailureAlreadySaid : MachineError, AlreadySaid {
       : MachineError(program + " failed"), AlreadySaid{with} {}
 };
 
-// For the end of main: dies of the signal that such a status speaks of, because shells end a loop or a list
-// only where a program did. Returns any other status.
+// Ends main. It dies of the signal that such a status speaks of, because shells end a loop or a list only
+// where a program did. Returns any other status.
 int end_with(int status);
 
-// Runs `body` and returns its status. What it throws is printed as "vitrail: place: message" and the excerpt:
-// Error → 3, MachineError → 4, UsageError and CLI::ParseError → 2, Interrupted → 128 + the signal's number.
-// Of other exceptions those about a file (of JSON, of names, of lengths) → 3, the rest → 4. Standard output
+// Runs `body` and returns its status. It prints what `body` throws as "vitrail: place: message" and the
+// excerpt: Error → 3, MachineError → 4, UsageError and CLI::ParseError → 2, Interrupted → 128 + the signal's
+// number. Other exceptions about a file (of JSON, of names, of lengths) → 3, the rest → 4. Standard output
 // that could not be written → 4.
 int run_guarded(const std::function<int()>& body);
 
-// Parses the command line before it runs `body`: --help prints the help (0), a wrong line says what is wrong
-// (2).
+// Parses the command line before it runs `body`: --help prints the help (0), a wrong
+// line says what is wrong (2).
 int run_guarded(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
 
 }  // namespace vitrail

@@ -11,9 +11,9 @@ namespace vitrail {
 // Declares --memory of a program that runs within_memory.
 void declare_memory(CLI::App& app, std::string& memory);
 
-// Returns the bytes that a program may take: those asked for, or the share of what the job has
-// (scene/system/machine_limits.h), which is said unless `quiet` or where it is the machine's. Throws
-// UsageError.
+// Returns the bytes that a program may take: those asked for, or the share of what the
+// job has (scene/system/machine_limits.h). It says that share unless `quiet` or where it
+// is the machine's. Throws UsageError.
 std::uint64_t memory_budget(const std::string& asked, bool quiet);
 
 }  // namespace vitrail

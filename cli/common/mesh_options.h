@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options that change meshes on their way: --tessellate, --repair, --orient, --subdivide,
-// --decimate.
+// These options change meshes on their way: --tessellate,
+// --repair, --orient, --subdivide, --decimate.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -24,11 +24,11 @@ struct MeshOptions {
 
 void declare_mesh_options(CLI::App& app, MeshOptions& options);
 
-// The same options, for another program of the suite.
+// Returns the same options, for another program of the suite.
 std::vector<std::string> arguments_of(const MeshOptions& options);
 
-// Does what they ask for and says so on standard error; nothing without them. Of what it does: notes, which
-// --strict does not refuse.
+// Changes the scene as the options ask and says so on standard error; does nothing without options. Returns
+// notes on what it did, which --strict does not refuse.
 Diagnostics apply_mesh_options(const MeshOptions& options, Scene& scene, const MeshResources& resources,
                                bool to_render);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands under an output's name already.
+// This file asks what stands under an output's name already.
 #pragma once
 
 #include <filesystem>

@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// Of the scene's shapes and of those of its prototypes: "3 spheres, 2 disks", or "none".
+// Counts the quadrics of the scene and of its prototypes: "3 spheres, 2 disks", or "none".
 std::string quadric_counts(const Scene& scene);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a rank of a job throws, in words that say which rank speaks.
+// This guard puts what a rank of a job throws in words that say which rank speaks.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// Returns the job's exit status. What it throws says which rank speaks, where there are several.
+// Returns the job's exit status. An exception says which rank speaks, where there are several.
 int guarded(const Transport& transport, const std::function<int()>& job);
 
 }  // namespace vitrail

@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// The folder of the running program: the others lie beside it.
+// Returns the folder of the running program: the others lie beside it.
 std::filesystem::path program_folder();
 
 // Runs a program of the suite and waits. Returns exit_done, or exit_differs of `compare` and `convert
@@ -16,12 +16,12 @@ std::filesystem::path program_folder();
 int run_program(const std::string& name, const std::vector<std::string>& arguments,
                 bool (*stopped)() = nullptr, const std::filesystem::path& standard_output = {});
 
-// The end of a program of others.
+// A ForeignEnd is the end of a program that others wrote.
 struct ForeignEnd {
   bool found = false;  // it is on the path
   int status = 0;      // 128 + signal where one ended it
 };
-// Runs one and waits: words[0] is looked for on the path. What it says goes into the two files.
+// Runs one and waits: words[0] is looked for on the path. The program's words go into the two files.
 ForeignEnd run_foreign(const std::vector<std::string>& words, const std::filesystem::path& standard_output,
                        const std::filesystem::path& standard_error);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Elements of SVG pictures.
+// These functions write elements of SVG pictures.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// A number has as many digits as it needs.
+// An SvgAttribute writes a number with as many digits as it needs.
 struct SvgAttribute {
   SvgAttribute(const char* attribute, std::string text) : name(attribute), value(std::move(text)) {}
   SvgAttribute(const char* attribute, double number) : name(attribute), value(fmt::format("{}", number)) {}
@@ -19,12 +19,12 @@ struct SvgAttribute {
   std::string name, value;
 };
 
-// One element; the content, if there is any, stands in it as it is.
+// Returns one element; the content, if there is any, stands in it as it is.
 std::string svg_element(std::string_view name, const std::vector<SvgAttribute>& attributes,
                         std::string_view content = {});
 
-// A whole file, with sans-serif text and a white ground of so many units; `size` are attributes that say how
-// large it is shown. The content is lines of elements.
+// Returns a whole file, with sans-serif text and a white ground of so many units; `size` are attributes that
+// say how large it is shown. The content is lines of elements.
 std::string svg_picture(const std::vector<SvgAttribute>& size, double width, double height, double font_size,
                         std::string_view content);
 

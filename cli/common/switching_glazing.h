@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Switchable glazing, from a scene into a bundle and set there.
+// Switchable glazing goes from a scene into a bundle and is set there.
 #pragma once
 
 #include <filesystem>
@@ -13,25 +13,25 @@
 
 namespace vitrail {
 
-// What a scene has of it, by its materials' ids. A system has the name of its material; without one that
-// which its file gives, or the file's own. Reads the files again.
+// Returns the switchable glazing of a scene, by its materials' ids. A system has the name of its material,
+// else that which its file gives, else the file's own. Reads the files again.
 std::vector<KeptGlazing> switching_glazings(const Scene& scene);
 
-// "NAME.QUANTITY=VALUE".
+// A GlazingSetting is "NAME.QUANTITY=VALUE".
 struct GlazingSetting {
   std::string name;
   Quantity quantity = Quantity::state;
   double value = 0;
 };
-// Throws UsageError, also for values out of range and for what is set twice.
+// Throws UsageError, also for values out of range and for a quantity that is set twice.
 std::vector<GlazingSetting> parse_settings(const std::vector<std::string>& texts);
 
-// "state 0.6, temperature 20 °C": where a system stands. The quantities alone: "state, temperature".
+// They return where a system stands, "state 0.6, temperature 20 °C", and "state, temperature" alone.
 std::string describe_setting(const GlazingSystem& system);
 std::string names_of_quantities(const GlazingSystem& system);
 
-// The sheets of all materials that the settings are about. Throws UsageError for what the bundle does not
-// have; the message says what it has.
+// Returns the sheets of all materials that the settings are about. Throws UsageError for glazing that the
+// bundle does not have; the message says what it has.
 std::vector<SetSheet> sheets_under(const std::vector<GlazingSetting>& settings,
                                    const std::filesystem::path& bundle, const Manifest& manifest);
 

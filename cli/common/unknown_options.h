@@ -6,7 +6,7 @@
 
 namespace vitrail {
 
-// What to say of arguments that `app` did not expect: the option that was perhaps meant, or what another
+// Says of arguments that `app` did not expect which option was perhaps meant, or what another
 // renderer's option is called here.
 std::string about_unexpected(const CLI::App& app);
 

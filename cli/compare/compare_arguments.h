@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of `vitrail compare`.
+// This file is the command line of `vitrail compare`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -25,7 +25,7 @@ struct CompareArguments {
 
 void declare(CLI::App& app, CompareArguments& arguments);
 
-// Whether FLIP sees the images as a screen shows them.
+// Returns whether FLIP sees the images as a screen shows them.
 bool of_low_range(const CompareArguments& arguments);
 
 }  // namespace vitrail

@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// 1 for each pixel whose alpha differs, if both pictures have it; else empty.
+// Returns 1 for each pixel whose alpha differs, if both pictures have it; else empty.
 std::vector<double> alpha_differences(const Picture& image, const Picture& reference);
 
 // This is what `compare` takes beside the colours of each pixel: FLIP where that is the metric; for bitwise,
@@ -15,7 +15,7 @@ std::vector<double> alpha_differences(const Picture& image, const Picture& refer
 std::vector<double> given_map(const CompareArguments& arguments, const Picture& image,
                               const Picture& reference);
 
-// What --heatmap, --signed-map and --html ask for. The comparison's map has a value a pixel of the images.
+// Writes what --heatmap, --signed-map and --html ask for. The comparison's map has a value a pixel.
 void write_maps(const CompareArguments& arguments, const Comparison& comparison, const Picture& image,
                 const Picture& reference);
 

@@ -10,13 +10,13 @@
 
 namespace vitrail {
 
-// The variances of a z-test: those that the pictures know of themselves, or those of a file ("": none): the
-// reference's of develop --variance, or Mitsuba's of one sample, for which IMAGE has to say or `samples` to
-// be how many samples a pixel it has. Throws UsageError and Error.
+// Finds the variances of a z-test: those that the pictures know of themselves, or those of a file ("": none).
+// A file has the reference's of develop --variance, or Mitsuba's of one sample. For that, IMAGE has to say or
+// `samples` to be how many samples a pixel it has. Throws UsageError and Error.
 void find_variances(ZTestInput& test, const Picture& image, const Picture& reference, const std::string& file,
                     std::optional<double> samples);
 
-// Of the difference of two pictures: by the noise of each where both know it, else the greater.
+// Returns that of the difference of two pictures: by the noise of each where both know it, else the greater.
 double neighbours_of_mean(const Picture& image, const Picture& reference);
 
 // Throws UsageError unless both know the variances of their pixels.

@@ -7,8 +7,8 @@
 
 namespace vitrail {
 
-// Pixels of the small pictures that are compared, and how many of a rendered picture make one of them in each
-// direction.
+// A SmallPicture has the pixels of the small pictures that are compared. `block` pixels of a rendered picture
+// make one of them in each direction.
 struct SmallPicture {
   int width = 0, height = 0;
   static constexpr int block = 8;
@@ -20,7 +20,7 @@ struct Luminances {
   std::vector<double> noise;  // standard errors; empty: not known
 };
 
-// The mean luminance of each block of a picture of colours in linear sRGB, which is `block` times as large.
+// Returns the mean luminance of each block of a picture of colours in linear sRGB, `block` times as large.
 // Throws Error where it has another size.
 std::vector<double> block_luminances(const std::filesystem::path& picture, SmallPicture size);
 

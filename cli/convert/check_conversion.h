@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// convert --check: a scene that looks different when it is converted is a failed conversion.
+// This is convert --check: a scene that looks different when it is converted is a failed conversion.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,15 @@
 
 namespace vitrail {
 
-// The pictures of a scene and of what it was converted to: both are rendered small (64 pixels of the longer
-// side, 32 samples, 256 where these leave the mean unknown, two seeds) and put before `compare --metric ztest
-// --json`, whose words these are: "passed", "luminance_ratio" … and the "samples". `options`: of reading the
-// input. What the writer writes and the reader of that format reads wrongly in the same way is not seen.
+// Compares the pictures of a scene and of what it was converted to. Both are rendered small: 64 pixels of the
+// longer side, 32 samples, 256 where these leave the mean unknown, two seeds. Returns the words of `compare
+// --metric ztest --json`, "passed", "luminance_ratio" …, and the "samples". `options` are those of reading
+// the input. What writer and reader of that format get wrong in the same way is not seen.
 nlohmann::ordered_json compare_pictures(const std::filesystem::path& in,
                                         const std::vector<std::string>& options,
                                         const std::filesystem::path& out, const FilmSettings& film);
 
-// "looks the same: luminance +0.20 % ± 0.41 %".
+// Returns "looks the same: luminance +0.20 % ± 0.41 %".
 std::string pictures_in_words(const nlohmann::ordered_json& pictures);
 
 // Throws UsageError where the format has no camera (.obj, .ply).

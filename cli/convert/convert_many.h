@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many scenes into one format: each by a `vitrail convert` of its own, several at once.
+// This converts many scenes into one format: each by a `vitrail convert` of its own, several at once.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,10 @@ struct ManyConversions {
   std::vector<std::string> options;  // of reading each
 };
 
-// Beside each output comes its report, NAME.report.json, last: a scene whose report is younger than its own
-// file and of the same options is converted already, and the rest of a list that was interrupted is what is
-// left. What one scene is refused for does not keep the others. Returns the exit status that is the worst of
-// all: machine, bad input, differs, done.
+// Writes beside each output its report, NAME.report.json, last. A scene whose report is younger than
+// its file and of the same options is converted already: a list that was interrupted goes on with
+// the rest. A scene that is refused does not keep the others. Returns the worst exit status of all:
+// machine, bad input, differs, done.
 int convert_many(const ManyConversions& many);
 
 }  // namespace vitrail

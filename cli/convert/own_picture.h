@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene as the program of its own format shows it, small.
+// This renders a scene, small, by the program of its own format.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@
 
 namespace vitrail {
 
-// A program that others wrote, and the format that is its own.
+// An OwnProgram is a program that others wrote, and the format that is its own.
 struct OwnProgram {
   const char *extension, *name, *usual;  // ".pov", "POV-Ray", "povray"
 };
-// Null for formats without one.
+// Returns null for formats without one.
 const OwnProgram* own_program(const std::filesystem::path& scene);
 
 struct OwnPicture {
@@ -25,9 +25,9 @@ struct OwnPicture {
   bool is_missing = false;  // the program is not there: `said` names it
 };
 
-// Asks Mitsuba (`program`: a Python that has it) for 1024 samples of each pixel of `size`, pbrt for as many
-// or more, POV-Ray for 8 × 8 antialiased pixels of each. pbrt's scene is copied beside itself meanwhile, with
-// another size of its film. Formats without a program show nothing.
+// Asks Mitsuba (`program` is a Python that has it) for 1024 samples of each pixel of `size`, and pbrt for as
+// many or more. Asks POV-Ray for 8 × 8 antialiased pixels of each. pbrt's scene is copied beside itself
+// meanwhile, with another size of its film. Formats without a program show nothing.
 OwnPicture own_picture(const std::filesystem::path& scene, const std::string& program, SmallPicture size,
                        const TemporaryFolder& folder);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What became of a scene, as a page to read.
+// A report page says what became of a scene, as a page to read.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace vitrail {
 
-// One file of HTML without scripts: the counts, the checks, then every kind of loss with all of its places,
-// then every item. Throws MachineError.
+// Writes one file of HTML without scripts: the counts, the checks, then every kind of loss with all of its
+// places, then every item. Throws MachineError.
 void write_report_page(const std::filesystem::path& file, const std::filesystem::path& in,
                        const std::filesystem::path& out, const ConversionChecks& checks,
                        const Diagnostics& diagnostics, const std::vector<ConversionItem>& items);

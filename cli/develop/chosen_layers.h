@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an .exr has beside its colours, by `develop --layers`.
+// ChosenLayers are what an .exr has beside its colours, by `develop --layers`.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ struct ChosenLayers {
   FilmLayers layers;
 };
 
-// "all", or names with commas between them: those of render --aov, `variance`, `spectrum` and `groups`.
-// Throws UsageError.
+// Reads "all", or names with commas between them: those of render --aov, `variance`, `spectrum`
+// and `groups`. Throws UsageError.
 ChosenLayers parse_chosen_layers(const std::string& names);
 
-// Leaves the others out. Throws Error where the picture has not what is named; `file`: what it is made of.
+// Leaves other layers out. Throws Error where the picture lacks a named one; `file` is what it is made of.
 void keep_layers(Picture& picture, const ChosenLayers& chosen, const std::string& file);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of `vitrail develop`.
+// This file is the command line of `vitrail develop`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -31,10 +31,10 @@ void declare(CLI::App& app, DevelopArguments& arguments);
 // Throws UsageError where options do not go together.
 void require_agreement(const DevelopArguments& arguments);
 
-// Of --exposure, in stops; none: by the picture. Throws UsageError.
+// Returns the stops of --exposure; none means that the picture decides. Throws UsageError.
 std::optional<double> exposure_ev(const DevelopArguments& arguments);
 
-// Of --false-color: "auto", or luminance in cd/m². Throws UsageError.
+// Returns those of --false-color: "auto", or luminance in cd/m². Throws UsageError.
 FalseColor false_color_of(const DevelopArguments& arguments);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The films that a picture is made of, as one.
+// Exposed holds the films that a picture is made of, as one.
 #pragma once
 
 #include <optional>
@@ -21,16 +21,16 @@ struct Exposed {
   std::vector<std::uint64_t> seeds;  // ascending
 };
 
-// The films of the command line, merged in the order of their seeds, so that their order there does not
-// matter; `in_files`: they stay there. Throws Error where they are not of one picture, or share a seed.
+// Merges the films of the command line in the order of their seeds, whatever their order there. If
+// `in_files`, they stay in their files. Throws Error where they are not of one picture, or share a seed.
 Exposed merge_all(const DevelopArguments& arguments, bool in_files);
 
-// Rows of films in files, merged, from the top down, as many as a few megabytes have.
+// MergedRows are rows of films in files, merged, from the top down, some megabytes at a time.
 class MergedRows {
  public:
-  // `with_sums`: as of FilmRows::rows. From row `y0` of the crop on, up to `y1`.
+  // They go from row `y0` of the crop on, up to `y1`. `with_sums` is that of FilmRows::rows.
   MergedRows(const Exposed& films, int y0, int y1, bool with_sums = true);
-  // None: that was all.
+  // Returns the next rows; none means that was all.
   std::optional<Film> next();
 
  private:
@@ -39,14 +39,14 @@ class MergedRows {
   bool with_sums_;
 };
 
-// In one pass over the film.
+// Surveys the film in one pass.
 FilmSurvey survey_of(const Exposed& film);
 
 // Adds what the render knew of scene and camera, and which films it is made of.
 void tell_origin(Picture& picture, const Exposed& film);
 
-// As a film of its own, whose seed is a number made of all seeds, so that no render goes on from it; its
-// description has the seeds themselves, and it merges with films of others. Throws Error where it is not
+// Writes it as a film of its own. Its seed is a number made of all seeds, so that no render goes on from it.
+// Its description has the seeds themselves, and it merges with films of others. Throws Error where it is not
 // finished, or the file is there.
 void write_merged(const std::filesystem::path& file, const Exposed& film);
 

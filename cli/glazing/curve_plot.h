@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves over two linear axes, as SVG that stands in a page.
+// A curve plot has curves over two linear axes, as SVG that stands in a page.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct PlotAxis {
   double low = 0, high = 1, step = 0.2;  // a line with its number at each step
 };
 
-// The names of the curves stand below, beside a piece of their line.
+// Returns the plot. The names of the curves stand below, beside a piece of their line.
 std::string curve_plot(const PlotAxis& x, const PlotAxis& y, const std::vector<Curve>& curves);
 
 // Returns the nth curve's colour. People who do not see red or green tell these colours apart, too.

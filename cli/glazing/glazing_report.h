@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `vitrail glazing` says: a table to read, JSON, and spectra as CSV.
+// This is what `vitrail glazing` prints: a table to read, JSON, and spectra as CSV.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// One angle of incidence, or the hemisphere by a rule where there is none.
+// A result is of one angle of incidence, or of the hemisphere by a rule where there is none.
 struct GlazingResult {
   std::optional<double> theta_deg;
   HemisphereRule rule = HemisphereRule::gauss;
@@ -28,8 +28,8 @@ struct GlazingReport {
 std::string glazing_table(const GlazingReport& report);
 std::string glazing_json(const GlazingReport& report);
 
-// "wavelength_nm,T,Rf,Rb" of one angle, a table that is read back as a product; of several, columns T_15 … of
-// each.
+// Returns "wavelength_nm,T,Rf,Rb" of one angle, a table that is read back as a product;
+// of several, columns T_15 … of each.
 std::string glazing_csv(const std::vector<double>& theta_deg, const std::vector<SystemSpectrum>& spectra);
 
 }  // namespace vitrail

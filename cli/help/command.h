@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A command line as data: help, man pages and completions are written from it.
+// A Command is a command line as data: help, man pages and completions are written from it.
 #pragma once
 
 #include <string>
@@ -33,7 +33,7 @@ struct Command {
   std::string summary;
   std::vector<CommandGroup> groups;  // none is empty
   std::vector<Example> examples;
-  // Again the options that nearly everyone needs. Empty where all are few.
+  // These are again the options that nearly everyone needs. They are empty where all are few.
   std::vector<CommandOption> everyday{};
 
   std::string usage() const;    // "vitrail render [OPTION]... INPUT"

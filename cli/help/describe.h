@@ -7,11 +7,11 @@
 
 namespace vitrail {
 
-// What `app`, named "vitrail VERB", declares, but for what is hidden (its group is ""). Values and headings
-// as headings.h has them, examples as verbs.h.
+// Returns what `app`, named "vitrail VERB", declares, but for hidden options (their group is ""). Values and
+// headings are as headings.h has them, examples as verbs.h.
 Command describe(const CLI::App& app);
 
-// From now on the last value counts of an option that takes one.
+// Makes the last value count of an option that takes one, from now on.
 void let_the_last_count(CLI::App& app);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes what --help and --help-all print.
+// This file writes what --help and --help-all print.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,19 @@
 
 namespace vitrail {
 
-// All options, in lines of at most `width` columns, broken between words.
+// Returns all options, in lines of at most `width` columns, broken between words.
 std::string help_text(const Command& command, std::size_t width);
 
 // Returns what nearly everyone needs, and how to see the rest; the same as the above where all is short.
 std::string short_help_text(const Command& command, std::size_t width);
 
-// Commands with what they do, one below the other.
+// Returns commands with what they do, one below the other.
 std::string example_text(std::span<const Example> examples, std::size_t width);
 
-// `label`, then `text` from `column` on, on the next line where the label reaches it.
+// Returns `label`, then `text` from `column` on, on the next line where the label reaches it.
 std::string entry_text(std::string_view label, std::string_view text, std::size_t column, std::size_t width);
 
-// Columns of the terminal that standard output is; else of the variable COLUMNS; else 80. Between 40 and 120.
+// Returns the columns of the terminal on standard output, else of COLUMNS, else 80; between 40 and 120.
 std::size_t help_width();
 
 }  // namespace vitrail

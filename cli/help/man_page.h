@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// A page of section 1 in the macros of man(7), UTF-8. The same version gives the same bytes.
+// Returns a page of section 1 in the macros of man(7), UTF-8. The same version gives the same bytes.
 std::string man_page(const Command& command, const std::string& version);
 
 }  // namespace vitrail

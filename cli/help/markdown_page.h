@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// The options of a verb as a page of docs/reference/options: a table a heading, in the order of the help.
+// Returns the options of a verb as a page of docs/reference/options: a table a heading, in the help's order.
 std::string markdown_page(const Command& command);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verbs of vitrail, with what each one does and how it is typed.
+// This file lists the verbs of vitrail, with what each one does and how it is typed.
 #pragma once
 
 #include <span>
@@ -23,10 +23,10 @@ struct Verb {
 
 std::span<const Verb> verbs();
 
-// nullptr where there is no such verb.
+// Returns nullptr where there is no such verb.
 const Verb* find_verb(std::string_view name);
 
-// For somebody who types `vitrail help` for the first time.
+// They are for somebody who types `vitrail help` for the first time.
 std::span<const Example> first_steps();
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of `vitrail partition`.
+// This file is the command line of `vitrail partition`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -25,7 +25,7 @@ struct PartitionArguments {
 
 void declare(CLI::App& app, PartitionArguments& arguments);
 
-// What the bundle will say that it was made of, and how.
+// Returns what the bundle will say that it was made of, and how.
 BundleOrigin origin_of(const PartitionArguments& arguments);
 
 }  // namespace vitrail

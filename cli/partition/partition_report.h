@@ -7,10 +7,10 @@
 
 namespace vitrail {
 
-// One flat JSON object: `partition --stats`.
+// Writes one flat JSON object: `partition --stats`.
 void write_stats(const std::filesystem::path& file, const PartitionStats& stats);
 
-// What a user is told at the end.
+// Prints what a user reads at the end.
 void print_summary(const PartitionStats& stats, const std::filesystem::path& bundle);
 
 }  // namespace vitrail

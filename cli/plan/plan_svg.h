@@ -13,8 +13,8 @@ struct PlanPoint {
   SimulationResult result;
 };
 
-// Seconds against ranks, both logarithmic, beside what perfect scaling of the first point would be; each
-// point with its efficiency.
+// Plots seconds against ranks, both logarithmic, beside perfect scaling of the first point;
+// each point has its efficiency.
 std::string plan_svg(const std::vector<PlanPoint>& points);
 
 }  // namespace vitrail

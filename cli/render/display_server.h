@@ -10,7 +10,7 @@
 
 namespace vitrail {
 
-// "HOST:PORT", or HOST alone: tev's own port. "[::1]:14158" for addresses with colons.
+// It is "HOST:PORT", or HOST alone with tev's own port; "[::1]:14158" for addresses with colons.
 struct DisplayAddress {
   std::string host, port = "14158";
 };
@@ -18,13 +18,13 @@ struct DisplayAddress {
 // Throws UsageError.
 DisplayAddress parse_display_address(const std::string& text);
 
-// Pictures of a render that goes on, sent to a viewer that speaks the protocol of tev (github.com/Tom94/tev,
-// the packets CreateImage and UpdateImageV3): linear sRGB, 32-bit floats. Sent by a thread of its own; a film
-// that comes while the last is still sent is left out. A viewer that is not there, or that takes nothing for
-// 5 s, is told once and ends nothing.
+// A DisplayServer sends pictures of a running render to a viewer, in linear sRGB, 32-bit floats. The protocol
+// is tev's (github.com/Tom94/tev, the packets CreateImage and UpdateImageV3). It sends by a thread of its
+// own; a film that comes while the last is still sent is left out. A viewer that is not there, or that takes
+// nothing for 5 s, is reported once and ends nothing.
 class DisplayServer {
  public:
-  // `name`: what the viewer calls the picture.
+  // `name` is what the viewer calls the picture.
   DisplayServer(DisplayAddress address, std::string name);
   ~DisplayServer();
   DisplayServer(const DisplayServer&) = delete;

@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// Says what lies under the name of a frame's picture.
+// Found says what lies under the name of a frame's picture.
 enum class Found {
   missing,  // nothing, or what a render has not finished
   whole,    // the picture that is asked for
@@ -21,9 +21,9 @@ struct FoundPicture {
   std::string words;  // of one that is damaged or another: why
 };
 
-// Holds the file to what is asked for and to its mark in the record, which is XXH3 of all its bytes. Where
-// that differs, or there is none, vitrail-develop decodes the picture.
-// `film`: the work file of the picture.
+// Compares the file with what is asked for and with its mark in the record, which is XXH3 of
+// all its bytes. Where the mark differs, or there is none, vitrail-develop decodes the picture.
+// `film` is the picture's work file.
 FoundPicture find_picture(const std::filesystem::path& picture, const std::filesystem::path& film,
                           const FrameRecord& record, const WorkWords& asked);
 

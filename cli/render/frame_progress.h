@@ -14,11 +14,11 @@ class FrameProgress {
  public:
   FrameProgress(const FrameList& list, const RenderArguments& command);
 
-  // Frames that are done by now, here or elsewhere. What was there at the first call took no time of this
-  // command's.
+  // Sets how many frames are done by now, here or elsewhere. Frames that were done at the first
+  // call took no time of this command.
   void done(std::size_t frames);
 
-  // Before the frame is rendered.
+  // Call it before the frame is rendered.
   void begins(std::size_t i);
   // Says what becomes of a frame that is not rendered: "is there and stays".
   void says(std::size_t i, const std::string& what) const;

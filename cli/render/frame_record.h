@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pictures of --frames are of: a picture, unlike a film, does not tell it itself.
+// A FrameRecord says what the pictures of --frames are of: a picture, unlike a film, does not tell it itself.
 #pragma once
 
 #include <filesystem>
@@ -12,17 +12,17 @@
 
 namespace vitrail {
 
-// A file as it was written.
+// A FileMark is that of a file as it was written.
 struct FileMark {
   std::uint64_t bytes = 0, hash = 0;  // XXH3
   bool operator==(const FileMark&) const = default;
 };
 
-// Reads it. Throws MachineError where it cannot be read.
+// Reads the file and returns its mark. Throws MachineError where it cannot be read.
 FileMark mark_of(const std::filesystem::path& file);
 
-// A JSON file beside the pictures: by its name, what each was asked to be, and its mark once it is written.
-// Several processes may share one.
+// A FrameRecord is a JSON file beside the pictures: by its name, what each was asked to be, and its mark once
+// it is written. Several processes may share one.
 class FrameRecord {
  public:
   // Reads the file, if it is there. Throws Error where it is no such file.
@@ -31,10 +31,10 @@ class FrameRecord {
   // Takes what others have written meanwhile.
   void read_again();
 
-  // In what the picture is other work than what is asked for; "" where it is the same.
+  // Returns in what the picture is other work than what is asked for; "" where it is the same.
   std::string differences(const std::filesystem::path& picture, const WorkWords& asked) const;
 
-  // Nothing where none was kept, as by versions before.
+  // Returns nothing where no mark was kept, as by versions before.
   std::optional<FileMark> mark(const std::filesystem::path& picture) const;
 
   // Both read the file again and write it; meanwhile nobody else does. They throw MachineError.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many pictures of one bundle, each with a camera, a light or a state of its own.
+// Frames are many pictures of one bundle, each with a camera, a light or a state of its own.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// A line of the file: options of render that change the picture.
+// A Frame is a line of the file: options of render that change the picture.
 struct Frame {
   struct Word {
     std::string text;
@@ -20,8 +20,8 @@ struct Frame {
   std::string text;  // the line
 };
 
-// Words with blanks between them; # and what follows is a comment, and a line without words is no frame.
-// Throws Error where there is no frame.
+// Reads words with blanks between them; # and what follows is a comment, and a line without words is no
+// frame. Throws Error where there is no frame.
 std::vector<Frame> read_frames(const std::filesystem::path& file);
 
 // Returns whether a word begins an option: "--seed" and "-o", but not "-1".
@@ -30,10 +30,10 @@ bool is_option(const std::string& word);
 // Throws Error with the line and column where an option is not one that a frame may have.
 void require_options_of_frames(const Frame& frame, const std::filesystem::path& file);
 
-// "%04d" in the name becomes the number. Throws UsageError where there is not one such place.
+// Puts the number in place of "%04d" in the name. Throws UsageError where there is not one such place.
 std::filesystem::path numbered(const std::filesystem::path& name, std::size_t number);
 
-// Where it is kept what the pictures are of (frame_record.h): "dayframes.png.json" of "day%04d.png".
+// Returns where the pictures' record is kept (frame_record.h): "dayframes.png.json" of "day%04d.png".
 std::filesystem::path record_path(const std::filesystem::path& name);
 
 }  // namespace vitrail

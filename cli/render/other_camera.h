@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the camera alone of another scene than the bundle's.
+// This file reads the camera alone of another scene than the bundle's.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace vitrail {
 
-// The views of scenes as text, by their files: read once for all frames.
+// KnownViews are the views of scenes as text, by their files: read once for all frames.
 using KnownViews = std::map<std::filesystem::path, std::string>;
 
 // Returns what view_from_text takes. vitrail-partition reads the scene; what it writes lies beside `output`

@@ -7,9 +7,9 @@
 
 namespace vitrail {
 
-// Pictures of a render that goes on: each checkpoint is developed by a program of its own, beside the work.
-// One that comes while the last is still developed is left out. The picture is whole at any moment; that it
-// cannot be made ends nothing.
+// A Preview makes pictures of a running render: a program of its own develops each checkpoint, beside the
+// work. A checkpoint that comes while the last is still developed is left out. The picture is whole at any
+// moment; a picture that cannot be made ends nothing.
 class Preview {
  public:
   explicit Preview(std::filesystem::path picture) : picture_(std::move(picture)) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of `vitrail render`.
+// This file is the command line of `vitrail render`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -40,15 +40,15 @@ struct RenderArguments {
 
 void declare(CLI::App& app, RenderArguments& arguments);
 
-// Throws Error where there is no such bundle or scene, and UsageError for options that a bundle does not
-// have.
+// Throws Error where there is no such bundle or scene, and UsageError for options that a
+// bundle does not have.
 void require_renderable(const RenderArguments& arguments);
 
 // Fills in `options`, but for the bundle of a scene that is yet to be made. Throws UsageError, and Error
 // where the input is not what can be rendered.
 void interpret(const CLI::App& app, RenderArguments& arguments);
 
-// Of the program that makes the bundle of a scene.
+// Returns those of the program that makes the bundle of a scene.
 std::vector<std::string> partition_arguments(const RenderArguments& arguments);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The job of one picture, on all ranks.
+// A render job makes one picture, on all ranks.
 #pragma once
 
 #include <chrono>
@@ -14,12 +14,12 @@
 
 namespace vitrail {
 
-// Takes what of the picture is known from the bundle alone, or from another scene's camera. On one rank
-// alone; `manifest`: the bundle's, read already.
+// Takes what is known of the picture from the bundle alone, or from another scene's camera. It runs on one
+// rank alone; `manifest` is the bundle's, read already.
 void complete_picture(RenderArguments& arguments, const Manifest& manifest, KnownViews& views);
 
-// Takes the right to write the film, and removes what a killed writer left half written. On rank 0 alone.
-// Throws as wait_for_lock does, and says that it waits.
+// Takes the right to write the film, and removes what a killed writer left half written. It runs on rank 0
+// alone. Throws as wait_for_lock does, and says that it waits.
 void lock_film(const RenderArguments& arguments, std::unique_ptr<OutputLock>& lock,
                std::chrono::milliseconds longest_wait = {});
 
@@ -29,11 +29,11 @@ struct JobSteps {
   std::function<void(double)> expected_s{};  // of a dry run, on rank 0: how long the picture takes
 };
 
-// Interprets the arguments, checks the outputs, locks the film and renders, on all ranks together. Returns
-// the exit status.
+// Interprets the arguments, checks the outputs, locks the film and renders, on all ranks
+// together. Returns the exit status.
 int render_job(const CLI::App& app, Transport& transport, RenderArguments& arguments);
 
-// The part after that, with a film that rank 0 has locked.
+// Does the part after that, with a film that rank 0 has locked.
 int render_locked(Transport& transport, RenderArguments& arguments, const JobSteps& steps = {});
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options that say how a picture is sampled.
+// These options say how a picture is sampled.
 #pragma once
 
 #include <CLI/CLI.hpp>

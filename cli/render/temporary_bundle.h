@@ -9,7 +9,7 @@
 
 namespace vitrail {
 
-// Of a scene, made by `vitrail partition` on rank 0 and removed at the end. To be made by all ranks together.
+// `vitrail partition` makes it of a scene on rank 0. All ranks construct it; its end removes the bundle.
 class TemporaryBundle {
  public:
   TemporaryBundle(Transport& transport, const std::filesystem::path& scene, std::filesystem::path bundle,

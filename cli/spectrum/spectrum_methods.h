@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well reflectances that are made from RGB stand for it, and for what was measured.
+// This measures how well reflectances made from RGB stand for it, and for what was measured.
 #pragma once
 
 #include <filesystem>
@@ -17,21 +17,21 @@ inline constexpr UpsamplingMethod upsampling_methods[] = {UpsamplingMethod::jako
                                                           UpsamplingMethod::matrix_r};
 const char* name_of(UpsamplingMethod method);
 
-// The reflectance at 360, 365 … 830 nm, and the linear sRGB colour that it has under D65.
+// It is the reflectance at 360, 365 … 830 nm, and the linear sRGB colour that it has under D65.
 struct MadeReflectance {
   std::vector<double> values;
   RGB rgb;
 };
 MadeReflectance make_reflectance(UpsamplingMethod method, RGB c);
 
-// Linear sRGB in [0, 1], and how often.
+// A CountedColor is linear sRGB in [0, 1], and how often it occurs.
 struct CountedColor {
   RGB color;
   std::size_t count = 1;
 };
-// A grid of n³ colours over the cube, n ≥ 2.
+// Returns a grid of n³ colours over the cube, n ≥ 2.
 std::vector<CountedColor> cube_colors(int n);
-// The pixels of a picture; their components are clamped. Throws Error.
+// Returns the pixels of a picture; their components are clamped. Throws Error.
 std::vector<CountedColor> picture_colors(const std::filesystem::path& file);
 
 struct RoundTrip {
@@ -43,8 +43,8 @@ struct RoundTrip {
 // Means are weighted by the counts.
 RoundTrip round_trip(UpsamplingMethod method, std::span<const CountedColor> colors);
 
-// Of a patch of the ColorChecker: the root mean square and the largest difference from what was measured, in
-// 380–780 nm, and between the made colour and the measured one.
+// They are a ColorChecker patch's root mean square and largest difference from what was measured, in 380–780
+// nm. `color` is that between the made colour and the measured one.
 struct PatchError {
   std::string name;
   double rms = 0, max = 0, color = 0;
@@ -52,7 +52,7 @@ struct PatchError {
 };
 std::vector<PatchError> patch_errors(UpsamplingMethod method);
 
-// Measured in black, the methods in colours, one small graph a patch.
+// Returns measured reflectances in black, the methods' in colours, one small graph a patch.
 std::string patches_svg();
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Daylight coefficients: what a light of the sky gives to a sensor.
+// Daylight coefficients are what a light of the sky gives to a sensor.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// [sensor][light]. Of patches lx for 1 cd/m² of the patch; of suns lx for 1 lx across the sun's direction.
+// They are [sensor][light]: lx for 1 cd/m² of a patch, lx for 1 lx across the direction of a sun.
 struct Coefficients {
   std::size_t sensors = 0, lights = 0;
   std::vector<float> mean, error;  // the standard error of each, by two halves of its samples
@@ -24,8 +24,8 @@ struct Coefficients {
   std::span<const float> errors_of(std::size_t sensor) const { return {&error[sensor * lights], lights}; }
 };
 
-// Reads them off a film whose rows are lights (tracer/prepared/daylight_rows.h); `patches`: those of the sky,
-// else suns. Throws Error if the film is saturated.
+// Reads them off a film whose rows are lights (tracer/prepared/daylight_rows.h); `patches` are those of the
+// sky, else suns. Throws Error if the film is saturated.
 Coefficients coefficients_of(const Film& film, bool patches);
 
 // Writes an array as NumPy's .npy has it: little-endian floats of 32 bits, [sensor][light].

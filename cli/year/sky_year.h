@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hours of a weather file as skies and suns.
+// A SkyYear holds the hours of a weather file as skies and suns.
 #pragma once
 
 #include <optional>
@@ -35,17 +35,17 @@ struct SkyYear {
   }
 };
 
-// Says whether there are all hours of a year.
+// Returns whether there are all hours of a year.
 bool is_whole_year(const SkyYear& year);
 
 // Makes of each hour the all-weather sky of Perez (sky_distribution.h) and the sun where it stands in the
 // middle of the hour. The ground is as bright as a white sheet that reflects `ground` of the global
-// illuminance. Where the sun is below the horizon then, there is the hour's sky without sun. Its lux follow
-// from the watts by Perez's efficacies, or are the `file_lux` where the file has them.
+// illuminance. If the sun is below the horizon then, there is the hour's sky without sun. Its lux follow from
+// the watts by Perez's efficacies, or are the `file_lux` where the file has them.
 SkyYear sky_year(const WeatherYear& weather, const SkyPatches& patches, double ground, bool file_lux = false);
 
-// Returns where the sun stands in the middle of each minute of a day of the weather's year, while it is
-// higher than `above_deg`.
+// Returns where the sun stands in the middle of each minute of a day of the weather's year,
+// while it is higher than `above_deg`.
 std::vector<Vector3d> suns_of_day(const WeatherYear& weather, int month, int day, double above_deg);
 
 }  // namespace vitrail

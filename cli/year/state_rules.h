@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which state switchable glazing is in, hour by hour.
+// State rules say which state switchable glazing is in, hour by hour.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct RuleTerm {
   double value = 0;
 };
 
-// A state for the hours in which all terms hold.
+// A rule gives a state for the hours in which all terms hold.
 struct StateRule {
   std::vector<RuleTerm> terms;
   std::size_t state = 0;
@@ -40,11 +40,11 @@ struct StateRules {
 StateRules read_state_rules(const std::filesystem::path& file, const std::vector<std::string>& states,
                             std::size_t sensors);
 
-// The sensors that rules ask for.
+// Returns the sensors that rules ask for.
 std::vector<std::size_t> sensors_of(const StateRules& rules);
 
-// Returns the state of each hour: of the first rule that holds. `lux`: of a sensor in an hour, in the state
-// "otherwise".
+// Returns the state of each hour: that of the first rule that holds. `lux` is that of a sensor in
+// an hour, in the state "otherwise".
 std::vector<std::size_t> states_of(const StateRules& rules, const SkyYear& year,
                                    const std::function<double(std::size_t sensor, std::size_t hour)>& lux);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of `vitrail year`.
+// This file is the command line of `vitrail year`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,8 +11,8 @@
 
 namespace vitrail {
 
-// Settings of the scene under a name, as in "dark=window.state=1,blind.color=0:0:0", or another bundle, as in
-// "closed=room-with-blinds.vit".
+// A YearState has settings of the scene under a name, as in "dark=window.state=1,blind.color=0:0:0", or
+// another bundle, as in "closed=room-with-blinds.vit".
 struct YearState {
   std::string name;
   std::vector<std::string> settings;
@@ -48,7 +48,7 @@ HeatThrough heat_through(const YearArguments& arguments, std::size_t sensors);
 
 // Throws UsageError.
 void interpret(YearArguments& arguments);
-// One without a name where none is asked for. Throws UsageError.
+// Returns one without a name where none is asked for. Throws UsageError.
 std::vector<YearState> states_of(const YearArguments& arguments);
 
 }  // namespace vitrail

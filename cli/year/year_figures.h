@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What daylight is over a year, at each sensor and over a room.
+// These figures say what daylight is over a year, at each sensor and over a room.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace vitrail {
 
-// Suns near each sun, with weights whose sum is 1: what surfaces reflect of a sun is the mean over them. That
-// is little less exact, as it changes slowly with the sun's place, and much less noisy.
+// NearSuns are suns near each sun, with weights whose sum is 1. Light of a sun that surfaces reflect is the
+// mean over them. That is little less exact, as it changes slowly with the sun's place, and much less noisy.
 struct NearSuns {
   struct Near {
     std::uint32_t sun = 0;
@@ -21,29 +21,29 @@ struct NearSuns {
   };
   std::vector<std::vector<Near>> of;  // each sun
 };
-// Weights fall from the sun itself to 0 at `within_deg`; 0: each sun is alone.
+// Weights fall from the sun itself to 0 at `within_deg`; if that is 0, each sun is alone.
 NearSuns near_suns(const std::vector<Vector3d>& suns, double within_deg);
 
-// Holds what was traced in one state of the glass. `suns`: the sum of the beams, which no surface has
-// reflected, and of what is reflected, the mean over near suns.
+// Holds what was traced in one state of the glass. `suns` is the sum of the beams, which no surface has
+// reflected, and of reflected light, the mean over near suns.
 struct StateCoefficients {
   std::string name;
   Coefficients sky, suns, beams, reflected;
 };
 void set_suns(StateCoefficients& state, Coefficients beams, Coefficients reflected, const NearSuns& near);
 
-// Says which hours and which illuminance the figures count.
+// FigureSettings say which hours and which illuminance the figures count.
 struct FigureSettings {
   int first_hour = 8, last_hour = 18;  // hours of use: from the first one's beginning to the last one's
   double target_lx = 300;
 };
 
-// A number and its standard error.
+// An Estimate is a number and its standard error.
 struct Estimate {
   double value = 0, error = 0;
 };
 
-// A figure that each sensor has, in the order of SensorYear::figures.
+// A FigureKind is a figure that each sensor has, in the order of SensorYear::figures.
 struct FigureKind {
   std::string_view name;   // as tables have it
   std::string_view words;  // for people
@@ -69,8 +69,8 @@ enum class Figure : std::size_t {
 };
 inline constexpr std::size_t figure_count = static_cast<std::size_t>(Figure::count);
 
-// One sensor over the year. Errors come of `replicas` years, whose coefficients are off by as much as theirs
-// may be.
+// A SensorYear is one sensor over the year. Its errors come of `replicas` years, whose coefficients
+// are off by as much as theirs may be.
 inline constexpr std::size_t replicas = 15;
 struct SensorYear {
   std::vector<float> lux, error, melanopic;                              // an hour each, lx
@@ -78,26 +78,26 @@ struct SensorYear {
   Estimate estimate(Figure figure) const;
 };
 
-// Tells of each hour whether it counts as one of use, and as a daylight hour: the half of the hours that has
-// the most light of the sky outdoors (EN 17037:2018; 4380 of a year).
+// CountedHours says whether each hour counts as one of use, and as a daylight hour. Daylight hours are the
+// half that has the most light of the sky outdoors (EN 17037:2018; 4380 of a year).
 struct CountedHours {
   std::vector<bool> use, daylight;
 };
 CountedHours counted_hours(const SkyYear& year, const FigureSettings& settings);
-// The illuminance of the sky on the ground that half of the daylight hours exceed.
+// Returns the illuminance of the sky on the ground that half of the daylight hours exceed.
 double median_diffuse_lx(const SkyYear& year, const CountedHours& counted);
 
-// Which of the states each hour has. Sunlight is counted in that which it has with open blinds, and the
-// daylight factor is that of the state `usual`.
+// StatesOfYear has the state of each hour. Sunlight is counted in the state that the hour has with open
+// blinds, and the daylight factor is that of the state `usual`.
 struct StatesOfYear {
   std::vector<std::size_t> of_hours, with_open_blinds;
   std::size_t usual = 0;
 };
-// Closes blinds, each group of windows by itself: in each hour in which more than 2 % of the area's sensors
-// have more than 1000 lx of the sun alone through it while all are open (IES LM-83-12). `closed` holds for
-// each group the state in which it alone is closed. Sun comes through the group where that state takes a
-// tenth or more of it. An hour in which several close has the state of their names, "east+west". Where there
-// is none it is appended to `coefficients`: that with open blinds less what each group takes away. It leaves
+// Closes blinds, each group of windows by itself. In an hour a group closes where, while all are open, more
+// than 2 % of the area's sensors have over 1000 lx of the sun alone through it (IES LM-83-12). `closed` holds
+// for each group the state in which it alone is closed. Sun comes through the group where that state takes a
+// tenth or more of it. An hour in which several close has the state of their names, "east+west". If there is
+// none, it is appended to `coefficients`: that with open blinds less what each group takes away. It leaves
 // out what is taken from the same light twice.
 StatesOfYear close_blinds(const SkyYear& year, std::vector<StateCoefficients>& coefficients,
                           StatesOfYear states, const std::vector<std::size_t>& closed,
@@ -106,18 +106,18 @@ StatesOfYear close_blinds(const SkyYear& year, std::vector<StateCoefficients>& c
 SensorYear sensor_year(const SkyYear& year, const NearSuns& near,
                        const std::vector<StateCoefficients>& coefficients, const StatesOfYear& states,
                        std::size_t sensor, const CountedHours& counted, const FigureSettings& settings);
-// The same without errors and figures: lx of each hour.
+// Returns the same without errors and figures: lx of each hour.
 std::vector<float> lux_of_sensor(const SkyYear& year, const StateCoefficients& coefficients,
                                  std::size_t sensor);
 
-// Over the sensors of an area, all with equal weight.
+// AreaFigures are over the sensors of an area, all with equal weight.
 struct AreaFigures {
   Estimate autonomy;  // sDA: share of the sensors that have the target in half of the hours of use
   Estimate sunlight;  // ASE: share of those that have more than 250 hours of sun
   Estimate mean_autonomy;
-  // EN 17037, daylight provision: of the levels minimum, medium, high the share of sensors that have the
-  // target, and the minimum target. By method 2 in half of the daylight hours. By method 1 their daylight
-  // factors are large enough that they have it at `median_diffuse_lx` outdoors.
+  // EN 17037's daylight provision has the levels minimum, medium, high: for each the share of sensors that
+  // have the target, and the minimum target. By method 2 they have it in half of the daylight hours. By
+  // method 1 their daylight factors are large enough that they have it at `median_diffuse_lx` outdoors.
   struct Level {
     std::string_view name;
     double target_lx, minimum_lx;
@@ -131,8 +131,8 @@ struct AreaFigures {
 AreaFigures area_figures(const std::vector<SensorYear>& sensors, const std::vector<bool>& counts,
                          double median_diffuse_lx);
 
-// EN 17037, exposure to sunlight: the hours of a day in which a place gets sun, by the coefficients of its
-// minutes (suns_of_day), of each sensor.
+// Returns EN 17037's exposure to sunlight of each sensor: the hours of a day in which it gets sun. They come
+// of the coefficients of the day's minutes (suns_of_day).
 std::vector<double> sunlight_hours(const Coefficients& minutes);
 // Returns the level that so many hours reach; empty below the first.
 std::string_view sunlight_level(double hours);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the films of a folder were traced for: inputs.json.
+// The file inputs.json says what the films of a folder were traced for.
 #pragma once
 
 #include <vector>

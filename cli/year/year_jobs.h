@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The traced part of a year: films of coefficients, for each state of the glass.
+// Year jobs are the traced part of a year: films of coefficients, for each state of the glass.
 #pragma once
 
 #include "cli/year/year_arguments.h"
@@ -10,10 +10,10 @@ namespace vitrail {
 
 enum class CoefficientKind : std::uint8_t { sky, reflected, beams, sunlight };
 
-// NAME.sky.film, NAME.reflected.film, NAME.beam.film and NAME.sunlight-DAY-ABOVE.film in the output's folder.
+// Returns NAME.sky.film, .reflected.film, .beam.film or .sunlight-DAY-ABOVE.film in the output's folder.
 std::filesystem::path film_of(const YearArguments& arguments, const std::string& state, CoefficientKind kind);
 
-// Says how the sky stands over the bundle.
+// A SkyFrame says how the sky stands over the bundle.
 struct SkyFrame {
   DirectionFrame frame;
   std::string words;  // where it comes from
@@ -24,15 +24,15 @@ SkyFrame sky_frame(const YearArguments& arguments, const Manifest& manifest);
 // Returns whether some of those films are there, or were begun.
 bool has_films(const YearArguments& arguments);
 
-// The suns that are traced, in the sky's frame: those of the hours, in all states, and those of a day's
-// minutes, in one.
+// TracedSuns are the suns that are traced, in the sky's frame: those of the hours, in all states, and
+// those of a day's minutes, in one.
 struct TracedSuns {
   std::vector<Vector3d> hours, minutes;
   std::size_t state_of_minutes = 0;
 };
 
-// Traces on all ranks what is not there yet of a share, in (0, 1], of the paths. Throws Interrupted where a
-// signal ended it, with a checkpoint.
+// Traces on all ranks the films that are not there yet, with a share, in (0, 1], of the paths. Throws
+// Interrupted where a signal ended it, with a checkpoint.
 void trace_coefficients(Transport& transport, const YearArguments& arguments, const SkyFrame& sky,
                         const TracedSuns& suns, double share);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a year of daylight is written as.
+// These functions write the files of a year of daylight.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// All that is written.
+// A YearReport is all that is written.
 struct YearReport {
   std::string bundle, weather, command;
   Place place;
@@ -34,29 +34,29 @@ struct YearReport {
   std::optional<SolarHeat> heat;
 };
 
-// hours.csv: an hour a row, lx of the sensors; hours-error.csv: their standard errors; hours-melanopic.csv:
-// lx of melanopic EDI.
+// Writes hours.csv, an hour a row, lx of the sensors; hours-error.csv, their standard errors; and
+// hours-melanopic.csv, lx of melanopic EDI.
 void write_hours(const std::filesystem::path& folder, const YearReport& report);
-// figures.csv: a sensor a row.
+// Writes figures.csv: a sensor a row.
 void write_figures(const std::filesystem::path& folder, const YearReport& report);
-// sunlight.csv: the hours of sun of each sensor that does not face up.
+// Writes sunlight.csv: the hours of sun of each sensor that does not face up.
 void write_sunlight(const std::filesystem::path& folder, const YearReport& report);
-// heat.csv: an hour a row, the sun's heat on the glass and through it.
+// Writes heat.csv: an hour a row, the sun's heat on the glass and through it.
 void write_heat(const std::filesystem::path& folder, const YearReport& report);
-// area.csv: a figure a row.
+// Writes area.csv: a figure a row.
 void write_area(const std::filesystem::path& folder, const YearReport& report);
-// SENSOR by LIGHT as text.
+// Writes SENSOR by LIGHT as text.
 void write_coefficients_table(const std::filesystem::path& file, const Coefficients& coefficients,
                               const char* unit);
-// index.html, which needs no other file.
+// Writes index.html, which needs no other file.
 void write_page(const std::filesystem::path& folder, const YearReport& report);
 
-// The figures over the area as they are printed, a line each, and the longest sunlight of a sensor.
+// Returns the figures over the area as they are printed, a line each, and the longest sunlight of a sensor.
 std::string words_of_area(const YearReport& report);
 // Returns which of the sensors that do not face up has most hours of sun; none: there is none.
 std::optional<std::size_t> sunniest(const YearReport& report);
 
-// A figure over the area, for tables and pages.
+// An AreaRow is a figure over the area, for tables and pages.
 struct AreaRow {
   std::string name, words;
   Estimate estimate;

@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// What a program is at.
+// A Stage is what a program is at.
 struct Stage {
   const char* what = "starting";
   double fraction = 0;             // of what is read of the input; 0: not known
@@ -16,9 +16,9 @@ struct Stage {
   std::uint64_t needed_bytes = 0;  // least budget for all that follows; 0: not known
 };
 
-// Runs `body` with no more memory resident than that (scene/system/memory_guard.h). Where this is too little
-// throws MachineError that says what is missing, in place of what body throws. `is_own`: as guard_memory's;
-// this thread is in any case.
+// Runs `body` with no more than that resident (scene/system/memory_guard.h). Where this is too little it
+// throws MachineError that says what is missing, in place of what body throws. `is_own` is guard_memory's;
+// this thread is own in any case.
 int within_memory(
     std::uint64_t budget_bytes, const Stage& stage, const std::function<int()>& body,
     bool (*is_own)() = [] { return false; });
