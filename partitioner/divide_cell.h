@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cell in memory → its domains.
+// This file divides a cell in memory into its domains.
 #pragma once
 
 #include <functional>
@@ -13,10 +13,10 @@
 
 namespace vitrail {
 
-// The cells that several domains share, as they are found. From any thread.
+// SharedCells are the cells that several domains share, as they are found. From any thread.
 class SharedCells {
  public:
-  // Numbers from `planned` on, in any order.
+  // Returns numbers from `planned` on, in any order.
   std::uint32_t take_number(std::uint32_t planned);
   void add(SharedCell cell);
   std::vector<SharedCell> take();
@@ -27,7 +27,7 @@ class SharedCells {
   std::vector<SharedCell> cells_;
 };
 
-// What all cells have in common. Cells write to places of their own in the manifest.
+// All cells have a DomainWriter in common. They write to places of their own in the manifest.
 struct DomainWriter {
   StoreDomain store;
   Manifest& manifest;  // kd_nodes and domains have their sizes
@@ -42,9 +42,9 @@ struct DomainWriter {
   std::function<void(std::uint64_t)> wrote;  // triangles and pieces of one domain, from any thread
 };
 
-// Divides a cell, of whose triangles `cut` has the pieces of those that are not whole in it, into the domains
-// of the subtree and stores them. Where the objects in a cell take more than the writer's bytes, several
-// domains share it.
+// Divides a cell into the domains of the subtree and stores them. `cut` has the pieces of those of
+// its triangles that are not whole in it. Where the objects in a cell take more than the writer's
+// bytes, several domains share it.
 void divide_cell(const NumberedTriangles& triangles, const CellContent& cut, const Subtree& subtree,
                  const DomainWriter& writer);
 

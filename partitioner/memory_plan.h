@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a scene is partitioned within a budget of memory.
+// A MemoryPlan is how a scene is partitioned within a budget of memory.
 #pragma once
 
 #include <cstdint>
@@ -36,18 +36,18 @@ struct MemoryNeeds {
   int threads = 1;
 };
 
-// In a file, with its share of the tree: measured, docs/why/partitioning.md.
+// Returns that in a file, with its share of the tree: measured, docs/why/partitioning.md.
 double bytes_of_a_triangle(const Manifest& manifest);
 
-// Of the budget, for triangles; less than 0 where nothing is.
+// Returns what the budget leaves for triangles; less than 0 where it leaves nothing.
 double bytes_left(const MemoryNeeds& needs);
 // Returns what `triangles` in memory take while an object's file of `built` of them is made.
 double bytes_to_build(const Manifest& manifest, double triangles, double built);
 
-// Meshes that stay in memory within a budget; the others stay in their files.
+// Returns the bytes of meshes that stay in memory within a budget; other meshes stay in their files.
 std::uint64_t meshes_within(std::uint64_t budget_bytes);
 
-// The least budget from needs.budget_bytes on that is enough for all of it, to a MiB.
+// Returns the least budget from needs.budget_bytes on that is enough for all of it, to a MiB.
 std::uint64_t least_budget(const Manifest& manifest, MemoryNeeds needs);
 
 // Returns a budget, not less than `budget_bytes`, in which so much is held beside the program.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many domains it takes until each fits into a budget together with the objects that its instances need.
+// This file finds a number of domains that fit into a budget with the objects that their instances need.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace vitrail {
 
-// `domains` or more, tried on a sample; at most so many as a renderer can number. `instances`: of the scene.
-// Throws UsageError where no number is enough.
+// Returns `domains`, or 4, 16 … times as many where that helps enough on a sample. A renderer has to be able
+// to number them. `instances` are the scene's. Throws UsageError where an object alone is too large.
 std::uint32_t domains_within(const World& world, const SceneInstances& instances, std::uint64_t domain_bytes,
                              std::uint32_t domains);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene → bundle.
+// Partitioning makes a bundle of a scene.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace vitrail {
 
-// How a scene is divided.
+// PartitionOptions say how a scene is divided.
 struct PartitionOptions {
   std::uint32_t domains = 0;          // number of leaves; 0: chosen by domain_bytes
   std::uint64_t domain_bytes = 0;     // target size of a domain file; 0 with domains = 0: 64 MiB
@@ -33,7 +33,7 @@ struct PartitionOptions {
   bool everything = false;            // as if the scene required all that there is, for measuring
 };
 
-// The statistics contract of `partition --stats`.
+// PartitionStats is the statistics contract of `partition --stats`.
 struct PartitionStats {
   std::uint64_t input_triangles = 0, cut_triangles = 0, pieces = 0, domains = 0;
   std::uint64_t quadrics = 0;         // shapes that are no triangles, wherever they stand
@@ -50,20 +50,20 @@ struct PartitionStats {
   std::uint64_t buckets = 1;      // parts of the scene that were in memory one after the other
   std::uint64_t spill_bytes = 0;  // written to disk on the way to them
   double triangles_per_s = 0;     // of the input
-  // Shapes and instances so far from the bundle's origin that rounding moves their vertices by more than a
-  // thousandth of their size.
+  // They count shapes and instances so far from the bundle's origin that rounding moves their vertices by
+  // more than a thousandth of their size.
   std::uint64_t coarse_shapes = 0;
 };
 
-// Meshes that an importer should keep in memory (MeshMemory) for a budget of so many bytes.
+// Returns the bytes of meshes that an importer should keep (MeshMemory) for a budget of so many bytes.
 std::uint64_t mesh_bytes_within(std::uint64_t memory_bytes);
 
 // Writes the bundle directory `out` (built beside it under a temporary name, renamed when whole; an existing
 // bundle of that name is replaced). A scene that does not fit into the memory is divided into buckets first,
-// which are written to disk and divided one after the other. `progress` gets the done fraction in [0,1]
-// and the name of the stage, from any thread but one at a time; an exception from it stops the work. The
-// domains, their order and every byte depend on the scene and the options, never on the threads. Throws Error
-// for bad input, UsageError, and MachineError, for too little memory too.
+// which are written to disk and divided one after the other. `progress` gets the done fraction in [0,1] and
+// the name of the stage, from any thread but one at a time; an exception from it stops the work. The domains,
+// their order and every byte depend on the scene and the options, never on the threads. Throws Error for bad
+// input, UsageError, and MachineError, for too little memory too.
 PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
                          const PartitionOptions& options,
                          const std::function<void(double, const char*)>& progress = {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a bundle keeps of a scene besides its triangles: the scene's own records, made ready for rendering.
+// The appearance is what a bundle keeps of a scene besides its triangles: its records, ready for rendering.
 #pragma once
 
 #include <filesystem>
@@ -22,9 +22,9 @@ struct Appearance {
   std::vector<AreaLight> area_lights;
   std::vector<Light> lights;
   std::vector<std::int32_t> material_ids, area_light_ids, medium_ids;
-  // Tubes stand in the place of some curves. For each material of the scene this names one that shows it on
-  // their outer walls, and nothing on the inner ones. −1: it is not used so, or both walls are alike
-  // (curve_uses.h).
+  // Tubes stand in the place of some curves. For each material of the scene this names one that
+  // shows it on their outer walls, and nothing on the inner ones. −1: it is not used so, or both
+  // walls are alike (curve_uses.h).
   std::vector<std::int32_t> outer_wall_ids;
   std::vector<FloatParameter> opacities;            // by texture of the scene that is some shape's opacity
   std::vector<std::int32_t> material_interiors;     // index of the medium that a material of the scene brings

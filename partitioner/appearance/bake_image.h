@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the numbers of an image to the texels of a baked one.
+// This file turns the numbers of an image into the texels of a baked one.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// What the values of a texture count as.
+// A TextureUse says what the values of a texture count as.
 enum class TextureUse { reflectance, unbounded, illuminant, number, vector };
 
 // Writes linear values of one channel or three (numbers: of one): all MIP levels or the finest. Images of

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From an image of light to a baked one that holds its numbers in 16 bits: spectra are found when it is
-// looked up.
+// This file turns an image of light into a baked one that holds its numbers in 16 bits: spectra
+// are found when it is looked up.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The materials of a bundle.
+// This file bakes the materials of a bundle.
 #pragma once
 
 #include <map>
@@ -11,15 +11,15 @@
 
 namespace vitrail {
 
-// A material made ready for rendering, what stands for something else in it, and the medium that fills it
-// where its model brings one (subsurface scattering).
+// A BakedMaterial is ready for rendering. `notes` say what stands for something else in it; `interior` is the
+// medium that fills it where its model brings one (subsurface scattering).
 struct BakedMaterial {
   Material material;
   std::vector<std::string> notes;
   std::optional<Medium> interior;
 };
 
-// The tables of files, each read once.
+// A TableBaker has the tables of files, each read once.
 class TableBaker {
  public:
   // Throws Error for a file that is not what the material says.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The media of a bundle.
+// This file bakes the media of a bundle.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@
 
 namespace vitrail {
 
-// A medium made ready for rendering: spectra resolved, grids read into memory, coefficients in the form
-// σ_a, σ_s or σ_t, albedo. A grid of coefficients or emission of colours has four channels then: x of a
-// sigmoid at 360, 595 and 830 nm (bundle/texel.h) and its scale; any other has one. Empty where nothing of it
-// can be shown; `notes` say what stands for something else. Throws Error for files that cannot be read.
+// Returns a medium ready for rendering: spectra resolved, grids in memory, coefficients as σ_a, σ_s or σ_t,
+// albedo. A grid of coloured coefficients or emission has four channels then: x of a sigmoid at 360, 595 and
+// 830 nm (bundle/texel.h) and its scale. Any other grid has one. Returns none where nothing of it can be
+// shown; `notes` say what stands for something else. Throws Error for files that cannot be read.
 std::optional<Medium> bake_medium(const Medium& medium, RgbMethod method, std::vector<std::string>& notes);
 
 }  // namespace vitrail

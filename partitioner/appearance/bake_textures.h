@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The textures of a scene as a bundle has them: images baked, everything else as it is used.
+// These are the textures of a scene as a bundle has them: images baked, everything else as it is used.
 #pragma once
 
 #include <tbb/task_group.h>
@@ -25,14 +25,14 @@
 
 namespace vitrail {
 
-// Linear sRGB factors of an image's or attribute's numbers, taken before these become spectra. Of a normal
-// map: of the components of (rgb·2 − 1).
+// A Tint has linear sRGB factors of an image's or attribute's numbers, taken before these become spectra. A
+// normal map's are of the components of (rgb·2 − 1).
 using Tint = std::array<float, 3>;
 inline constexpr Tint no_tint{1, 1, 1};
 
 struct ImageBaking {
   std::filesystem::path cache;  // of baked images, kept by their content; empty: none
-  // Where nothing is written, images of integers are not read: their pixels are looked at when they are.
+  // It leaves images of integers unread where nothing is written; damage shows when they are read.
   bool trust_integers = false;
 };
 
@@ -40,30 +40,30 @@ struct ImageBaking {
 // `resolved`; images keep mapping, wrap and filter, and name a file of the bundle: "textures/000003.tex".
 class TextureBaker {
  public:
-  // Where `bundle` is empty nothing is written. Makes `bundle`/textures where there is something to put in
-  // it. What cannot be said exactly is added to the diagnostics. The scene and the diagnostics outlive it.
+  // Nothing is written where `bundle` is empty. Makes `bundle`/textures where there is something to put in
+  // it. Adds to the diagnostics what cannot be said exactly. The scene and the diagnostics outlive it.
   TextureBaker(const Scene& scene, std::filesystem::path bundle, Diagnostics& diagnostics,
                ImageBaking images = {});
   ~TextureBaker();
 
-  // These throw Error, with the texture's place in the scene file, for images that cannot be read, and
-  // MachineError.
+  // These throw Error, with the texture's place in the scene file, for images that
+  // cannot be read, and MachineError.
   SpectrumParameter bake(const SpectrumParameter& parameter, TextureUse use);
   FloatParameter bake(const FloatParameter& parameter);
   // Returns whether the scene's colours are bands (scene/spectra/rgb_bands.h).
   bool in_bands() const { return scene_.settings.rgb == RgbMethod::bands; }
-  // `resolved`, colours by the scene's method.
+  // Returns the spectrum `resolved`, colours by the scene's method.
   Spectrum as_rendered(const Spectrum& spectrum) const;
   Id<Texture> bake_vector(Id<Texture> texture);
   // Throws as `bake` does.
   std::optional<TextureMean> mean(const SpectrumParameter& parameter);
-  // Whether an attribute of meshes counts in what was baked.
+  // Returns whether an attribute of meshes counts in what was baked.
   bool reads_attribute(const FloatParameter& baked) const;
-  // Of a light: the name in the bundle. All MIP levels.
+  // Returns a light's image by its name in the bundle. It has all MIP levels.
   std::string bake_image(const ImageTexture& image, TextureUse use, const SourceLocation& where);
 
-  // Attributes of meshes that the clones refer to, by slot: the bundle's MeshAttributeTexture of the first is
-  // named "0". A name that serves two uses has two slots.
+  // They are attributes of meshes that the clones refer to, by slot: the bundle's MeshAttributeTexture of the
+  // first is named "0". A name that serves two uses has two slots.
   struct Attribute {
     std::string name;
     TextureUse use;
@@ -123,9 +123,9 @@ class TextureBaker {
   tbb::task_group writers_;  // ends before all that it refers to
 };
 
-// What a vertex has in a slot of that use. Numbers: the mean of the colour. Spectra: x at 360, 595 and 830 nm
-// of the sigmoid, within ±200, as Mitsuba holds them, so that it may be interpolated; a colour outside [0,1]
-// is clamped.
+// Returns what a vertex has in a slot of that use. A number is the mean of the colour. A spectrum is x at
+// 360, 595 and 830 nm of the sigmoid, within ±200, as Mitsuba holds them, so that it may be interpolated;
+// a colour outside [0,1] is clamped.
 std::array<float, 3> attribute_value(RGB color, TextureUse use, const ReflectanceFitter& fitter);
 
 // Moves what the textures' transforms end in: by −offset from the world to the bundle's coordinates.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the images of a scene take while they are baked.
+// This file tells what the images of a scene take while they are baked.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ struct BakingMemory {
   bool image_library = false;  // needed (images/image_files.h)
 };
 
-// Known from the files' heads, and from the pixels of grey ones. Images that other files hold count as ones
-// that the library reads, and those that cannot be opened as nothing.
+// Reads the files' heads, and the pixels of grey images. Images that other files hold count as ones that the
+// library reads, and those that cannot be opened as nothing.
 BakingMemory baking_memory(const Scene& scene, int threads);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An image that is read as often as it is asked for, some rows at a time.
+// An ImageRows is an image that is read as often as it is asked for, some rows at a time.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@ namespace vitrail {
 
 struct ImageRows {
   int width = 0, height = 0;
-  // Calls with all rows from the top, some at a time: images of that width. What the function throws stops
-  // the reading.
+  // Calls with all rows from the top, some at a time: images of that width. An exception
+  // of the function stops the reading.
   std::function<void(const std::function<void(Image)>&)> read;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the rows of an image to those of one half as large, with a few of them in memory.
+// A RowHalver makes of the rows of an image those of one half as large, with a few of them in memory.
 #pragma once
 
 #include <deque>
@@ -14,7 +14,7 @@ class RowHalver {
  public:
   RowHalver(int width, int height, int channels);
 
-  // The next row from the top. `emit` gets each row of the half that is complete with it.
+  // Adds the next row from the top. `emit` gets each row of the half that is complete with it.
   void add(std::span<const float> row, const std::function<void(std::span<const float>)>& emit);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the rows of an image to those of all its MIP levels, with a few of each in memory.
+// A RowPyramid makes of the rows of an image those of all its MIP levels, with a few of each in memory.
 #pragma once
 
 #include <algorithm>

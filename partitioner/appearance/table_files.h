@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of tables that say how a surface scatters (docs/why/scattering-tables.md).
+// These files of tables say how a surface scatters (docs/why/scattering-tables.md).
 #pragma once
 
 #include <filesystem>

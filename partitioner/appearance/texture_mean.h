@@ -9,18 +9,18 @@
 
 namespace vitrail {
 
-// The mean of what a texture has over all of its image, or its cells, and by how much in the root mean square
-// it is off that, in the colour that is most.
+// It is a texture's mean over all of its image, or its cells. `deviation` is the root mean square difference
+// from it, in the colour that has most.
 struct TextureMean {
   RGB color;
   double deviation = 0;
 };
 
-// By texture: each is looked at once, however often it is shared.
+// KnownMeans are by texture: each is looked at once, however often it is shared.
 using KnownMeans = std::map<std::uint32_t, std::optional<TextureMean>>;
 
-// Of images, Ptex, checkerboards, and these times a constant; nothing for others. Throws Error for images
-// that cannot be read.
+// Returns the mean of colours, images, Ptex, checkerboards, and these times a constant; nothing for others.
+// Throws Error for images that cannot be read.
 std::optional<TextureMean> mean_of(const Scene& scene, KnownMeans& known, const SpectrumParameter& parameter);
 
 }  // namespace vitrail

@@ -10,8 +10,8 @@
 
 namespace vitrail {
 
-// 128 bits of XXH3 over what was added. Different contents do not share them by chance; somebody who means to
-// can find some that do.
+// A ContentHash is 128 bits of XXH3 over what was added. Different contents do not share them by chance;
+// somebody who means to can find some that do.
 class ContentHash {
  public:
   ContentHash();
@@ -19,12 +19,12 @@ class ContentHash {
   ContentHash(const ContentHash&) = delete;
   ContentHash& operator=(const ContentHash&) = delete;
 
-  // With its length, so that two texts are not taken for one.
+  // Adds a text with its length, so that two texts are not taken for one.
   void add(std::string_view text);
   void add(std::span<const std::byte> bytes);
   // Throws Error where the file cannot be read.
   void add_content(const std::filesystem::path& file);
-  // 32 digits.
+  // Returns 32 digits.
   std::string hex() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What decides the domains and objects of a bundle, as a name to keep them by.
+// A WorldKey is a name to keep the domains and objects of a bundle by, made of all that decides them.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,8 @@
 
 namespace vitrail {
 
-// 128 bits of XXH3 over the content of `program` and over all that its files of domains and objects, their
-// lines in the manifest, and the triangles that emit come from: where every vertex stands, what instances
+// A WorldKey is 128 bits of XXH3 over the content of `program` and over all that decides domains, objects,
+// their lines in the manifest, and the triangles that emit. That is where every vertex stands, what instances
 // there are, which surfaces emit, what the renderer requires, and the options. Names, times and sizes of
 // files are not in it, so that an edited file is never taken for the one before. Camera, film, settings,
 // materials, images and how bright lights are do not count: the manifest alone has them.
@@ -24,8 +24,8 @@ class WorldKey {
            const std::filesystem::path& program = "/proc/self/exe");
 
   const std::string& text() const { return text_; }
-  // Whether the deferred meshes are still what they were: loads them again. What was written in between is of
-  // the key then.
+  // Returns whether the deferred meshes are still what they were: loads them again. If they are, what was
+  // written in between is of the key.
   bool holds() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kd-tree, or part of it, from the bounds of some of the triangles.
+// A KdPlan is the kd-tree, or part of it, made from the bounds of some of the triangles.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace vitrail {
 
-// Part of the kd-tree to be made: `domains` from `first_domain` on, their inner nodes from `node` on. Nodes
-// are numbered in preorder, so that every subtree knows its numbers beforehand and threads cannot change
-// them.
+// A Subtree is part of the kd-tree to be made: `domains` from `first_domain` on, their inner nodes
+// from `node` on. Nodes are numbered in preorder, so that every subtree knows its numbers beforehand
+// and threads cannot change them.
 struct Subtree {
   Bounds3f cell;
   std::uint32_t node = 0, first_domain = 0, domains = 1;
@@ -27,22 +27,22 @@ struct PlanRule {
   double rate = 1;                 // of the items, how many are in the sample
 };
 
-// Where to send triangles (`route`), and what is at the leaves.
+// A KdPlan says where to send triangles (`route`), and what is at the leaves.
 struct KdPlan {
   std::vector<KdNode> nodes;
   std::vector<Subtree> leaves;
   std::vector<std::size_t> samples;  // in each leaf
 };
 
-// Divides until no leaf has more than `most_domains`. `sample`: of the cell's items. No domain
-// should have more than 1.2 times its share of them. Writes the nodes that it makes to `kd_nodes`, the whole
-// tree's. A cell in which nothing can be parted is halved: some of its domains stay empty. But one whose
-// items are mostly pieces, of which the best plane would cut more than it parts, stays whole: a leaf of
-// several domains, of which the first has all, and whose node in `kd_nodes` has this domain on both sides.
+// Divides until no leaf has more than `most_domains`. `sample` has the cell's items. No domain should have
+// more than 1.2 times its share of them. Writes the nodes that it makes to `kd_nodes`, the whole tree's. A
+// cell in which nothing can be parted is halved: some of its domains stay empty. A cell stays whole if its
+// items are mostly pieces, of which the best plane would cut more than it parts. It is then a leaf of several
+// domains, of which the first has all; its node in `kd_nodes` has this domain on both sides.
 KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& subtree, const PlanRule& rule,
                     std::span<KdNode> kd_nodes);
 
-// Domains that share a cell, since the objects in it do not fit into memory together.
+// The domains of a SharedCell share it, since the objects in it do not fit into memory together.
 struct SharedCell {
   std::uint32_t domain = 0;            // of the plan: it has the cell's triangles and points
   std::vector<std::uint32_t> numbers;  // of the others until all are numbered: beyond the plan's
@@ -50,7 +50,7 @@ struct SharedCell {
   std::vector<KdNode> tree;  // a leaf is one of the others, or `domain` as their count; empty: there is one
 };
 
-// Takes the domains out of the manifest that are not there because a cell stayed whole, puts in those that
+// Takes the domains out of the manifest that are not there because a cell stayed whole. Puts in those that
 // share a cell, behind the plan's, and numbers all anew. Returns the old number of each.
 std::vector<std::uint32_t> number_domains(Manifest& manifest, std::vector<SharedCell> shared);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much work triangles are: the same each, or as many rays as an earlier render had for them.
+// A WorkEstimate is how much work triangles are: the same each, or by the rays of an earlier render.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ namespace vitrail {
 class WorkEstimate {
  public:
   WorkEstimate() = default;
-  // `offset`: of the scene to be cut. Half of a triangle's work is its own, half its share of the rays that
-  // were traced in its domain; eight times the mean at most. So domains that rays hardly see have at most
-  // twice the mean's triangles, and those that all see get smaller.
+  // `offset` is that of the scene to be cut. Half of a triangle's work is its own, half its share of the rays
+  // that were traced in its domain; eight times the mean at most. So domains that rays hardly see have at
+  // most twice the mean's triangles, and those that all see get smaller.
   WorkEstimate(RayProfile profile, Vector3d offset);
 
   std::vector<Item> items(const std::vector<Bounds3f>& boxes) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where to divide boxes in two, by the surface area heuristic over bins of their centres.
+// This file decides where to divide boxes, by the surface area heuristic over bins of their centres.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ using Float4InMemory = float __attribute__((vector_size(16), aligned(4), may_ali
 inline Float4 min(Float4 a, Float4 b) { return a < b ? a : b; }
 inline Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
 
-// A box and its number. Both corners are read four floats at a time; the fourth says nothing, but is finite.
+// It is a box and its number. Corners are read as four floats; the fourth means nothing, but is finite.
 struct alignas(32) BoxRecord {
   float corners[7];  // lower, upper, 0
   std::uint32_t reference;
@@ -26,7 +26,7 @@ struct alignas(32) BoxRecord {
   Float4 centre() const { return lower() * 0.5f + upper() * 0.5f; }
 };
 
-// Of three of the six faces.
+// Returns the area of three of the six faces.
 inline float half_area(Float4 extent) {
   return extent[0] * extent[1] + extent[1] * extent[2] + extent[2] * extent[0];
 }
@@ -46,8 +46,8 @@ struct SahSplit {
   bool below(const BoxRecord& r) const { return 0.5f * r.corners[axis] + 0.5f * r.corners[axis + 3] < at; }
 };
 
-// The split of least area · ⌈number / block⌉, summed over both sides. `centres` bounds the centres. None
-// where no plane parts them.
+// Returns the split of least area · ⌈number / block⌉, summed over both sides. `centres` bounds the centres.
+// Returns none where no plane parts them.
 std::optional<SahSplit> choose_split(std::span<const BoxRecord> boxes, const WideBounds& centres,
                                      unsigned block, bool weighted = false);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which edges may be collapsed, and at what cost.
+// CollapseRules say which edges may be collapsed, and at what cost.
 #pragma once
 
 #include <OpenMesh/Core/Utils/vector_traits.hh>
-// which QuadricT.hh needs and does not include
+// QuadricT.hh needs these traits and does not include them.
 #include <OpenMesh/Core/Geometry/QuadricT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/CollapseInfoT.hh>
@@ -19,8 +19,8 @@ struct DoublePoints : OpenMesh::DefaultTraits {
 using HalfEdges = OpenMesh::TriMesh_ArrayKernelT<DoublePoints>;
 
 // Features are borders of the surface and seams, where wedges or attributes of the faces differ across an
-// edge. A vertex on two of the same kind slides along them; one with none moves freely; all others stay.
-// No collapse changes what its neighbours are.
+// edge. A vertex on two of the same kind slides along them; one with none moves freely; all others stay. No
+// collapse changes what its neighbours are.
 class CollapseRules {
  public:
   using Collapse = OpenMesh::Decimater::CollapseInfoT<HalfEdges>;  // of v0 into v1
@@ -28,9 +28,9 @@ class CollapseRules {
   // Faces and vertices of the half-edge mesh have the numbers of the surface's; its diagonal is 1.
   CollapseRules(HalfEdges& mesh, const TriangleMesh& source, const Surface& surface);
 
-  // The quadric error, area × distance²; none where v0 must not move to v1. Cheap.
+  // Returns the quadric error, area × distance²; none where v0 must not move to v1. Cheap.
   std::optional<double> cost(const Collapse& collapse);
-  // Whether the surface stays one and its triangles sound. Asked where there is a cost.
+  // Returns whether the surface stays one and its triangles sound. It is asked where there is a cost.
   bool is_sound(const Collapse& collapse);
   void apply(const Collapse& collapse);
 

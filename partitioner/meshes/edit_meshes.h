@@ -9,7 +9,7 @@
 
 namespace vitrail {
 
-// What is done to every mesh, in this order.
+// MeshEdits are made to every mesh, in this order.
 struct MeshEdits {
   bool repair = false, orient = false;
   int subdivide = 0;    // levels
@@ -30,7 +30,7 @@ struct MeshResources {
   int threads = 0;                           // 0: one a processor allowed
 };
 
-// Meshes in memory in parallel, as far as they fit; those in their files one after the other, which stay
+// Edits meshes in memory in parallel, as far as they fit. Meshes in files come one after the other; they stay
 // there if they are still too large, and are edited anew whenever they are loaded. Meshes that shine keep
 // their fronts (`orient` makes them consistent) and triangles that face opposite ways. Throws MachineError
 // where the work on one mesh, or the meshes in memory, would take more memory than there is.

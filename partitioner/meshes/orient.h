@@ -19,8 +19,8 @@ struct OrientedMesh {
       0;  // closed ones that bound a hollow of another: they are turned the other way
 };
 
-// The triangles of each connected component turned to one side: of a closed one as asked, by the exact sign
-// of its volume; of others, and where that is 0, as `consistent`. Where more than two triangles meet at an
+// Turns the triangles of each connected component to one side. A closed one turns as asked, by the exact sign
+// of its volume; others, and those of volume 0, as `consistent`. Where more than two triangles meet at an
 // edge they do not decide on one another. Shading normals are turned to the triangles' fronts, the three of a
 // triangle together; vertices that would have to face both ways are doubled, at the end.
 OrientedMesh orient(const TriangleMesh& mesh, Sides sides);

@@ -7,9 +7,9 @@
 
 namespace vitrail {
 
-// A subdivision scheme over positions and triangles alone: `levels` times four triangles for each, in the
-// order of theirs, with normals. `corners`, one entry a triangle: where its corners lie in the triangle that
-// it comes from, in that one's barycentric coordinates of its second and third corner.
+// A Subdivision is a scheme over positions and triangles alone. Each of `levels` makes four triangles of
+// each, in the order of theirs, with normals. `corners` has one entry a triangle: where its corners lie in
+// the triangle that it comes from, in that one's barycentric coordinates of its second and third corner.
 using Subdivision = std::function<TriangleMesh(const TriangleMesh& cage, int levels,
                                                std::vector<std::array<Point2d, 3>>& corners)>;
 

@@ -5,9 +5,9 @@
 
 namespace vitrail {
 
-// A mesh's triangles as a manifold, consistently oriented surface. They are joined along an edge where
-// exactly two triangles have it, in opposite directions, and at a vertex only around such edges. Seams do not
-// part it.
+// A Surface has a mesh's triangles as a manifold, consistently oriented surface. They are joined along
+// an edge where exactly two triangles have it, in opposite directions, and at a vertex only around
+// such edges. Seams do not part it.
 struct Surface {
   std::vector<std::uint32_t>
       sources;                      // of each triangle in the mesh; those with two equal corners are left out

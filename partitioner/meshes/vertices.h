@@ -12,20 +12,20 @@ namespace vitrail {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// For each vertex the first one at its position; 0 and −0 are equal.
+// Returns for each vertex the first one at its position; 0 and −0 are equal.
 std::vector<std::uint32_t> first_at_position(const TriangleMesh& mesh);
 
-// For each vertex the first one that is the same in everything, bit for bit up to the sign of zeros of the
-// position.
+// Returns for each vertex the first one that is the same in everything, bit for bit up to
+// the sign of zeros of the position.
 std::vector<std::uint32_t> first_equal(const TriangleMesh& mesh);
 
-// For each triangle the first one with the same values of attributes a face; empty where there are none.
+// Returns for each triangle the first one with the same attributes a face; empty where there are none.
 std::vector<std::uint32_t> first_equal_face(const TriangleMesh& mesh);
 
-// A vertex added at the end that is the same as `vertex` in everything.
+// Adds a vertex at the end that is the same as `vertex` in everything, and returns its number.
 std::uint32_t append_copy(TriangleMesh& mesh, std::uint32_t vertex);
 
-// What becomes of a mesh: new triangles over its vertices, each with the triangle whose attributes it takes.
+// Returns a mesh of new triangles over its vertices, each with the triangle whose attributes it takes.
 // Vertices that none uses are left out; the others keep their order.
 TriangleMesh with_triangles(const TriangleMesh& mesh, const std::vector<Triangle>& triangles,
                             const std::vector<std::uint32_t>& sources);

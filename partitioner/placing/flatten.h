@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene → one list of world triangles around the origin.
+// Flattening makes of a scene one list of world triangles around the origin.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@
 
 namespace vitrail {
 
-// The triangles that no instance has.
+// A FlatScene has the triangles that no instance has.
 struct FlatScene : NumberedTriangles {
   Manifest manifest;                        // all but the kd-tree, the domains and cut_triangles
   std::vector<std::uint64_t> block_hashes;  // SceneTally's
 };
 
-// See world_of and place_scene. `placed` is told of how many triangles, from any thread.
+// See world_of and place_scene. `placed` gets the number of triangles placed, from any thread.
 FlatScene flatten(World world, std::uint64_t load_bytes,
                   const std::function<void(std::uint64_t)>& placed = {});
 FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options = {});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes of what a plan places, and where most of its triangles lie. World coordinates, or the parent's,
-// before the parent's centre is taken off.
+// These are boxes of what a plan places, and where most of its triangles lie. They are in world coordinates,
+// or the parent's, before the parent's centre is taken off.
 #pragma once
 
 #include <vector>
@@ -10,27 +10,27 @@
 
 namespace vitrail {
 
-// The greatest sum of magnitudes in a row of the linear part: by so much a vector's greatest coordinate
-// grows.
+// Returns the greatest sum of magnitudes in a row of the linear part: a vector's greatest coordinate
+// grows by at most that factor.
 double greatest_row(const Transform& t);
 Bounds3d transformed(const Transform& t, const Bounds3d& box);
 
-// The box of the corners of the mesh's own, in the world. Throws Error where floats cannot hold it: with the
-// vertex, where there is one.
+// Returns the box in the world of the corners of the mesh's own box. Throws Error where floats cannot hold
+// it: with the vertex, where there is one.
 Bounds3d world_bounds(const Placement& p);
-// Of a use, or a run of uses. Throws Error where floats cannot hold it.
+// They return that of a use, or a run of uses. They throw Error where floats cannot hold it.
 Bounds3d box_of(const std::vector<Assembly>& objects, const ObjectUse& use);
 Bounds3d box_of(const QuadricRun& run);
 
-// The half of the triangles of a mesh, of a use or of a run, where it stands.
+// They return where half of the triangles of a mesh, of a use or of a run lie, where it stands.
 FramePart part_of(const Placement& p);
 FramePart part_of(const std::vector<Assembly>& objects, const ObjectUse& use);
 FramePart part_of(const QuadricRun& run);
 
-// Rounded outwards.
+// They round outwards.
 Bounds3f placed_bounds(const Quadric& quadric, const Affine& to_parent);
 Bounds3f swept(const Motion& motion, const Bounds3d& box);
-// Where the object stands, or moves, that a use of the scene, or a use within its object, is of.
+// Returns where an object that the scene or another object uses stands, or moves.
 Bounds3f placed_bounds(const Assembly& object, const Affine& to_parent);
 
 }  // namespace vitrail

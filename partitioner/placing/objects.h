@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene is placed as: objects, what each is made of, and where they stand (plan_scene.h makes it).
+// A scene is placed as objects: what each is made of, and where they stand (plan_scene.h makes it).
 #pragma once
 
 #include <functional>
@@ -18,8 +18,8 @@ struct ObjectUse {
   std::uint64_t first_triangle = 0;
 };
 
-// Uses of one quadric that differ in where they stand alone, too many to be held one by one. Ids run in their
-// order.
+// They are uses of one quadric that differ in where they stand alone, too many to be held
+// one by one. Ids run in their order.
 struct QuadricRun {
   const Quadric* quadric = nullptr;
   std::uint32_t object = 0;  // index
@@ -34,9 +34,9 @@ struct QuadricRun {
 // Calls visit(use) for each of the run, in order.
 void for_each_use(const QuadricRun& run, const std::function<void(const ObjectUse&)>& visit);
 
-// The scene, or an object. Its coordinates are taken from `centre`.
+// An Assembly is the scene, or an object. Its coordinates are taken from `centre`.
 struct Assembly {
-  // If it is a quadric, in its own space, and `flip` says that it is inside out; it has nothing else.
+  // A quadric has this alone, in its own space, and `flip` says that it is inside out.
   std::optional<Placement> quadric;
   std::vector<Placement> placements;  // of its own
   std::vector<ObjectUse> uses;
@@ -46,12 +46,12 @@ struct Assembly {
   double radius = 0;  // about it, on the greatest axis, half of the triangles lie
   Bounds3f bounds;    // of all, wherever it moves
   int depth = 0;      // most uses within each other
-  // If it moves; it has one use then, and its coordinates are where the motion takes that, about no centre.
+  // It is set if the object moves. There is one use then, and coordinates are where it takes that, uncentred.
   const Motion* motion = nullptr;
 };
 
 struct ScenePlan {
-  // Of quadrics that stand where no ray can be taken to their space.
+  // They are meshes of quadrics that stand where no ray can be taken to their space.
   std::vector<std::unique_ptr<const TriangleMesh>> tessellated;
   std::vector<Assembly> objects;  // with uses of earlier ones only
   Assembly scene;
@@ -60,12 +60,12 @@ struct ScenePlan {
       0;  // shapes and instances that rounding moves by more than a thousandth of their size
 };
 
-// The placements of every use of the scene that does not move, as `select` chooses them, in the order of ids.
-// It is asked once for each placement of an object, however often that is used.
+// Returns the placements of every use of the scene that does not move, as `select` chooses them, in the order
+// of ids. It is asked once for each placement of an object, however often that is used.
 std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(const Placement&)>& select);
 
-// The plan without instances: copies of meshes, and a use of the scene for each quadric and all that moves.
-// Throws Error for more triangles than there are numbers (bundle/triangle_number.h).
+// Makes the plan one without instances: copies of meshes, and a use of the scene for each quadric and all
+// that moves. Throws Error for more triangles than there are numbers (bundle/triangle_number.h).
 void flatten(ScenePlan& plan);
 
 }  // namespace vitrail

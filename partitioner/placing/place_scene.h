@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All triangles of a scene, one block after the other.
+// This file visits all triangles of a scene, one block after the other.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace vitrail {
 
-// Triangles [begin, end) of a placement's mesh.
+// A Block has triangles [begin, end) of a placement's mesh.
 struct Block {
   const Placement& placement;
   const MeshPlacer& placer;
@@ -25,10 +25,10 @@ inline constexpr std::size_t block_triangles = 8192;  // that begin at multiples
 void place_scene(const World& world, std::uint64_t load_bytes,
                  const std::function<void(const Block&)>& visit);
 
-// Those that may emit, of no instance or of one.
+// Counts the triangles that may emit, whether an instance has them or not.
 std::uint64_t emissive_triangles_of(const World& world);
 
-// Triangles that emit, and what else a manifest has of them.
+// Emissive has the triangles that emit, and what else a manifest has of them.
 struct Emissive {
   std::vector<EmissiveQuadric> quadrics;
   std::vector<EmissiveTriangle> triangles;
@@ -36,16 +36,16 @@ struct Emissive {
   std::vector<FloatParameter> opacities;  // [triangle]
 };
 
-// What the placed triangles say of the scene, in whatever order they come.
+// A SceneTally is what the placed triangles say of the scene, in whatever order they come.
 class SceneTally {
  public:
   explicit SceneTally(const World& world);
 
-  // The block's triangles, which are at `placed` from `at` on. From any thread.
+  // Adds the block's triangles, which are at `placed` from `at` on. From any thread.
   void add(const Block& block, const PlacedTriangles& placed, std::uint64_t at);
-  // bounds, scale, emissive_triangles and what belongs to them, scene_hash. The objects have been written.
+  // Sets bounds, scale, emissive_triangles with all of theirs, and scene_hash. Objects have been written.
   void finish(Manifest& manifest);
-  // Of all blocks, in the order of placements.
+  // Returns those of all blocks, in the order of placements.
   const std::vector<std::uint64_t>& block_hashes() const { return hashes_; }
 
  private:
@@ -58,15 +58,15 @@ class SceneTally {
   std::vector<std::uint32_t> surfaces_;   // of each placement
   std::mutex mutex_;
   Bounds3f bounds_;
-  // A place for each triangle that may emit, by their ids; of each placement, and of each of those that shine
-  // in objects, the first one.
+  // It has a place for each triangle that may emit, by their ids. The first one of each placement, and of
+  // each that shines in objects, is below.
   Emissive emissive_;
   std::vector<std::size_t> first_emissive_, first_shining_;
   bool emissive_attributes_ = false, emissive_opacities_ = false;  // whether there are any
 };
 
-// Manifest::scene_hash, from the hashes of the blocks. Of the manifest all but the kd-tree and the domains is
-// there.
+// Returns Manifest::scene_hash, from the hashes of the blocks. The manifest has all but
+// the kd-tree and the domains.
 std::uint64_t scene_hash_of(const World& world, const Manifest& manifest,
                             std::span<const std::uint64_t> block_hashes);
 

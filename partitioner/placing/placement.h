@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One mesh where it stands in the world, and its triangles in the bundle's coordinates.
+// A Placement is one mesh where it stands in the world, with its triangles in the bundle's coordinates.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace vitrail {
 using Triangle = std::array<Point3f, 3>;
 using CornerNormals = std::array<std::uint32_t, 3>;  // encode_normal
 
-// Where an object stands whose triangles are to be the scene's own.
+// A Standing is where an object stands whose triangles are to be the scene's own.
 struct Standing {
   Vector3d centre;  // of the object, whose coordinates are taken from there
   Affine to_bundle;
@@ -42,30 +42,30 @@ struct PlacedTriangles {
       attributes;  // [slot][triangle] of the mesh attributes that textures read
 };
 
-// What of the triangles is kept. `offset` is taken from the world's coordinates.
+// A PlacementRule says what is kept of the triangles. `offset` is taken from the world's coordinates.
 struct PlacementRule {
   Vector3d offset;
   bool normals = false, uvs = false;
   std::span<const TextureBaker::Attribute> attributes;
 };
 
-// `outer`: what the shape's own transform is followed by. Where it mirrors, the front sides stay.
+// `outer` is what the shape's own transform is followed by. Where it mirrors, the front sides stay.
 Placement placement_of(const TriangleMesh& mesh, const Shape& shape, const Transform& outer,
                        std::uint64_t first_triangle);
 
 PlacedTriangles make_room(const PlacementRule& rule, std::uint64_t triangles);
 
-// Places triangles of one mesh. Composed in double, rounded once; what stands as an object does is rounded in
-// the object's space and once more where it stands, as tracing does it. Shading normals are turned to their
+// Places triangles of one mesh, composed in double, rounded once. Those that stand as an object does are
+// rounded in the object's space and once more where it stands, as in tracing. Shading normals turn to their
 // triangle's front; a triangle with one that is zero has none. What it is made of outlives it.
 class MeshPlacer {
  public:
-  // `mesh`: the placement's, loaded.
+  // `mesh` is the placement's, loaded.
   MeshPlacer(const Placement& placement, const TriangleMesh& mesh, const PlacementRule& rule,
              const ReflectanceFitter& fitter);
 
-  // Triangles [begin, end) of the mesh, to `out` from `at` on. From any thread. Throws Error for vertices
-  // that are not finite in the world.
+  // Writes triangles [begin, end) of the mesh to `out` from `at` on. From any thread. Throws Error for
+  // vertices that are not finite in the world.
   void place(std::size_t begin, std::size_t end, PlacedTriangles& out, std::uint64_t at) const;
 
  private:
@@ -84,7 +84,7 @@ class MeshPlacer {
   std::vector<Point3f> vertices_;  // in the bundle's coordinates
 };
 
-// All triangles of the placement's mesh, which is loaded.
+// Places all triangles of the placement's mesh, which is loaded.
 void place(const Placement& placement, const PlacementRule& rule, const ReflectanceFitter& fitter,
            PlacedTriangles& out, std::uint64_t at);
 

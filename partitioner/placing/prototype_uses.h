@@ -8,20 +8,20 @@
 
 namespace vitrail {
 
-// What the prototypes of a scene hold and where they are used, each looked at once, however many instances
-// of instances there are. The scene counts as one more prototype, the last.
+// PrototypeUses tell what the prototypes of a scene hold and where they are used. Each is looked at once,
+// however many instances of instances there are. The scene counts as one more prototype, the last.
 class PrototypeUses {
  public:
   // Throws Error where a prototype holds itself, and for more than 2⁶² triangles with all instances.
   explicit PrototypeUses(const Scene& scene);
 
-  // With all that is in it.
+  // Returns the triangles with all that is in it.
   std::uint64_t triangles(std::size_t prototype) const { return triangles_[prototype]; }
-  // By instances that may be kept.
+  // Returns the uses by instances that may be kept.
   std::uint64_t uses(std::size_t prototype) const { return uses_[prototype]; }
 
-  // Whether an instance of `inner` in `outer` may be kept. On chains of more instances than a ray can follow
-  // (of prototypes one less than max_instance_depth) it may where `inner` is of a lower magnitude in
+  // Returns whether an instance of `inner` in `outer` may be kept. On chains of more instances than a ray can
+  // follow (of prototypes one less than max_instance_depth) it may where `inner` is of a lower magnitude in
   // triangles. That leaves chains short enough, and copies at most 16 times what an object holds; 256 times
   // in scenes of 2³² triangles or more.
   bool may_keep(std::size_t outer, std::size_t inner) const;

@@ -10,23 +10,23 @@
 
 namespace vitrail {
 
-// All of a shape but where it stands, its name and its origin.
+// A ShapeKey is all of a shape but where it stands, its name and its origin.
 using ShapeKey = std::array<std::uint32_t, 8>;
 ShapeKey key_of(const Shape& shape);
 
-// Shapes of the scene that are the same but for where they stand: one mesh, one surface. Where copies of them
-// would take much, one object stands for them, and its instances. It depends on the scene alone.
+// They are the same but for where they stand: one mesh, one surface. Where copies of them would take much,
+// one object stands for them, and its instances. That depends on the scene alone.
 class SharedShapes {
  public:
   explicit SharedShapes(const Scene& scene);
 
-  // Of the scene's shape of that index, if it is to be an instance.
+  // Returns the group of the scene's shape of that index, if it is to be an instance.
   std::optional<std::uint32_t> group_of(std::size_t shape) const;
 
-  // One that stands for all of a group.
+  // Returns for each group one shape that stands for all of it.
   const std::vector<const Shape*>& groups() const { return groups_; }
 
-  // Whether the object's winding shows its back: mirrored instances keep the fronts of their object.
+  // Returns whether the object's winding shows its back: mirrored instances keep the fronts of their object.
   static bool flip_in_object(const Shape& shape) {
     return shape.flip_orientation != swaps_handedness(shape.object_to_world);
   }

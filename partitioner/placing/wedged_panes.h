@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Panes whose faces are less parallel than sunlight is connected through.
+// Wedged panes have faces that are less parallel than sunlight is connected through.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@
 
 namespace vitrail {
 
-// Of a mesh most of whose area faces one way and back: by how much the two sides are off parallel, and by how
-// much decimals that its file rounds to may have turned them together, in rad.
+// PaneFaces are of a mesh most of whose area faces one way and back. They say how far the two sides are off
+// parallel, and how far the decimals of its file may have turned them together, in rad.
 struct PaneFaces {
   double wedge_rad = 0, explained_rad = 0;
 };
 std::optional<PaneFaces> pane_faces(const TriangleMesh& mesh, const Transform& placed);
 
-// The panes of smooth glass that are less parallel than float glass is and their decimals explain.
+// They are the panes of smooth glass that are less parallel than float glass is and their decimals explain.
 struct WedgedPanes {
   std::size_t count = 0;
   double widest_rad = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene, ready to be placed.
+// A World is a scene, ready to be placed.
 #pragma once
 
 #include <filesystem>
@@ -30,13 +30,13 @@ struct ShiningPlacement {
 };
 
 struct World {
-  // All but what is known when triangles have been placed (SceneTally), and the kd-tree and its domains.
+  // It has all but what is known when triangles have been placed (SceneTally), the kd-tree and its domains.
   Manifest manifest;
   std::vector<Placement> placements;  // by id, of the triangles that no instance has
   std::uint64_t own_triangles = 0;    // of them
   std::vector<std::unique_ptr<const TriangleMesh>> tessellated;  // that placements are of
-  // What is kept of instances, and all quadrics: the objects, where the scene has them, and what of it shines
-  // there.
+  // They are what is kept of instances, and all quadrics: the objects, where the scene has
+  // them, and what of it shines there.
   std::vector<WorldObject> objects;
   std::vector<ObjectUse> uses;
   std::vector<QuadricRun> runs;
@@ -54,11 +54,11 @@ struct World {
 };
 
 // Composes all transforms in double. `offset`, to be taken from the world's coordinates, is where frame.h
-// finds the origin, a point of floats. Ids run in scene order: the shapes that are no instances of an object,
-// the others, then each instance's shapes. Materials and area lights that no triangle uses are left out.
-// Throws Error for shapes that floats cannot hold, and for more triangles that are no instances' than there
-// are numbers (bundle/triangle_number.h). Images are baked into the directory `bundle`, unless it is empty.
-// The scene outlives the world.
+// finds the origin, a point of floats. Ids run in scene order: the shapes that are no instances of an
+// object, the others, then each instance's shapes. Materials and area lights that no triangle uses are left
+// out. Throws Error for shapes that floats cannot hold, and for more triangles that are no instances' than
+// there are numbers (bundle/triangle_number.h). Images are baked into the directory `bundle`, unless it is
+// empty. The scene outlives the world.
 World world_of(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options = {});
 
 }  // namespace vitrail

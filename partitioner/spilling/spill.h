@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles on their way to disk and back: a file for each part of the kd-tree that is to be in memory at
-// once.
+// A Spill takes triangles to disk and back: a file for each part of the kd-tree that is
+// to be in memory at once.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// A cell with its own triangles: `cut` has the pieces of those that are not whole in it.
+// A LoadedCell has its own triangles: `cut` has the pieces of those that are not whole in it.
 struct LoadedCell {
   NumberedTriangles triangles;
   CellContent cut;
@@ -20,24 +20,24 @@ struct LoadedCell {
 // The files are private to this object: nobody else reads them, and the destructor removes them.
 class Spill {
  public:
-  // Makes the directory. `buffer_bytes`: in memory for each bucket before they are written.
+  // Makes the directory. `buffer_bytes` are in memory for each bucket before they are written.
   Spill(std::filesystem::path directory, std::size_t buckets, const PlacementRule& rule,
         std::uint64_t buffer_bytes);
   ~Spill();
   Spill(const Spill&) = delete;
   Spill& operator=(const Spill&) = delete;
 
-  // What a block has in a bucket. Blocks do not overlap in their ids; in any order, from any thread. Throws
-  // MachineError.
+  // Adds what a block has in a bucket. Blocks do not overlap in their ids; in any order, from
+  // any thread. Throws MachineError.
   void add(std::size_t bucket, const NumberedTriangles& block, const CellContent& content);
   void flush();
-  // Ascending by id. Its file is gone then. Throws MachineError.
+  // Returns a bucket, ascending by id. Its file is gone then. Throws MachineError.
   LoadedCell take(std::size_t bucket);
 
   std::uint64_t bytes() const { return bytes_; }
 
  private:
-  // Where a block's part is in the file.
+  // A Chunk is where a block's part is in the file.
   struct Chunk {
     std::uint64_t offset;
     std::uint32_t first_id, triangles, pieces, vertices;

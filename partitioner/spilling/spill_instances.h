@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instances on their way to disk and back: a file for each part of the kd-tree that is to be in memory at
-// once. None stays open, so there may be more parts than files that a process may have open.
+// An InstanceSpill takes instances to disk and back: a file for each part of the kd-tree that is to be in
+// memory at once. None stays open, so there may be more parts than files that a process may have open.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +14,15 @@ namespace vitrail {
 // The files are private to this object: nobody else reads them.
 class InstanceSpill {
  public:
-  // `cells`: of the parts of `root`, which is divided. `buffer_bytes`: in memory for each.
+  // `cells` are those of the parts of `root`, which is divided. `buffer_bytes` are in memory for each.
   InstanceSpill(const std::filesystem::path& directory, const std::vector<Bounds3f>& cells,
                 const Bounds3f& root, std::uint64_t buffer_bytes);
 
-  // To every part whose cell it reaches into. Throws MachineError.
+  // Adds it to every part whose cell it reaches into. Throws MachineError.
   void add(const InstanceRef& instance);
   // Takes no memory any more, when all have come. Throws MachineError.
   void flush();
-  // In the order in which they came. Its file is gone then. Throws MachineError.
+  // Returns a part in the order in which it came. Its file is gone then. Throws MachineError.
   std::vector<InstanceRef> take(std::size_t part);
 
   std::uint64_t bytes() const { return bytes_; }

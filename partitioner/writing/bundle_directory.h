@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bundle that appears whole or not at all.
+// A BundleDirectory is a bundle that appears whole or not at all.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,10 @@
 namespace vitrail {
 
 // Makes `target`.tmp<pid> with its domains/ beside the target; `commit` renames it to the target, where it
-// replaces an older bundle. Without a commit the destructor removes it, and where the process was killed the
-// next one for the same target does: a lock on the directory says whether its process lives. A target that
-// exists and is not a bundle is never touched: UsageError. What the machine refuses throws MachineError.
-// A durable one is synced to the disk before it gets its name.
+// replaces an older bundle. Without a commit the destructor removes it; after a kill the next one for the
+// same target does. A lock on the directory says whether its process lives. A target that exists and is not
+// a bundle is never touched: UsageError. Failures of the machine throw MachineError. A durable one is synced
+// to the disk before it gets its name.
 class BundleDirectory {
  public:
   explicit BundleDirectory(std::filesystem::path target, bool durable = false);

@@ -9,8 +9,8 @@ namespace vitrail {
 
 inline constexpr std::size_t most_curve_boxes = 8;
 
-// Of an instance that is a curve: up to eight boxes that hold together what its own box has of it, where they
-// are smaller. A curve that bends or leans fills little of its box.
+// Returns up to eight boxes that together hold a curve's part in its instance's box, or that box where they
+// are not smaller. A curve that bends or leans fills little of its box.
 std::vector<Bounds3f> curve_boxes(const InstanceRef& ref);
 
 }  // namespace vitrail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects on disk, and the instances that domains have of them.
+// This file writes objects to disk, and finds the instances that domains have of them.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,8 @@ struct ObjectLimits {
   double memory_bytes = 0;        // for all that are in work
 };
 
-// The instances of the scene, one for each part of an object, in the order of ids; their boxes are not
-// inflated. Those of runs are made as they are asked for.
+// They are the instances of the scene, one for each part of an object, in the order of ids; their boxes are
+// not inflated. Those of runs are made as they are asked for.
 struct SceneInstances {
   std::vector<InstanceRef> refs;
   struct Run {
@@ -32,34 +32,34 @@ struct SceneInstances {
 };
 
 // Writes the world's objects, those beyond the limits in parts, and their lines in the manifest. Triangles
-// are parted into quarters of the limit. `written` is told of triangles, from any thread. Objects that
+// are parted into quarters of the limit. `written` gets numbers of triangles, from any thread. Objects that
 // together take more than the memory are written one after the other.
 SceneInstances write_objects(const World& world, Manifest& manifest, const std::filesystem::path& bundle,
                              const ObjectLimits& limits, const std::function<void(std::uint64_t)>& written);
-// While an object is written, with the mesh that is being placed, in files of at most `file_bytes`.
+// Returns the bytes while an object is written, with its mesh being placed, in files of `file_bytes` at most.
 double bytes_in_work(const Manifest& manifest, const Assembly& object, std::uint64_t file_bytes);
-// Of all objects.
+// Returns those of all objects.
 std::uint64_t triangles_of_objects(const World& world);
 
-// The objects of these instances and all that they need, ascending.
+// Returns the objects of these instances and all that they need, ascending.
 std::vector<std::uint32_t> needed_objects(const Manifest& manifest, std::span<const InstanceRef> instances);
 // Returns the bytes of the files of these.
 std::uint64_t bytes_of_objects(const Manifest& manifest, std::span<const InstanceRef> instances);
 
-// The cell, without end where it is at the border of `root`: what lies beyond belongs to it.
+// Returns the cell, without end where it is at the border of `root`: what lies beyond belongs to it.
 Bounds3f opened(Bounds3f cell, const Bounds3f& root);
-// The box of an instance, inflated by what hits in it may be off.
+// Returns the box of an instance, inflated by what hits in it may be off.
 Bounds3f padded_box(const InstanceRef& instance);
 
-// Finds the instances that reach into a cell.
+// An InstanceDealer finds the instances that reach into a cell.
 class InstanceDealer {
  public:
-  // `root`: the cell that is divided. What lies beyond it belongs to the cells at its border.
+  // `root` is the cell that is divided. What lies beyond it belongs to the cells at its border.
   InstanceDealer(std::vector<InstanceRef> instances, const Bounds3f& root);
 
-  // Their boxes, padded, are clipped to the cell. From any thread.
+  // Returns them with their boxes, padded, clipped to the cell. From any thread.
   std::vector<InstanceRef> in(const Bounds3f& cell) const;
-  // As they are.
+  // Returns them as they are.
   std::vector<InstanceRef> whole_in(const Bounds3f& cell) const;
 
  private:
