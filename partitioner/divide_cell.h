@@ -16,7 +16,7 @@ namespace vitrail {
 // SharedCells are the cells that several domains share, as they are found. From any thread.
 class SharedCells {
  public:
-  // Returns numbers from `planned` on, in any order.
+  // Returns the next number, from `planned` on, in any order.
   std::uint32_t take_number(std::uint32_t planned);
   void add(SharedCell cell);
   std::vector<SharedCell> take();

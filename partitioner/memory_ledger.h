@@ -9,8 +9,8 @@
 
 namespace vitrail {
 
-// It is in bytes, with what the bundle keeps of each record beside it while one is written. It counts the
-// records alone: it is the same on every machine, and so is a plan that follows it.
+// A ledger counts bytes, with what the bundle keeps of each record beside it while one is written. It counts
+// the records alone: it is the same on every machine, and so is a plan that follows it.
 struct MemoryLedger {
   std::uint64_t meshes = 0;  // in memory, and the samples of those that stay in their files
   std::uint64_t shapes = 0;  // with their meshes' own records
@@ -28,7 +28,7 @@ struct MemoryLedger {
 
 MemoryLedger ledger_of(const Scene& scene);
 
-// Returns it for people, the largest first: "shapes 200 MiB, materials 80 MiB".
+// Returns the ledger for people, the largest first: "shapes 200 MiB, materials 80 MiB".
 std::string to_string(const MemoryLedger& ledger);
 
 }  // namespace vitrail

@@ -36,7 +36,7 @@ struct MemoryNeeds {
   int threads = 1;
 };
 
-// Returns that in a file, with its share of the tree: measured, docs/why/partitioning.md.
+// Returns the bytes of one in a file, with its share of the tree: measured, docs/why/partitioning.md.
 double bytes_of_a_triangle(const Manifest& manifest);
 
 // Returns what the budget leaves for triangles; less than 0 where it leaves nothing.

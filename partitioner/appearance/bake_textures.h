@@ -59,7 +59,7 @@ class TextureBaker {
   std::optional<TextureMean> mean(const SpectrumParameter& parameter);
   // Returns whether an attribute of meshes counts in what was baked.
   bool reads_attribute(const FloatParameter& baked) const;
-  // Returns a light's image by its name in the bundle. It has all MIP levels.
+  // Bakes a light's image, with all MIP levels, and returns its name in the bundle.
   std::string bake_image(const ImageTexture& image, TextureUse use, const SourceLocation& where);
 
   // They are attributes of meshes that the clones refer to, by slot: the bundle's MeshAttributeTexture of the

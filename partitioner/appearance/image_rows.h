@@ -12,7 +12,7 @@ namespace vitrail {
 
 struct ImageRows {
   int width = 0, height = 0;
-  // Calls with all rows from the top, some at a time: images of that width. An exception
+  // It calls the function with all rows from the top, some at a time: images of that width. An exception
   // of the function stops the reading.
   std::function<void(const std::function<void(Image)>&)> read;
 };

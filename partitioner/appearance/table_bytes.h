@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// They are the bytes of a file of tables, little-endian; every access is within them.
+// TableBytes are the bytes of a file of tables, little-endian; every access is within them.
 #pragma once
 
 #include <bit>

@@ -18,8 +18,8 @@ struct Plane {
   float split = 0;
 };
 
-// They are placed triangles with their global ids, ascending. In what speaks of them a
-// triangle is an index into these.
+// They are placed triangles with their global ids, ascending. Elsewhere here, a triangle's
+// number is its index in these.
 struct NumberedTriangles : PlacedTriangles {
   std::vector<std::uint32_t> ids;
 };

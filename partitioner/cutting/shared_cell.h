@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ray crosses here a cell that several domains share, each with some of the instances in it.
+// This is a ray's way through a cell that several domains share, each with some of the instances in it.
 #pragma once
 
 #include <cstdint>

@@ -29,9 +29,9 @@ struct Viewpoint {
 };
 Viewpoint viewpoint_of(const Camera& camera);
 
-// Returns the middle of `box`, which holds all parts, if nearly all weight lies within `near_radii` of its
-// own from it. Rounding then moves vertices by 2⁻¹⁶ of a part's radius at most. Else returns the middle by
-// weight, if that has less far away: triangles count, and those seen large count most.
+// Returns the middle of `box`, which holds all parts, if nearly all weight is in parts within `near_radii`
+// times their radius of it. Rounding then moves vertices by 2⁻¹⁶ of that radius at most. Else returns the
+// middle by weight, if that has less far away: triangles count, and those seen large count most.
 Point3d origin_of(const std::vector<FramePart>& parts, const Bounds3d& box,
                   const std::optional<Viewpoint>& eye);
 

@@ -18,7 +18,7 @@ Bounds3d transformed(const Transform& t, const Bounds3d& box);
 // Returns the box in the world of the corners of the mesh's own box. Throws Error where floats cannot hold
 // it: with the vertex, where there is one.
 Bounds3d world_bounds(const Placement& p);
-// They return that of a use, or a run of uses. They throw Error where floats cannot hold it.
+// They return the box of a use, or of a run of uses. They throw Error where floats cannot hold it.
 Bounds3d box_of(const std::vector<Assembly>& objects, const ObjectUse& use);
 Bounds3d box_of(const QuadricRun& run);
 
@@ -27,7 +27,7 @@ FramePart part_of(const Placement& p);
 FramePart part_of(const std::vector<Assembly>& objects, const ObjectUse& use);
 FramePart part_of(const QuadricRun& run);
 
-// They round outwards.
+// These boxes are rounded outwards.
 Bounds3f placed_bounds(const Quadric& quadric, const Affine& to_parent);
 Bounds3f swept(const Motion& motion, const Bounds3d& box);
 // Returns where an object that the scene or another object uses stands, or moves.

@@ -43,9 +43,9 @@ class SceneTally {
 
   // Adds the block's triangles, which are at `placed` from `at` on. From any thread.
   void add(const Block& block, const PlacedTriangles& placed, std::uint64_t at);
-  // Sets bounds, scale, emissive_triangles with all of theirs, and scene_hash. Objects have been written.
+  // Sets bounds, scale, emissive_triangles and what is theirs, and scene_hash, once objects are written.
   void finish(Manifest& manifest);
-  // Returns those of all blocks, in the order of placements.
+  // Returns the hashes of all blocks, in the order of placements.
   const std::vector<std::uint64_t>& block_hashes() const { return hashes_; }
 
  private:

@@ -49,7 +49,7 @@ struct PlacementRule {
   std::span<const TextureBaker::Attribute> attributes;
 };
 
-// `outer` is what the shape's own transform is followed by. Where it mirrors, the front sides stay.
+// `outer` follows the shape's own transform. Where it mirrors, the front sides stay.
 Placement placement_of(const TriangleMesh& mesh, const Shape& shape, const Transform& outer,
                        std::uint64_t first_triangle);
 

@@ -14,8 +14,8 @@ namespace vitrail {
 using ShapeKey = std::array<std::uint32_t, 8>;
 ShapeKey key_of(const Shape& shape);
 
-// They are the same but for where they stand: one mesh, one surface. Where copies of them would take much,
-// one object stands for them, and its instances. That depends on the scene alone.
+// These shapes of the scene are the same but for where they stand: one mesh, one surface. Where copies would
+// take much, one object stands for them, and its instances. It depends on the scene alone.
 class SharedShapes {
  public:
   explicit SharedShapes(const Scene& scene);

@@ -19,7 +19,7 @@ void add_instances(std::vector<InstanceRef> instances, std::span<const ObjectInf
 // It stores a domain, and completes its line in the manifest with what its file says. From any thread.
 using StoreDomain = std::function<void(std::uint32_t domain, DomainContent content, DomainInfo& info)>;
 
-// Returns one that writes files of the bundle directory.
+// Returns a StoreDomain that writes files of the bundle directory.
 StoreDomain domain_files(std::filesystem::path bundle);
 
 // Makes and stores domain `index` and counts it in the census. Returns its line in the

@@ -38,7 +38,7 @@ SceneInstances write_objects(const World& world, Manifest& manifest, const std::
                              const ObjectLimits& limits, const std::function<void(std::uint64_t)>& written);
 // Returns the bytes while an object is written, with its mesh being placed, in files of `file_bytes` at most.
 double bytes_in_work(const Manifest& manifest, const Assembly& object, std::uint64_t file_bytes);
-// Returns those of all objects.
+// Returns the triangles of all objects.
 std::uint64_t triangles_of_objects(const World& world);
 
 // Returns the objects of these instances and all that they need, ascending.
@@ -57,9 +57,9 @@ class InstanceDealer {
   // `root` is the cell that is divided. What lies beyond it belongs to the cells at its border.
   InstanceDealer(std::vector<InstanceRef> instances, const Bounds3f& root);
 
-  // Returns them with their boxes, padded, clipped to the cell. From any thread.
+  // Returns the instances with their boxes, padded, clipped to the cell. From any thread.
   std::vector<InstanceRef> in(const Bounds3f& cell) const;
-  // Returns them as they are.
+  // Returns the instances as they are.
   std::vector<InstanceRef> whole_in(const Bounds3f& cell) const;
 
  private:
