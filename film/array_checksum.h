@@ -15,7 +15,7 @@
 
 namespace vitrail {
 
-// Returns that of all bytes of an array, visited part by part: `visit` sees each part before it counts.
+// Returns the checksum of an array, visited part by part: `visit` sees each part before it counts.
 template <class T, class Visit>
 std::uint64_t checksum_of(std::span<T> array, FilmScratch* scratch, Visit&& visit) {
   XXH3_state_t state;

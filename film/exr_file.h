@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file writes OpenEXR files without the library, for `render`, where there is no OpenImageIO.
+// This file writes pictures as OpenEXR without a library, so also where there is no OpenImageIO.
 #pragma once
 
 #include <cstddef>

@@ -14,8 +14,8 @@ struct FalseColor {
 };
 
 // Takes a picture in linear sRGB whose Y is W·m⁻²·sr⁻¹·nm⁻¹ over ∫ȳ, as films give it. The result is linear
-// sRGB, too, wider by the scale, and high enough for it; light above the scale has its last colour. The
-// colours are viridis (Smith and van der Walt 2015): of even steps for the eye, and in grey.
+// sRGB, too, wider by the scale, as high or as high as that needs. Light above the scale has its last colour.
+// The colours are viridis (Smith and van der Walt 2015): of even steps for the eye, and in grey.
 Image false_colored(const Image& rgb, FalseColor manner);
 
 // Returns the least 1, 2 or 5 times a power of ten that is not below x > 0.

@@ -137,8 +137,8 @@ class Film {
   // has no samples, or all are one sequence. The estimate has one degree of freedom: it is of use
   // where many are put together.
   double variance_of_mean(std::uint32_t pixel) const;
-  // Returns the standard error of a photon map's picture's mean Y, relative to it, by the scatter of batches.
-  // 0 is unknown: of fewer than two batches, and of paths, whose pixels are independent.
+  // Returns the standard error of the picture's mean Y in photon mapping, relative to it, by the batches'
+  // scatter. It is 0 where unknown: of fewer than two batches, and of paths, whose pixels are independent.
   double shared_error() const;
   std::uint64_t samples(std::uint32_t pixel) const;
   std::uint64_t samples() const;  // of all pixels
@@ -185,7 +185,7 @@ class Film {
       scratch_->reads(&at, sizeof at);
     return at;
   }
-  // Call it after `at` was written, as its page is then in memory. So films in memory pay least.
+  // Call it after writing `at`, whose page is then in memory: so films in memory pay least.
   template <class T>
   void written(const T& at) {
     if (scratch_) [[unlikely]]

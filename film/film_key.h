@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A FilmKey says what a film is of, beside its extent.
+// This file has what a film is of, beside its extent.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct PhotonKey {
   bool operator==(const PhotonKey&) const = default;
 };
 
-// FilmKey says what a film is of. Films of one key but different seeds merge; a resume needs all equal.
+// A FilmKey identifies a film. Films of one key but different seeds merge; a resume needs all equal.
 struct FilmKey {
   std::uint64_t scene_hash = 0;
   std::uint64_t seed = 0;

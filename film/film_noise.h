@@ -7,7 +7,7 @@
 
 namespace vitrail {
 
-// It avoids division by black; it is that of compare's relmse (after Rousselle, Knaus, Zwicker 2011).
+// It prevents division by black, as in compare's relmse (after Rousselle, Knaus, Zwicker 2011).
 inline constexpr double relative_error_floor = 0.01;
 
 // A NoiseEstimate is a mean over pixels. The standard error is that of the difference between the estimate

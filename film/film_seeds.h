@@ -11,7 +11,7 @@
 
 namespace vitrail {
 
-// Returns those that a merged film's description (FilmProgress::about) says, ascending, else the film's own.
+// Returns the seeds in a merged film's description (FilmProgress::about), ascending, else the film's own.
 std::vector<std::uint64_t> seeds_of(const Film& film, const std::string& about);
 
 // Returns the description of a film that is merged of those of `seeds`.

@@ -15,11 +15,11 @@ struct Neighbours {
   bool operator==(const Neighbours&) const = default;
 };
 
-// Returns those of evenly lying samples, along an axis: `correlations` are ∫f(x) f(x + Δ)
+// Returns both sums for samples that lie evenly, along an axis: `correlations` are ∫f(x) f(x + Δ)
 // dx of their filter, for Δ = 0, 1, …
 Neighbours along_axis(std::span<const double> correlations);
 
-// Returns those of both axes of a separable filter.
+// Returns both sums for the two axes of a separable filter.
 Neighbours product(const Neighbours& x, const Neighbours& y);
 
 // Returns what a film says of itself (FilmProgress::about). Pixels are independent where it says nothing.

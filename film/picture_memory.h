@@ -14,8 +14,8 @@ inline constexpr int exr_block_rows = 16;  // of ZIP: they are compressed togeth
 // Returns how many rows of the film are taken at once: some megabytes of them, one at least.
 int rows_at_once(const FilmSettings& film, const FilmKey& key);
 
-// Returns the bytes that merging `films` films takes: their rows, the picture of these, and a block of the
-// file as it is, rearranged and compressed.
+// Returns the bytes of merging `films` films: their rows, the picture of these, and a block of the file
+// as it is, rearranged and compressed.
 std::uint64_t exr_memory(const FilmSettings& film, const FilmKey& key, int films = 1);
 
 }  // namespace vitrail

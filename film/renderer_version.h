@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A RendererVersion is that of the program that made a film. Films of other programs show other pictures.
+// It tells which program made a film. Films of different programs are not samples of one picture.
 #pragma once
 
 #include <cstdint>

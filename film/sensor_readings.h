@@ -25,7 +25,7 @@ struct SensorReading {
   double greatest_share = 0;
 };
 
-// Returns one a column of the film. Throws Error if it is saturated, keeps no spectrum or was clamped.
+// Returns one reading a column of the film. Throws Error if it is saturated, clamped or without a spectrum.
 std::vector<SensorReading> sensor_readings(const Film& film);
 
 }  // namespace vitrail
