@@ -29,7 +29,7 @@ struct ImportArguments {
 void declare_rgb_option(CLI::App& app, std::string& method);
 RgbMethod rgb_method(const std::string& method);
 
-// It is the help of --no-cache.
+// This is the help of --no-cache.
 inline constexpr const char* no_cache_help =
     "bake all images without the cache in $XDG_CACHE_HOME/vitrail or ~/.cache/vitrail";
 

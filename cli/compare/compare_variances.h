@@ -16,7 +16,7 @@ namespace vitrail {
 void find_variances(ZTestInput& test, const Picture& image, const Picture& reference, const std::string& file,
                     std::optional<double> samples);
 
-// Returns that of the difference of two pictures: by the noise of each where both know it, else the greater.
+// Returns of_mean of the pictures' difference: by the noise of each where both know it, else the greater.
 double neighbours_of_mean(const Picture& image, const Picture& reference);
 
 // Throws UsageError unless both know the variances of their pixels.

@@ -34,7 +34,7 @@ void require_agreement(const DevelopArguments& arguments);
 // Returns the stops of --exposure; none means that the picture decides. Throws UsageError.
 std::optional<double> exposure_ev(const DevelopArguments& arguments);
 
-// Returns those of --false-color: "auto", or luminance in cd/m². Throws UsageError.
+// Returns the scale of --false-color: "auto", or luminance in cd/m². Throws UsageError.
 FalseColor false_color_of(const DevelopArguments& arguments);
 
 }  // namespace vitrail

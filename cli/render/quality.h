@@ -13,9 +13,9 @@ namespace vitrail {
 // Returns the names, the quickest first.
 std::vector<std::string> qualities();
 
-// Fills in options that are not given by themselves: the error, the most samples a pixel, and, unless
-// `adaptive_is_given`, whether samples are adaptive. `quality` is one of the names. The film of a picture
-// that is `denoised` afterwards may be noisier.
+// Fills in what the user does not give: the error, the most samples a pixel, and, unless `adaptive_is_given`,
+// whether samples are adaptive. `quality` is one of the names. The film of a picture that is `denoised`
+// afterwards may be noisier.
 void apply_quality(const std::string& quality, bool adaptive_is_given, bool denoised, RenderOptions& options);
 
 }  // namespace vitrail

@@ -48,7 +48,7 @@ void require_renderable(const RenderArguments& arguments);
 // where the input is not what can be rendered.
 void interpret(const CLI::App& app, RenderArguments& arguments);
 
-// Returns those of the program that makes the bundle of a scene.
+// Returns the arguments of the program that makes the bundle of a scene.
 std::vector<std::string> partition_arguments(const RenderArguments& arguments);
 
 }  // namespace vitrail

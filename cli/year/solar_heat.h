@@ -11,15 +11,15 @@
 
 namespace vitrail {
 
-// It is the solar heat gain coefficient of a glazing (SHGC; NFRC's summer, ISO 15099).
+// This is the solar heat gain coefficient of a glazing (SHGC; NFRC's summer, ISO 15099).
 struct SolarGain {
   std::array<double, 10> each_10_deg{};  // at 0°, 10° … 90°
   double hemisphere = 0;
-  // Returns it linear between those angles; behind the pane it is that of the hemisphere.
+  // Returns the coefficient, linear between those angles; behind the pane it is that of the hemisphere.
   double at(double cosine) const;
 };
-// Returns that of the glazing in the state that it is in. Throws Error where its file
-// does not say what heat needs.
+// Returns the coefficients of the glazing in its present state. Throws Error where its
+// file does not say what heat needs.
 SolarGain solar_gain(GlazingSystem system);
 
 // Solar heat is in W/m² of glass.

@@ -48,7 +48,7 @@ HeatThrough heat_through(const YearArguments& arguments, std::size_t sensors);
 
 // Throws UsageError.
 void interpret(YearArguments& arguments);
-// Returns one without a name where none is asked for. Throws UsageError.
+// Returns one state without a name where none is asked for. Throws UsageError.
 std::vector<YearState> states_of(const YearArguments& arguments);
 
 }  // namespace vitrail

@@ -27,7 +27,7 @@ struct YearReport {
   std::vector<SensorYear> sensor_years;
   CountedHours counted;
   AreaFigures area;
-  // EN 17037's exposure to sunlight: hours of that day, of each sensor; empty where none looks sideways.
+  // They are EN 17037's hours of sun on that day, of each sensor; empty where none looks sideways.
   std::string sun_day;
   double sun_above_deg = 0;
   std::vector<double> sunlight_h;

@@ -16,9 +16,9 @@ struct Stage {
   std::uint64_t needed_bytes = 0;  // least budget for all that follows; 0: not known
 };
 
-// Runs `body` with no more than that resident (scene/system/memory_guard.h). Where this is too little it
-// throws MachineError that says what is missing, in place of what body throws. `is_own` is guard_memory's;
-// this thread is own in any case.
+// Runs `body` with no more than `budget_bytes` resident (scene/system/memory_guard.h). Where this is too
+// little it throws MachineError that says what is missing, in place of what body throws. `is_own` is
+// guard_memory's; this thread is own in any case.
 int within_memory(
     std::uint64_t budget_bytes, const Stage& stage, const std::function<int()>& body,
     bool (*is_own)() = [] { return false; });
