@@ -61,7 +61,7 @@ struct MeasuredSetting {
   std::ptrdiff_t changes() const;  // of the scene's own
 };
 
-// A Recommendation is the setting to take for a goal.
+// A Recommendation says which setting to take for a goal.
 struct Recommendation {
   std::string goal;  // in words
   Goal asked;        // for the whole picture

@@ -9,7 +9,7 @@
 
 namespace vitrail {
 
-// The law of a scene's renders: noise falls as samples^−slope, and time is start + samples · each.
+// A ScalingLaw is that of a scene: noise falls as samples^−slope, and time is start + samples · each.
 struct ScalingLaw {
   double slope = 1;
   double start_s = 0;
