@@ -13,7 +13,7 @@ struct ColorFidelity {
 };
 
 // Compares D65 through the glazing with Planck's light or CIE daylight of the same colour temperature, in
-// CAM02-UCS, by the 10° observer. It sums each 5 nm from 380 to 780 nm; none where no light comes through.
+// CAM02-UCS, by the 10° observer. It sums each 5 nm from 380 to 780 nm. Returns none without light.
 std::optional<ColorFidelity> color_fidelity(const SystemSpectrum& spectrum);
 
 }  // namespace vitrail

@@ -64,8 +64,8 @@ struct NamedState {
 };
 std::vector<NamedState> states_of(const GlazingSystem& system);
 
-// Evaluates the system; one that switches, in each measured
-// state and in the one that it is in. Throws Error.
+// Evaluates the system; one that switches, in each measured state and in the one that it is in. Throws
+// Error.
 DataSheet data_sheet(const GlazingSystem& system, Polarisation polarisation);
 
 }  // namespace vitrail

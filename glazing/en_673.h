@@ -13,8 +13,8 @@ struct Resistances {
   std::vector<double> panes, gaps;
 };
 
-// Returns those of EN 673:2011: gaps at a mean of 283 K, radiation 4σT³/(1/ε₁ + 1/ε₂ − 1) (equation (5))
-// beside the gas. There are 15 K between the panes of one gap, shared among several by their resistances
+// Returns the resistances of EN 673:2011: gaps at a mean of 283 K, radiation 4σT³/(1/ε₁ + 1/ε₂ − 1) (equation
+// (5)) beside the gas. There are 15 K between the panes of one gap, shared among several by their resistances
 // (clause 7). Panes are opaque to infrared. Throws Error where check_heat does.
 Resistances en_673_resistances(const GlazingSystem& system);
 

@@ -23,7 +23,7 @@ struct GasShare {
 using GasMixture = std::vector<GasShare>;
 
 // Reads "air", "argon", or "argon=0.9,air=0.1". The greatest share is first. Returns none where a name is
-// unknown or stands twice, or where the shares are not positive and do not sum to 1.
+// unknown or stands twice, or unless the shares are positive and sum to 1.
 std::optional<GasMixture> gas_mixture(const std::string& text);
 std::string words_for(const GasMixture& mixture);  // "argon 90 %, air 10 %"
 
@@ -32,11 +32,11 @@ struct GasProperties {
   double conductivity_w_mk = 0, viscosity_pa_s = 0, heat_j_kgk = 0, density_kg_m3 = 0;
 };
 
-// Returns those at a temperature and 101 325 Pa, linear in the temperature (ISO 15099:2003, annex B). The
-// density is that of an ideal gas; mixtures follow its equations (62) to (68).
+// Returns the properties at a temperature and 101 325 Pa, linear in the temperature (ISO 15099:2003, annex
+// B). The density is that of an ideal gas; mixtures follow its equations (62) to (68).
 GasProperties iso_15099_gas(const GasMixture& mixture, double kelvin);
 
-// Returns those at 283 K, linear in the shares: EN 673:2011, table 1.
+// Returns the properties at 283 K, linear in the shares: EN 673:2011, table 1.
 GasProperties en_673_gas(const GasMixture& mixture);
 
 }  // namespace vitrail

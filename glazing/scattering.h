@@ -19,7 +19,7 @@ struct PaneScattering {
 // Returns the panes that scatter; none where no pane does.
 std::vector<PaneScattering> scattering_of(const GlazingSystem& system);
 
-// Returns the same in words, and what is supposed of it (streams.h).
+// Returns the same in words, and the assumptions about scattering (streams.h).
 std::vector<std::string> scattering_notes(const GlazingSystem& system);
 
 }  // namespace vitrail

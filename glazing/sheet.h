@@ -13,9 +13,9 @@ struct ScatteredShares {
   std::vector<float> reflected, transmitted;  // their sums are at most 1
 };
 
-// Sheets are a system as rays meet it: what each side reflects, lets straight through at each half degree, at
-// the panes' wavelengths in the visible, and scatters. Between angles the error is below 1e-4 up to 85°. At
-// grazing angles scattered light takes the place of mirrored light.
+// Sheets are a system as rays meet it: what each side reflects and lets straight through, and what it
+// scatters. They have each half degree and the panes' visible wavelengths. Between angles the error is below
+// 1e-4 up to 85°. At grazing angles scattered light takes the place of mirrored light.
 struct GlazingSheets {
   MeasuredSheet front, back;
   ScatteredShares front_scattered, back_scattered;

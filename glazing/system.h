@@ -20,7 +20,7 @@ struct GlazingLayer {
   Pane pane;
   bool flipped = false;      // its front looks inside
   double gap_behind_mm = 0;  // says nothing about light: gaps absorb none
-  // They are those of glass that switches; `pane` is what it is `at`, one of them or between them. If
+  // They are the states of glass that switches; `pane` is what it is `at`, one of them or between them. If
   // by_temperature, `at` is a temperature.
   std::vector<StateRows> states{};
   bool by_temperature = false;

@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-// A ReadSystem has what was read, and what was repaired or approximated in words after the file's name.
+// A ReadSystem has what was read. `notes` say, after the file's name, what was repaired or approximated.
 struct ReadSystem {
   GlazingSystem system;
   std::vector<std::string> notes;

@@ -20,9 +20,9 @@ struct FilmAt {
   double thickness_nm = 0;
 };
 
-// Returns those of films between two media, by the product of their characteristic matrices (Abelès 1950;
-// Born & Wolf, ch. 1.6; Macleod, "Thin-Film Optical Filters", ch. 2). `sine` is n·sin θ, the same in all
-// media; media that light comes from count as transparent. `parallel` is the p polarisation.
+// Returns the values of films between two media, by the product of their characteristic matrices (Abelès
+// 1950; Born & Wolf, ch. 1.6; Macleod, "Thin-Film Optical Filters", ch. 2). `sine` is n·sin θ, the same in
+// all media; media that light comes from count as transparent. `parallel` is the p polarisation.
 InterfaceValues film_stack(double n_first, std::span<const FilmAt> films, std::complex<double> n_last,
                            double sine, double nm, bool parallel);
 
