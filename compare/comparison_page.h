@@ -18,10 +18,10 @@ struct ComparisonPage {
   bool low_range = false;         // FLIP is that of images for screens
 };
 
-// Returns one HTML file that a browser shows without a network. It shows both images and their error
-// maps, flipped between or split, at any exposure and size. Beside them are the values of the pixel under
-// the pointer, histograms and all metrics. The page holds pixels as half floats, of 11 significant bits,
-// in units of the greatest value.
+// Returns one HTML file that a browser shows without a network. It shows both images and the maps
+// of their errors, flipped between or split, at any exposure and size. Beside them are the values
+// of the pixel under the pointer, histograms and all metrics. Pixels are kept as half floats, of
+// 11 bits, in units of the greatest.
 std::string comparison_page(const ComparisonPage& page);
 
 }  // namespace vitrail

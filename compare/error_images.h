@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// These functions show as images where two images differ.
+// These functions show where two images differ, as images.
 #pragma once
 
 #include <optional>

@@ -43,9 +43,9 @@ struct ZTest {
   std::size_t values = 0;         // tested: pixels × (1 or 3)
   std::size_t failed = 0;         // of them, the non-finite ones among them
   double value_significance = 0;  // after the correction
-  // It counts the standard errors by which the means differ, of luminance or the worst of
-  // X, Y and Z. A difference that rounding the reference to half floats can make is taken
-  // off. means_differ: it is too many.
+  // It counts the standard errors by which the means differ, of luminance or the worst of X, Y
+  // and Z. What rounding the reference to half floats can make is taken off first. means_differ
+  // says whether it is too many.
   double mean_sigmas = 0;
   bool means_differ = false;
   double noise_rms = 0, difference_rms = 0;  // of luminance: expected of the variances, and found
