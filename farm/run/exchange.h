@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What ranks send each other while they trace: rays, photons that landed, questions, and items.
+// An Exchange moves what ranks send each other while they trace: rays, photons that landed, questions, items.
 #pragma once
 
 #include <vector>
@@ -13,15 +13,15 @@ namespace vitrail {
 
 class Exchange {
  public:
-  // `most_sent_bytes`: that the transport may hold; what is more stays in the state's queues.
+  // The transport may hold `most_sent_bytes`; what is more stays in the state's queues.
   Exchange(Transport& transport, RankState& state, const Phases& phases, std::uint64_t most_sent_bytes);
 
   // Takes what has arrived and sends what waits for other ranks. Returns whether anything moved. What goes
   // wrong is left in the state: the others learn of it in the next round.
   bool move();
-  // To idle ranks, of the items that this one has to spare.
+  // Sends idle ranks some of the items that this rank has to spare.
   void give_items();
-  // After a failure: throws away what arrives.
+  // Throws away what arrives, after a failure.
   void drop_arrivals();
 
   std::uint64_t messages() const { return messages_; }  // sent

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One rank of a job, from the first ray to the last: the loop of the only thread that speaks to the
+// A Rank is one rank of a job, from the first ray to the last: the loop of the only thread that speaks to the
 // transport.
 #pragma once
 
@@ -18,10 +18,10 @@ class Rank {
   // All references outlive it.
   Rank(Transport& transport, RankState& state, const RenderOptions& options, Job& job, EarlierWork earlier);
 
-  // Until the picture is whole, the time is up or the job is told to stop. Rank 0 has then written the film,
-  // or a checkpoint where a signal stopped it. Ending::none: homes are to settle, which all ranks do
-  // together while no worker lives; after it `run` goes on (settle_homes.h). Throws what went wrong here, or
-  // OtherRankFailed, after all ranks have agreed to end.
+  // Runs until the picture is whole, the time is up or the job is told to stop. Rank 0 has then written the
+  // film, or a checkpoint where a signal stopped it. Ending::none says that homes are to settle, which all
+  // ranks do together while no worker lives; after it `run` goes on (settle_homes.h). Throws what went wrong
+  // here, or OtherRankFailed, after all ranks have agreed to end.
   Ending run();
 
   void add_to(RenderStats& stats) const;

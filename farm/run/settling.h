@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a job whose homes nobody has planned records where its rays go, and when it settles homes by that.
+// A Settling decides when a job whose homes nobody has planned records where its rays go, and when it settles
+// homes by that record.
 #pragma once
 
 #include "farm/plan/job_plan.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a worker takes in hand: rays that wait for a domain, or samples and photons that are yet to be begun.
+// A Task is what a worker takes in hand: rays that wait for a domain, or samples and photons to begin.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace vitrail {
 
-// What a worker does next: a batch of waiting rays, or a work item.
+// A Task holds a batch of waiting rays, or a work item.
 struct Task {
   Scheduler::Work work = Scheduler::Work::none;
   RayBatch batch;
@@ -19,11 +19,11 @@ struct Task {
   std::shared_ptr<const ResidentTable> table;
 };
 
-// Empty task: nothing to do now.
+// Returns what the scheduler decides; an empty task where there is nothing to do now.
 Task take_task(const Locked& locked, RankState& state);
 
-// `traced` is called behind every ray that is given to the tracer; those that wait in it are traced in the
-// end.
+// Gives the task's rays to the tracer, and calls `traced` after each. Rays that wait in the tracer are traced
+// in the end.
 template <class Traced>
 void perform(Task& task, const WorkPlan& plan, Tracer& tracer, const Traced& traced) {
   if (task.photons) {

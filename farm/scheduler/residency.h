@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which domains a rank keeps in memory: the one with the most waiting rays is loaded, the one with the fewest
-// makes room. Decisions alone; farm/run/resident_domains.h carries them out.
+// A Residency decides which domains a rank keeps in memory: the one with the most waiting rays is loaded, the
+// one with the fewest makes room. farm/run/resident_domains.h carries the decisions out.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,17 @@
 
 namespace vitrail {
 
-// Which domains a rank traces in, whatever of them is in memory: all, or those that it answers for;
-// `automatic`: all where they fit into memory, else its own and those that it has much asked others for.
+// A Distribution says which domains a rank traces in, whatever of them is in memory: all, or those that it
+// answers for. `automatic` means all where they fit into memory, else its own and those that it has sent many
+// rays for.
 enum class Distribution : std::uint8_t { automatic, decompose, replicate };
 
-// So many loads may be under way at once: a disk that is far away answers several as soon as one
-// (docs/why/scheduler.md, "Loads").
+// It is the number of loads that may be under way at once: a disk that is far away answers several as soon as
+// one (docs/why/scheduler.md, "Loads").
 inline constexpr int loaders_of_a_rank = 8;
 
-// What a loader does next: first some domains leave, then one is mapped, where there is room for it
-// already.
+// A LoadStep says what a loader does next: first some domains leave, then one is mapped, where there is room
+// for it already.
 struct LoadStep {
   struct Load {
     std::uint32_t domain = 0;
@@ -33,22 +34,22 @@ struct LoadStep {
   std::optional<Load> load;
 };
 
-// Objects are shared by the domains that need them, and counted once.
+// Domains share the objects that several need; an object is counted once.
 class Residency {
  public:
-  // `budget_bytes` for mapped domains and objects. The manifest's sizes and what needs which are all that is
-  // used of it.
+  // `budget_bytes` is for mapped domains and objects. Of the manifest it reads the sizes, and which domain
+  // needs which objects.
   Residency(const Manifest& manifest, std::uint64_t budget_bytes, Homes homes, int rank,
             Distribution distribution = Distribution::automatic);
 
-  // Whether rays for the domain wait here; otherwise they go to one of its homes.
+  // Returns whether rays for the domain wait here; otherwise they go to one of its homes.
   bool is_local(std::uint32_t domain) const { return local_[domain]; }
   bool all_are_local() const { return everything_; }
   const Homes& homes() const { return homes_; }
   std::uint64_t waiting(std::uint32_t domain) const { return waiting_[domain]; }
-  // The resident domain that most rays wait for, if any do.
+  // Returns the resident domain that most rays wait for, if any do.
   std::optional<std::uint32_t> fullest() const { return resident_.most(); }
-  // Mapped or reserved, with what was evicted and is not yet let go.
+  // Returns the bytes that are mapped or reserved, with those that were evicted and are not yet let go.
   std::uint64_t held_bytes() const { return held_; }
   std::uint64_t table_bytes() const { return in_table_; }  // of these, what is resident or being loaded
   std::uint64_t loads() const { return loads_; }
@@ -57,16 +58,16 @@ class Residency {
   // Events.
   void rays_wait(std::uint32_t domain, std::uint64_t rays);  // of a local domain
   void rays_taken(std::uint32_t domain, std::uint64_t rays);
-  // Rays for a domain of another rank left: a domain much asked for is kept here too, if it fits.
+  // Counts rays that left for a domain of another rank. A domain that gets many is kept here too, if it fits.
   void rays_forwarded(std::uint32_t domain, std::uint64_t rays);
-  // A loader is free; others may be at work. `alive`: rays in the whole job; `starving`: the workers have
-  // nothing else to do.
+  // Returns what a free loader does; others may be at work. `alive` are the rays of the whole job; `starving`
+  // says that the workers have nothing else to do.
   LoadStep loader_is_free(std::uint64_t alive, bool starving);
   void loaded(std::uint32_t domain);
-  // The domains have other homes, while no load is under way and rays wait for no domain that has none here
-  // any more. Such domains leave the memory: rays that come by would else be traced here.
+  // Gives the domains other homes, while no load is under way and no ray waits for a domain that loses its
+  // home here. Such domains leave the memory: rays that come by would else be traced here.
   LoadStep settle(Homes homes, std::uint64_t budget_bytes, int rank);
-  // Workers let go of what was evicted.
+  // Workers let go of so many bytes that were evicted.
   void released(std::uint64_t bytes) { held_ -= bytes; }
 
  private:
@@ -99,11 +100,11 @@ class Residency {
   std::uint64_t loads_ = 0, evictions_ = 0;
 };
 
-// Of all domains and objects.
+// Returns the bytes of all domains and objects.
 std::uint64_t bytes_of_all(const Manifest& manifest);
 
-// Whether rays go from rank to rank and wait for no load: ranks have equal work, trace in the domains that
-// they answer for, and keep all of these. Objects count in each domain that needs them.
+// Returns whether rays go from rank to rank and wait for no load: ranks have equal work, trace in the domains
+// that they answer for, and keep all of these. Objects count in each domain that needs them.
 bool is_in_flow(const Manifest& manifest, const Homes& homes, Distribution distribution,
                 std::uint64_t bytes_a_rank);
 

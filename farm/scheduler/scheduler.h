@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that one rank decides: what a worker does next, which domain is loaded and which leaves, when
-// rays are sent, how many may be born, when the job pauses and when it is over. Events in, actions out: no
-// thread, clock, message or file is in it, so that the farm and the simulator run the same code. Seconds are
-// of the caller's clock.
+// The Scheduler decides everything for one rank: what a worker does next, which domain is loaded and which
+// leaves, when rays are sent, how many may be born, when the job pauses and when it is over. It takes events
+// and returns actions: no thread, clock, message or file is in it, so the farm and the simulator run the same
+// code. Seconds are of the caller's clock.
 #pragma once
 
 #include <memory>
@@ -35,20 +35,20 @@ class Scheduler {
   };
   Task next_task() const;
   void begin_batch(std::uint32_t domain, std::uint64_t rays);
-  // From now on these many items are the rank's; of those before, all are done, everywhere.
+  // Gives the rank so many items. All that it had before are done, on every rank.
   void begin_items(std::uint64_t items);
-  // Items that another rank is to have, of those that no worker has begun. On their way they count as rays
-  // do that are alive, so that nothing ends or pauses meanwhile.
+  // A Gift says which rank gets how many of the items that no worker has begun. On their way items count as
+  // rays that are alive, so that nothing ends or pauses meanwhile.
   struct Gift {
     int to = 0;
     std::uint64_t items = 0;
   };
   std::vector<Gift> give_items();
   void items_arrived(std::uint64_t items);
-  // Generates `rays` of item items_dealt(), its last ones if it `ends` with them.
+  // Begins to generate `rays` of item items_dealt(); they are its last ones where it `ends` with them.
   void begin_rays(std::uint64_t rays, bool ends);
-  // What a task made, or a part of it, is counted in one step with where it waits, so that no round misses a
-  // ray that is alive.
+  // Counts the rays that a task, or a part of it, made and ended. The caller routes them in the same step, so
+  // that no round misses a ray that is alive.
   void count(std::uint64_t born, std::uint64_t died);
   void finish_task(std::uint64_t generated);  // what begin_rays was told, 0 after a batch
   void worker_waits() { ++workers_waiting_; }
@@ -56,15 +56,15 @@ class Scheduler {
   int workers_waiting() const { return workers_waiting_; }
   bool all_workers_wait() const { return workers_waiting_ == job_.workers; }
 
-  // --- Rays. `true`: they wait here, else for being sent to the domain's home.
+  // --- Rays. Returns whether they wait here; if not, they wait for being sent to the domain's home.
   bool route(std::uint32_t domain, std::uint64_t rays);
-  // What is no ray of a domain's, but is sent and counted as alive like one.
+  // Counts records that are no rays of a domain, but are sent and count as alive like rays.
   void goes_out(std::uint64_t records) { outgoing_ += records, forwarded_ += records; }
-  // They came from another rank, which may have known homes of before.
+  // Does the same for rays of another rank, which may have sent them to a home of before.
   bool arrived(std::uint32_t domain, std::uint64_t rays) { return route(domain, rays); }
   bool send_is_due(double now_s) const;
-  // Where rays that are sent go: of two of the domain's homes the one where fewer wait, as far as is known.
-  // It may be this rank.
+  // Returns the rank that rays are sent to: of two of the domain's homes the one where fewer wait, as far as
+  // is known. It may be this rank.
   int destination(std::uint32_t domain, std::uint64_t rays);
   void sent(std::uint64_t rays, double now_s);
   std::uint64_t rays_to_send() const { return outgoing_; }
@@ -75,22 +75,22 @@ class Scheduler {
   void released(std::uint64_t bytes) { residency_.released(bytes); }
   const Residency& residency() const { return residency_; }
 
-  // --- Rounds. `ranks_told`: what each rank told when it joined the round that ended. Of many ranks that is
-  // a long list, which those that are simulated share.
+  // --- Rounds. Takes what each rank told when it joined the round that ended. For many ranks that is a long
+  // list, which simulated ranks share.
   void ranks_told(std::shared_ptr<const std::vector<RankReport>> by_rank);
-  // Whoever asks for a pause or an end adds it to the contribution.
+  // Returns what this rank adds to the sums. Whoever asks for a pause or an end adds that to it.
   RoundSums contribution();
   RankReport report() const;
   enum class Decision { go_on, all_quiet };
-  // The same on every rank, since the sums are. `all_quiet`: no ray is alive and none will be born, until
-  // `resume` where the job was paused.
+  // Decides the same on every rank, since the sums are the same. `all_quiet` says that no ray is alive and
+  // that none will be born, until `resume` where the job was paused.
   Decision decide(const RoundSums& sums);
   void resume() { calm_ = false; }
-  // While no worker lives the domains get other `homes`. First `leaving` counts the rays that wait here and
-  // are to be sent then: all where this rank is no home of the domain, else all but an even share. `leave`
-  // tells that they wait for being sent. When they do `settle` changes the homes; `domain_bytes` are as at
-  // the start, and as many rays as before may be alive. It returns the domains that leave the memory. Rays
-  // that were on their way to a home of before are sent on from there.
+  // The domains get other `homes` in three steps, while no worker lives. `leaving` returns the rays that wait
+  // here and are to be sent: all where this rank is no home of the domain, else all but an even share.
+  // `leave` counts such rays as waiting for being sent. `settle` then changes the homes and returns the
+  // domains that leave the memory; `domain_bytes` are as at the start, and as many rays as before may be
+  // alive. Rays that are on their way to a home of before are sent on from there.
   std::uint64_t leaving(std::uint32_t domain, const Homes& homes) const;
   void leave(std::uint32_t domain, std::uint64_t rays);
   LoadStep settle(Homes homes, std::uint64_t domain_bytes);
@@ -103,9 +103,9 @@ class Scheduler {
   bool is_full() const;
   std::uint64_t even_share() const { return static_cast<std::uint64_t>(job_.rays_allowed / job_.ranks + 1); }
   bool wants_to_generate() const { return item_is_open_ || (!paused_ && next_item_ < items_); }
-  // None where each domain has one home: whoever generates its rays, the same rank traces them. And a rank
-  // whose workers wait keeps its own: it waits for leave to generate, and would else get back what it has
-  // just given.
+  // Returns none where each domain has one home: whoever generates its rays, the same rank traces them. A
+  // rank whose workers wait keeps its items: it waits for leave to generate, and would else get back what it
+  // has just given.
   std::uint64_t spare_items() const {
     return (residency_.all_are_local() || homes_overlap_) && workers_waiting_ == 0
                ? items_ - next_item_ - item_is_open_
