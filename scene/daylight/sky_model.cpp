@@ -43,12 +43,12 @@ std::array<double, 6> bezier(double t) {
 }
 
 double segment_begin_rad(std::size_t segment) {
-  const double x = static_cast<double>(segment) / sky_tables::sun_segments;
+  const double x = static_cast<double>(segment) / SkyTables::sun_segments;
   return pi / 2 * x * x * x;
 }
 
 std::size_t segment_of(double elevation_rad) {
-  std::size_t low = 0, high = sky_tables::sun_segments;
+  std::size_t low = 0, high = SkyTables::sun_segments;
   while (low + 1 < high) {
     const std::size_t middle = (low + high) / 2;
     (elevation_rad < segment_begin_rad(middle) ? high : low) = middle;
@@ -99,8 +99,9 @@ SkyModel SkyModel::without_sun() const {
 }
 
 void SkyModel::set_clear(const SkyLight& light) {
+  const SkyTables& tables = sky_tables();
   const double elevation = pi / 2 - portable_acos(to_sun_.z);
-  const Between turbidity(static_cast<double>(light.turbidity) - 1, sky_tables::turbidities - 1);
+  const Between turbidity(static_cast<double>(light.turbidity) - 1, SkyTables::turbidities - 1);
   const auto weights = bezier(portable_pow(std::max(0.0, elevation) / (pi / 2), 1.0 / 3));
   // `value(turbidity, albedo, point)`
   const auto interpolated = [&](double albedo, auto&& value) {
@@ -118,10 +119,10 @@ void SkyModel::set_clear(const SkyLight& light) {
     const double albedo = std::clamp(evaluate(light.albedo, band_nm(b)), 0.0, 1.0);
     for (std::size_t i = 0; i < bands_[b].shape.size(); ++i)
       bands_[b].shape[i] = interpolated(albedo, [&](std::size_t t, std::size_t a, std::size_t point) {
-        return sky_tables::shape[t][a][point][b][i];
+        return tables.shape[t][a][point][b][i];
       });
     radiance_[b] = sky_scale_ * interpolated(albedo, [&](std::size_t t, std::size_t a, std::size_t point) {
-                     return sky_tables::radiance[t][a][point][b];
+                     return tables.radiance[t][a][point][b];
                    });
     horizon_[b] = static_cast<float>(bands_[b].shape[7]);
   }
@@ -146,22 +147,24 @@ void SkyModel::make_curves() {
 }
 
 void SkyModel::set_sun(const SkyLight& light) {
-  const Between turbidity(static_cast<double>(light.turbidity) - 1, sky_tables::turbidities - 1);
-  for (std::size_t s = 0; s < sky_tables::sun_segments; ++s)
+  const SkyTables& tables = sky_tables();
+  const Between turbidity(static_cast<double>(light.turbidity) - 1, SkyTables::turbidities - 1);
+  for (std::size_t s = 0; s < SkyTables::sun_segments; ++s)
     for (std::size_t b = 0; b < sky_bands; ++b)
-      for (std::size_t k = 0; k < sky_tables::sun_powers; ++k)
-        sun_.push_back(mix(static_cast<double>(sky_tables::sun[turbidity.low][s][b][k]),
-                           static_cast<double>(sky_tables::sun[turbidity.low + 1][s][b][k]), turbidity.part));
+      for (std::size_t k = 0; k < SkyTables::sun_powers; ++k)
+        sun_.push_back(mix(static_cast<double>(tables.sun[turbidity.low][s][b][k]),
+                           static_cast<double>(tables.sun[turbidity.low + 1][s][b][k]), turbidity.part));
+  for (const auto& band : tables.limb)
+    for (const float value : band) sun_.push_back(static_cast<double>(value));
   // Without limb darkening the disc has its mean, that of cosʲψ being 2/(j + 2), at its centre's elevation.
   SunDirection centre = sun_direction(to_sun_);
   for (std::size_t b = 0; b < sky_bands; ++b) {
     double mean = 0;
-    for (std::size_t j = 0; j < sky_tables::limb_powers; ++j)
-      mean += static_cast<double>(sky_tables::limb[b][j]) * 2 / static_cast<double>(j + 2);
+    for (std::size_t j = 0; j < SkyTables::limb_powers; ++j)
+      mean += static_cast<double>(tables.limb[b][j]) * 2 / static_cast<double>(j + 2);
     centre.cos_psi = 1;
     double full = 0;
-    for (std::size_t j = 0; j < sky_tables::limb_powers; ++j)
-      full += static_cast<double>(sky_tables::limb[b][j]);
+    for (std::size_t j = 0; j < SkyTables::limb_powers; ++j) full += static_cast<double>(tables.limb[b][j]);
     uniform_sun_[b] = sun(centre, b) * mean / full;
   }
 }
@@ -226,11 +229,12 @@ SkyModel::SunDirection SkyModel::sun_direction(Vector3d d) const {
 }
 
 double SkyModel::sun(const SunDirection& at, std::size_t band) const {
-  const double* c = &sun_[(at.segment * sky_bands + band) * sky_tables::sun_powers];
+  const double* c = &sun_[(at.segment * sky_bands + band) * SkyTables::sun_powers];
   const double x = at.above_rad, clear = c[0] + x * (c[1] + x * (c[2] + x * c[3]));
+  const double* limb =
+      &sun_[SkyTables::sun_segments * sky_bands * SkyTables::sun_powers + band * SkyTables::limb_powers];
   double dark = 0;
-  for (std::size_t j = sky_tables::limb_powers; j-- > 0;)
-    dark = dark * at.cos_psi + static_cast<double>(sky_tables::limb[band][j]);
+  for (std::size_t j = SkyTables::limb_powers; j-- > 0;) dark = dark * at.cos_psi + limb[j];
   return std::max(0.0, clear * dark * sun_scale_);
 }
 

@@ -94,7 +94,7 @@ class SkyModel {
   std::array<double, sky_bands> radiance_{};
   std::array<double, sky_bands> uniform_sun_{};  // radiance of a disc without limb darkening
   std::array<double, sky_bands> ground_{};
-  std::vector<double> sun_;  // [segment][band][power of the elevation]
+  std::vector<double> sun_;  // [segment][band][power of the elevation], then limb [band][power of cos ψ]
 };
 
 // Returns the bands' values as a spectrum.

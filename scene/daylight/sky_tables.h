@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// These tables are the data of the sky's model. scripts/generate_sky_tables.py writes them, and names the
-// source and licence.
+// The data of the sky's model: sky_tables.txt has the numbers and names their source and licence.
 #pragma once
 
-#include <array>
+namespace vitrail {
 
-namespace vitrail::sky_tables {
+struct SkyTables {
+  static constexpr int turbidities = 10, albedos = 2, control_points = 6, bands = 10, shapes = 9;
+  static constexpr int sun_segments = 45, sun_powers = 4, limb_powers = 6;
 
-inline constexpr int turbidities = 10, albedos = 2, control_points = 6, bands = 10, shapes = 9;
-inline constexpr int sun_segments = 45, sun_powers = 4, limb_powers = 6;
+  // Bézier points in the cube root of the sun's elevation over 90°.
+  float shape[turbidities][albedos][control_points][bands][shapes];
+  float radiance[turbidities][albedos][control_points][bands];
+  // Polynomials in the elevation above a segment's beginning, 90°·(segment/45)³, in rad.
+  float sun[turbidities][sun_segments][bands][sun_powers];
+  // Powers of the cosine of the angle between the line of sight and the sun's normal.
+  float limb[bands][limb_powers];
+};
 
-// These are Bézier points in the cube root of the sun's elevation over 90°.
-extern const float shape[turbidities][albedos][control_points][bands][shapes];
-extern const float radiance[turbidities][albedos][control_points][bands];
-// These are polynomials in the elevation above a segment's beginning, 90°·(segment/45)³, in rad.
-extern const float sun[turbidities][sun_segments][bands][sun_powers];
-// It holds coefficients of powers of the cosine of the angle between the line of sight and the sun's normal.
-extern const float limb[bands][limb_powers];
+// Returns the data, which the first call reads.
+const SkyTables& sky_tables();
 
-}  // namespace vitrail::sky_tables
+}  // namespace vitrail

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+// Indices of refraction eta + i·k of metals: metal_tables.txt has the numbers.
 #pragma once
 
-#include <array>
-#include <span>
-#include <string_view>
+#include <vector>
+
+#include "scene/system/number_tables.h"
 
 namespace vitrail {
 
-// It holds samples of the index of refraction eta + i·k: (wavelength in nm, value), ascending.
-struct MetalTable {
-  std::string_view name;  // "Au"; a crystal axis or a second source is part of it: "TiO2-e", "Cu_palik"
-  std::span<const std::array<float, 2>> eta, k;
-};
-
-std::span<const MetalTable> metal_tables();
+// Returns a table for each metal, in the order of their names: "Au"; a crystal axis or a second source is
+// part of a name: "TiO2-e", "Cu_palik". The columns are the wavelength in nm, ascending, eta and k. The first
+// call reads them.
+const std::vector<NumberTable<float>>& metal_tables();
 
 }  // namespace vitrail

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <span>
 
 #include "scene/spectra/color.h"
 #include "scene/spectra/illuminant_tables.h"
@@ -61,9 +60,11 @@ Spectrum tabulated(const IlluminantTable& table) {
   return scaled(s, 1 / luminance(s));
 }
 
-Spectrum tabulated(std::span<const std::array<float, 2>> table) {
+// A column beside the wavelengths.
+Spectrum tabulated(const NumberTable<float>& table, std::size_t column) {
   std::vector<SpectrumSample> samples;
-  for (const auto& [lambda, value] : table) samples.push_back({lambda, value});
+  for (std::size_t row = 0; row < table.values.size(); row += table.columns)
+    samples.push_back({table.values[row], table.values[row + column]});
   return tabulate(samples, true);
 }
 
@@ -76,9 +77,9 @@ std::optional<Spectrum> named_spectrum(const std::string& name) {
   for (const IlluminantTable& illuminant : illuminant_tables())
     if (name == illuminant.name) return tabulated(illuminant);
   if (const auto glass = glasses().find(name); glass != glasses().end()) return glass->second;
-  for (const MetalTable& metal : metal_tables()) {
-    if (name == fmt::format("metal-{}-eta", metal.name)) return tabulated(metal.eta);
-    if (name == fmt::format("metal-{}-k", metal.name)) return tabulated(metal.k);
+  for (const NumberTable<float>& metal : metal_tables()) {
+    if (name == fmt::format("metal-{}-eta", metal.name)) return tabulated(metal, 1);
+    if (name == fmt::format("metal-{}-k", metal.name)) return tabulated(metal, 2);
   }
   return std::nullopt;
 }
@@ -87,7 +88,7 @@ std::vector<std::string> spectrum_names() {
   std::vector<std::string> names{"stdillum-D65", "stdillum-A", "stdillum-E"};
   for (const IlluminantTable& illuminant : illuminant_tables()) names.emplace_back(illuminant.name);
   for (const auto& glass : glasses()) names.push_back(glass.first);
-  for (const MetalTable& metal : metal_tables())
+  for (const NumberTable<float>& metal : metal_tables())
     for (const char* part : {"eta", "k"}) names.push_back(fmt::format("metal-{}-{}", metal.name, part));
   std::sort(names.begin(), names.end());
   return names;

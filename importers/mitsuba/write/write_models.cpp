@@ -96,7 +96,7 @@ std::string named_metal(const ComplexIndex& metal) {
     const auto* named = spectrum ? std::get_if<NamedSpectrum>(spectrum) : nullptr;
     return named ? named->name : std::string();
   };
-  for (const MetalTable& table : metal_tables())
+  for (const NumberTable<float>& table : metal_tables())
     if (table.name != std::string_view("CuZn") &&
         name(metal.eta) == fmt::format("metal-{}-eta", table.name) &&
         name(metal.k) == fmt::format("metal-{}-k", table.name))

@@ -47,7 +47,8 @@ std::vector<fs::path> distributed_sources() {
       const fs::path relative = entry.path().lexically_relative(source_dir());
       const std::string extension = entry.path().extension().string();
       if (relative.string().starts_with("python/tests/")) continue;
-      if (extension == ".h" || extension == ".cpp" || extension == ".inl") files.push_back(relative);
+      if (extension == ".h" || extension == ".cpp" || extension == ".inl" || extension == ".txt")
+        files.push_back(relative);
     }
   files.emplace_back("cmake/precompiled.h");
   return files;
