@@ -155,11 +155,11 @@ class Observer02 {
 
 std::array<Appearance, 99> seen_in(const Power& power) {
   const double scale = 100 / luminance(power);
+  const auto observer_rows = cie_1964_5nm().subspan(4);  // from 380 nm
   const auto color_of = [&](auto reflectance) {
     Tristimulus xyz{};
     for (std::size_t i = 0; i < power.size(); ++i)
-      for (std::size_t c = 0; c < 3; ++c)
-        xyz[c] += scale * power[i] * reflectance(i) * cie_1964_5nm()[i + 4][c];
+      for (std::size_t c = 0; c < 3; ++c) xyz[c] += scale * power[i] * reflectance(i) * observer_rows[i][c];
     return xyz;
   };
   const Observer02 observer(color_of([](std::size_t) { return 1.0; }));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
 #include "glazing/standard.h"
 #include "glazing/standard_tables.h"
 
@@ -13,9 +15,8 @@ std::vector<double> wavelengths_in(const WeightTable& table, double last_nm) {
   return nm;
 }
 
-Method weighted(const char* name, std::span<const std::pair<double, double>> table, IntegrationRule rule,
-                double last_nm) {
-  Method method{.name = name, .source = {table.begin(), table.end()}, .rule = rule};
+Method weighted(const char* name, WeightTable table, IntegrationRule rule, double last_nm) {
+  Method method{.name = name, .source = std::move(table), .rule = rule};
   method.wavelengths_nm = wavelengths_in(method.source, last_nm);
   return method;
 }

@@ -28,7 +28,7 @@ WeightTable observer_1964(std::size_t component) {
 }
 
 Standard make_nfrc_2003() {
-  const WeightTable sun(astm_e891().begin(), astm_e891().end());
+  const WeightTable sun = astm_e891();
   const WeightTable d65 =
       every_5nm(300, cie_d65_5nm().size(), [](std::size_t i) { return cie_d65_5nm()[i]; });
   const WeightTable y_1931 =

@@ -44,7 +44,7 @@ struct Standard {
 const Method* find_method(const Standard& standard, const std::string& name);
 
 // Returns NFRC 300-2003 as WINDOW has it: the sun of ASTM E891-87, D65, the CIE observers of 1931 (light) and
-// 1964 (colour). Its numbers are in standard_tables.cpp with their sources.
+// 1964 (colour). Its numbers are in standard_tables.txt with their sources.
 const Standard& nfrc_2003();
 
 // They return sun (SOLAR), ultraviolet (TUV) and light (PHOTOPIC) of Europe's standards. EN 410 has table 2

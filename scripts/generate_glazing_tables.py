@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes glazing/standard_tables.cpp: the weights of NFRC 300-2003, EN 410 and ISO 9050, and CIE 13.3's colours.
+"""Writes glazing/standard_tables.txt: the weights of NFRC 300-2003, EN 410 and ISO 9050, CIE 13.3's colours, daylight.
 
     pip install colour-science==0.4.7 pywincalc==3.3.1
-    python3 scripts/generate_glazing_tables.py > glazing/standard_tables.cpp
-    python3 scripts/generate_glazing_tables.py fidelity > glazing/color_fidelity_tables.cpp  # of TM-30
+    python3 scripts/generate_glazing_tables.py > glazing/standard_tables.txt
+    python3 scripts/generate_glazing_tables.py fidelity > glazing/color_fidelity_tables.txt  # of TM-30
 
 ASTM E891-87, Table 1, direct normal irradiance at air mass 1.5 (W/(m2 um)), is withdrawn and in no library of colour; LBNL's
 pywincalc has it with the standard that names it, and CIE D65 at 1 nm. The CIE 1964 observer is colour-science's, and so is
@@ -14,7 +14,6 @@ ISO 9050:1990 and of ISO 9845-1. colour-science has the reflectances of CIE 13.3
 """
 import importlib.metadata
 import sys
-import textwrap
 import warnings
 
 warnings.filterwarnings("ignore")
@@ -32,89 +31,41 @@ def spectrum(name):
             yield float(numbers[0]), float(numbers[1])
 
 
-def wrapped(items):
-    return textwrap.fill(", ".join(items), 108, initial_indent="    ", subsequent_indent="    ",
-                         break_long_words=False, break_on_hyphens=False) + ",\n"
+def write(name, rows, comment, digits=6):
+    print(f"\n# {comment}\n[{name}]")
+    for row in rows:
+        print(" ".join(f"{value:.{digits}g}" for value in row))
 
 
-def pair(a, b):
-    return f"{{{a:g},\N{NO-BREAK SPACE}{b:g}}}"
+def rows_of(spectrum, first_nm, last_nm):
+    """Each 5 nm, of one spectrum or of several."""
+    return [np.atleast_1d(spectrum[float(nm)]) for nm in range(first_nm, last_nm + 1, 5)]
 
 
-def write_fidelity():
-    samples = load_TCS_CIE2017(colour.SpectralShape(380, 780, 5))
-    basis = colour.colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES
-    print("""// SPDX-License-Identifier: Apache-2.0
-// By scripts/generate_glazing_tables.py, which names the sources.
-// clang-format off
-#include "glazing/color_fidelity_tables.h"
-
-namespace vitrail {
-
-namespace {
-
-constexpr std::array<double, 3> daylight_5nm[] = {""")
-    for nm in range(380, 781, 5):
-        print("    {" + ", ".join(f"{basis[s][float(nm)]:g}" for s in ("S0", "S1", "S2")) + "},")
-    print("};\n\nconstexpr std::array<float, 99> samples_5nm[] = {")
-    for nm in range(380, 781, 5):
-        print("    {" + wrapped([f"{value:.4g}F" if value else "0" for value in samples[float(nm)]]).strip() + "},")
-    print("""};
-
-}  // namespace
-
-std::span<const std::array<double, 3>> cie_daylight_5nm() { return daylight_5nm; }
-std::span<const std::array<float, 99>> cie_224_samples_5nm() { return samples_5nm; }
-
-}  // namespace vitrail""")
-
-
+print("# SPDX-" "License-Identifier: Apache-2.0 AND BSD-3-Clause")
+print("# Written by scripts/generate_glazing_tables.py, which names the sources: change that, not this.")
 if sys.argv[1:] == ["fidelity"]:
-    write_fidelity()
+    samples = load_TCS_CIE2017(colour.SpectralShape(380, 780, 5))
+    write("samples", rows_of(samples, 380, 780),
+          "Reflectances of the 99 colour evaluation samples of CIE 224:2017, each 5 nm from 380 to 780 nm.", digits=4)
     sys.exit()
 
 d65 = dict(spectrum("CIE Illuminant D65 1nm.ssp"))
 known = colour.SDS_ILLUMINANTS["D65"]
 assert np.allclose(known.values, [d65[nm] for nm in known.wavelengths], rtol=1e-5)
-observer = colour.MSDS_CMFS["CIE 1964 10 Degree Standard Observer"]
-print("""// SPDX-" "License-Identifier: Apache-2.0
-// By scripts/generate_glazing_tables.py, which names the sources.
-// clang-format off
-#include "glazing/standard_tables.h"
-
-namespace vitrail {
-
-namespace {
-
-constexpr std::pair<double, double> e891[] = {""")
-print(wrapped([pair(round(1000 * um, 4), value) for um, value in spectrum("ASTM E891 Table 1 Direct AM1_5.ssp")]).replace("\N{NO-BREAK SPACE}", " "), end="")
-print("};\n\nconstexpr double d65[] = {")
-print(wrapped([f"{d65[float(nm)]:g}" for nm in range(300, 831, 5)]), end="")
-print("};\n\nconstexpr std::array<double, 3> observer_1964_5nm[] = {")
-for nm in range(360, 831, 5):
-    print("    {" + ", ".join(f"{value:g}" for value in observer[float(nm)]) + "},")
-for array, file, to_nm in [("en_410_sun", "prEN 410 Table 2 AM1_0.ssp", 1),
-                           ("iso_9050_1990_sun", "ISO 9050 Table 3.ssp", 1),
-                           ("iso_9050_1990_uv", "ISO 9050 Table 4.ssp", 1),
-                           ("iso_9845_sun", "ISO 9845 Table 1 Raw Global AM1_5.ssp", 1000)]:
-    print(f"}};\n\nconstexpr std::pair<double, double> {array}[] = {{")
-    print(wrapped([pair(round(to_nm * at, 4), value) for at, value in spectrum(file)]).replace("\N{NO-BREAK SPACE}", " "),
-          end="")
-print("};\n\nconstexpr std::array<double, 8> test_colors_5nm[] = {")
+basis = colour.colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES
 patches = [SDS_TCS["CIE 1995"][f"TCS{number:02}"] for number in range(1, 9)]
-for nm in range(380, 781, 5):
-    print("    {" + ", ".join(f"{patch[float(nm)]:g}" for patch in patches) + "},")
-print("""};
-
-}  // namespace
-
-std::span<const std::pair<double, double>> en_410_solar() { return en_410_sun; }
-std::span<const std::pair<double, double>> iso_9050_1990_solar() { return iso_9050_1990_sun; }
-std::span<const std::pair<double, double>> iso_9050_1990_ultraviolet() { return iso_9050_1990_uv; }
-std::span<const std::pair<double, double>> iso_9845_global() { return iso_9845_sun; }
-std::span<const std::array<double, 8>> cie_test_colors_5nm() { return test_colors_5nm; }
-std::span<const std::pair<double, double>> astm_e891() { return e891; }
-std::span<const double> cie_d65_5nm() { return d65; }
-std::span<const std::array<double, 3>> cie_1964_5nm() { return observer_1964_5nm; }
-
-}  // namespace vitrail""")
+for name, file, to_nm in [("astm-e891", "ASTM E891 Table 1 Direct AM1_5.ssp", 1000),
+                          ("en-410", "prEN 410 Table 2 AM1_0.ssp", 1),
+                          ("iso-9050-1990", "ISO 9050 Table 3.ssp", 1),
+                          ("iso-9050-1990-uv", "ISO 9050 Table 4.ssp", 1),
+                          ("iso-9845", "ISO 9845 Table 1 Raw Global AM1_5.ssp", 1000)]:
+    write(name, [(round(to_nm * at, 4), value) for at, value in spectrum(file)],
+          f"{file.removesuffix('.ssp')}: wavelength in nm, weight.")
+write("d65", rows_of(d65, 300, 830), "CIE D65 each 5 nm from 300 to 830 nm.")
+write("cie-1964", rows_of(colour.MSDS_CMFS["CIE 1964 10 Degree Standard Observer"], 360, 830),
+      "The CIE 1964 observer each 5 nm from 360 to 830 nm.")
+write("cie-13.3", zip(*([patch[float(nm)] for nm in range(380, 781, 5)] for patch in patches)),
+      "Reflectances of CIE 13.3's test colours 1 to 8 each 5 nm from 380 to 780 nm.")
+write("cie-daylight", zip(*([basis[s][float(nm)] for nm in range(380, 781, 5)] for s in ("S0", "S1", "S2"))),
+      "The components S0, S1, S2 of daylight each 5 nm from 380 to 780 nm.")

@@ -283,6 +283,14 @@ TEST(ThirdParty, EveryTableOfNumbersIsNamed) {
     EXPECT_THAT(page, HasSubstr("`scripts/" + name + "`"));
   }
   EXPECT_GT(seen, 5);
+  int texts = 0;
+  for (const fs::path& file : distributed_sources()) {
+    if (file.extension() != ".txt" || file.filename() == "CMakeLists.txt") continue;
+    ++texts;
+    EXPECT_THAT(page, HasSubstr("`" + file.string() + "`"));
+    EXPECT_TRUE(text_of(project_file(file.string())).starts_with("# " + tag)) << file;
+  }
+  EXPECT_GT(texts, 3);
 }
 
 // As https://reuse.software asks: LICENSES/ has the text of each licence that a file of the source names.
