@@ -44,8 +44,8 @@ illuminant = (illuminant * cmf[:, 1].astype(float).sum() / (illuminant * cmf[:, 
 triples = ["{" + ", ".join(f"{x:.9e}f" for x in row) + "}" for row in cmf]
 singles = [f"{x:.9g}f" if "." in f"{x:.9g}" else f"{x:.9g}.f" for x in illuminant]
 
-print(f"""// SPDX-" "License-Identifier: Apache-2.0
-// Written by scripts/generate_cie_tables.py: change that, not this.
+print("// SPDX-" "License-Identifier: Apache-2.0")
+print(f"""// Written by scripts/generate_cie_tables.py: change that, not this.
 // Source: PyPI package colour-science {colour.__version__}, data sets MSDS_CMFS["{OBSERVER}"],
 // SDS_ILLUMINANTS["D65"] (to 780 nm) and SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES (beyond).
 // clang-format off

@@ -10,8 +10,8 @@ import warnings
 warnings.filterwarnings("ignore")
 import colour
 
-print("""// SPDX-" "License-Identifier: Apache-2.0
-// By scripts/generate_color_checker.py from colour-science's table of Ohta (1997).
+print("// SPDX-" "License-Identifier: Apache-2.0")
+print("""// By scripts/generate_color_checker.py from colour-science's table of Ohta (1997).
 // clang-format off
 #include "cli/spectrum/color_checker.h"
 

@@ -43,8 +43,8 @@ def fluorescent(number):
 tables = [("stdillum-D50", *daylight(5000, "D50")), ("illum-acesD60", *daylight(6000, "D60"))]
 tables += [(f"stdillum-F{n}", *fluorescent(n)) for n in range(1, 13)]
 
-print(f"""// SPDX-" "License-Identifier: Apache-2.0
-// Written by scripts/generate_illuminant_tables.py: change that, not this.
+print("// SPDX-" "License-Identifier: Apache-2.0")
+print(f"""// Written by scripts/generate_illuminant_tables.py: change that, not this.
 // Source: PyPI package colour-science {colour.__version__}, data sets SDS_ILLUMINANTS and
 // SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES.
 // clang-format off

@@ -9,7 +9,7 @@ from colour.recovery.datasets.mallett2019 import DATA_BASIS_FUNCTIONS_sRGB_MALLE
 
 
 def main() -> None:
-    out = pathlib.Path(__file__).parent.parent / "scene" / "srgb_basis_table.cpp"
+    out = pathlib.Path(__file__).parent.parent / "scene" / "spectra" / "srgb_basis_table.cpp"
     text = '''// SPDX-License-Identifier: Apache-2.0
 // Written by scripts/generate_srgb_basis.py.
 #include "scene/spectra/srgb_basis.h"
