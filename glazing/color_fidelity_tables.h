@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colours of TM-30: color_fidelity_tables.txt has the numbers. Inside.
+// The colours of TM-30 are read here: color_fidelity_tables.txt has the numbers. Glazing alone uses them.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The data of the sky's model: sky_tables.txt has the numbers and names their source and licence.
+// The data of the sky model are read here: sky_tables.txt has the numbers and names their source and licence.
 #pragma once
 
 namespace vitrail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Indices of refraction eta + i·k of metals: metal_tables.txt has the numbers.
+// The indices of refraction eta + i·k of metals are read here: metal_tables.txt has the numbers.
 #pragma once
 
 #include <vector>
