@@ -43,10 +43,12 @@ double Settling::left_s(const RoundSums& sums, const Moment& moment) const {
   return std::min(by_samples_s, moment.until_limit_s);
 }
 
-// A profile is of a whole pass at least: tiles of a picture differ.
+// A job whose first samples are quick may turn out to be long later. A profile is of a whole pass at least:
+// tiles of a picture differ.
 void Settling::watch(const RoundSums& sums, const Moment& moment) {
-  if (stage_ == Stage::waits && moment.now_s >= wait_s_) {
-    stage_ = left_s(sums, moment) >= worth_profiling_s_ ? Stage::profiles : Stage::over;
+  if (stage_ == Stage::waits) {
+    if (moment.now_s < wait_s_ || left_s(sums, moment) < worth_profiling_s_) return;
+    stage_ = Stage::profiles;
     since_s_ = moment.now_s;
     ended_then_ = ended(sums);
     items_then_ = sums.items_done;

@@ -282,5 +282,27 @@ TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForVolumes) {
   expect_right_budgets("a.pbrt", {12, 16, 20, 64});
 }
 
+// What a job has bounds the reading too: beyond it the system would kill the render. A user's own number does
+// not, so that the one that is enough can be named.
+TEST_F(TooLittleMemory, OfAJobEndsTheReadingOfTheScene) {
+  std::string scene = head;
+  for (int i = 0; i < 60'000; ++i)
+    scene += fmt::format(
+        "MakeNamedMaterial \"m{}\" \"string type\" \"diffuse\" \"rgb reflectance\" [.{:05} .5 .5]\n"
+        "NamedMaterial \"m{}\" Shape \"sphere\" \"float radius\" .01\n",
+        i, i, i);
+  write("a.pbrt", scene);
+  ASSERT_EQ(partition("a.pbrt", "--aov crypto_material").status, 0);
+  const std::string render = fmt::format("{} '{}' -o '{}' --aov crypto_material --spp 1 --quiet",
+                                         vitrail("render"), path("out.vit"), path("out.film"));
+  const CommandResult job = run("SLURM_JOB_ID=7 SLURM_MEM_PER_NODE=32 " + render);
+  EXPECT_EQ(job.status, 4) << job.output;
+  EXPECT_THAT(job.output, HasSubstr("are too little for reading the scene"));
+  EXPECT_TRUE(named_budget(job.output)) << job.output;
+  const CommandResult own = run(render + " --memory 32M");
+  EXPECT_EQ(own.status, 4) << own.output;
+  EXPECT_THAT(own.output, HasSubstr("--memory 32M is too little. Give at least"));
+}
+
 }  // namespace
 }  // namespace vitrail::test::too_little_memory_test

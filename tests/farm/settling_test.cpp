@@ -72,6 +72,15 @@ TEST(Settling, AJobThatEndsSoonNeverPauses) {
   EXPECT_FALSE(job.settling.profiles());
 }
 
+// The sky is seen at once; what is behind the first bounces takes its time.
+TEST(Settling, AJobThatTurnsOutToBeLongRecords) {
+  Job job(true);
+  for (int s = 0; s < 5; ++s) job.second(1'000, 20'000);
+  EXPECT_FALSE(job.settling.profiles()) << "20 s are left";
+  for (int s = 0; s < 20; ++s) job.second(10, 20'000);
+  EXPECT_TRUE(job.settling.profiles());
+}
+
 // Millions of rays are born at once; that they wait is no progress.
 TEST(Settling, RaysThatWaitAreNotDone) {
   Job job(true);

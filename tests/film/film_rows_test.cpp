@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "film/develop.h"
+#include "film/picture_extent.h"
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
@@ -116,8 +117,10 @@ TEST_F(RowsOfAFilm, MakeThePictureOfTheFilm) {
             share_without_matte(survey_of(film), Layer::crypto_object));
   EXPECT_GT(share_without_matte(whole, Layer::crypto_object), 0);
   const Picture all = develop(film);
+  Picture joined;
   for (int y = 0; y < rows.height(); ++y) {
     const Picture row = develop(rows.rows(y, y + 1), whole);
+    append_rows(joined, row, rows.height());
     ASSERT_EQ(row.layers.size(), all.layers.size());
     const auto expect_part = [&](const auto& part, const auto& of) {
       const auto first = of.begin() + static_cast<std::ptrdiff_t>(part.size()) * y;
@@ -135,6 +138,20 @@ TEST_F(RowsOfAFilm, MakeThePictureOfTheFilm) {
     EXPECT_EQ(row.shared_error, all.shared_error);
     EXPECT_EQ(row.origin.film_hash, all.origin.film_hash);
     EXPECT_EQ(row.origin.least_samples, all.origin.least_samples);
+  }
+  for (const Picture& picture : {joined, develop(rows)}) {
+    for (const auto image : {&Picture::rgb, &Picture::variance, &Picture::spectrum}) {
+      EXPECT_EQ((picture.*image).values, (all.*image).values);
+      EXPECT_EQ((picture.*image).height, (all.*image).height);
+    }
+    ASSERT_EQ(picture.layers.size(), all.layers.size());
+    for (std::size_t i = 0; i < all.layers.size(); ++i) {
+      EXPECT_EQ(picture.layers[i].ids, all.layers[i].ids);
+      EXPECT_EQ(picture.layers[i].values.size(), all.layers[i].values.size());
+    }
+    EXPECT_EQ(picture.window, all.window);
+    EXPECT_EQ(picture.mattes.size(), all.mattes.size());
+    EXPECT_EQ(picture.origin.film_hash, all.origin.film_hash);
   }
   const Picture colours = develop_colors(rows);
   EXPECT_EQ(colours.rgb.values, all.rgb.values);
