@@ -31,7 +31,8 @@ TEST(HeaderComments, OpenWithASubjectOrAVerb) {
   int blocks = 0;
   for (const char* folder : {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film",
                              "denoise", "tracer", "farm", "compare", "measure", "cli", "python"})
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_dir() / folder)) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(std::filesystem::path(test::source_dir()) / folder)) {
       if (entry.path().extension() != ".h") continue;
       std::ifstream in(entry.path());
       bool within = false;
