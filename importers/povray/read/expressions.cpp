@@ -274,8 +274,10 @@ Numbers Reader::color_of_terms(Word word) {
   }
   // A scene whose numbers are the screen's takes these as they are.
   if (const auto exponent = gamma(); encoded && exponent)
-    for (std::size_t i = 0; i < 3; ++i)
-      given.v[i] = std::pow(srgb_decode(std::clamp(given.v[i], 0.0, 1.0)), 1 / *exponent);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double light = srgb_decode(given.v[i]);  // above 1 by the same curve
+      given.v[i] = std::copysign(std::pow(std::abs(light), 1 / *exponent), light);
+    }
   given.terms = 5, given.is_color = true;
   return given;
 }

@@ -268,7 +268,7 @@ void FormulaMaker::pigment(const Pigment& g, std::uint8_t component, Slot point)
   }
   if (!is_invertible(place)) return refuse();
   const Slot p = place == Transform{} ? point : moved(inverse(place), point);
-  const std::vector<BlendEntry> entries = g.map ? g.map->entries : default_entries(g.pattern.kind);
+  const std::vector<BlendEntry> entries = g.map ? g.map->entries : default_entries(g.pattern);
   if (entries.empty()) return refuse();
   if (g.pattern.kind == Word::average_) {
     average(entries, component, p);

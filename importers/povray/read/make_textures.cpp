@@ -244,8 +244,8 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
     return image_texture(*pattern.image, pattern, to_world, part, by_uv, factor, pigment.place);
   if (pattern.kind == Word::average_ && pigment.map)
     return average_texture(pigment, to_world, part, factor, by_uv);
-  if (const auto both = as_pattern_of_pigment(
-          pattern, pigment.map ? pigment.map->entries : default_entries(pattern.kind))) {
+  if (const auto both =
+          as_pattern_of_pigment(pattern, pigment.map ? pigment.map->entries : default_entries(pattern))) {
     note_modifiers(pattern, pigment.place);
     return color_texture(*both, to_world * both->to_object, part, factor, by_uv);
   }
@@ -253,7 +253,7 @@ SpectrumParameter Surfaces::color_texture(const Pigment& pigment, const Transfor
   if (!made && pattern.kind == Word::function_)
     return spectrum_of(PatternField(reader_, pigment).mean(), part, factor);
   if (!made) return spectrum_of(pigment.quick_color.value_or(mean_color(pigment)), part, factor);
-  std::vector<BlendEntry> entries = pigment.map ? pigment.map->entries : default_entries(pattern.kind);
+  std::vector<BlendEntry> entries = pigment.map ? pigment.map->entries : default_entries(pattern);
   if (const std::size_t places = places_of_formula(*made, pattern.kind)) {
     std::vector<SpectrumParameter> values;
     for (const BlendEntry& entry : entries)

@@ -64,7 +64,7 @@ PatternField::PatternField(Reader& reader, const Pigment& pigment) : pattern_(pi
   if (!recorded_ && !has_values(pattern_.kind) && pattern_.kind != Word::image_map_)
     reader.notes.approximated(fmt::format("this pattern ({}) in a formula: ½", name_of(pattern_.kind)),
                               place);
-  for (const BlendEntry& given : pigment.map ? pigment.map->entries : default_entries(pattern_.kind)) {
+  for (const BlendEntry& given : pigment.map ? pigment.map->entries : default_entries(pattern_)) {
     Entry entry{given.at, given.color, nullptr};
     if (given.pigment) entry.pigment = std::make_shared<PatternField>(reader, *given.pigment);
     entries_.push_back(std::move(entry));

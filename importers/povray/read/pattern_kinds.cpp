@@ -112,14 +112,19 @@ bool is_turbulent_by_itself(PatternTexture::Kind kind) {
   return kind == Kind::agate || kind == Kind::marble || kind == Kind::wood || kind == Kind::spiral1;
 }
 
-std::vector<BlendEntry> default_entries(Word pattern) {
-  const auto entry = [](double at, double r, double g, double b) {
-    BlendEntry e;
-    e.at = at;
-    e.color = Finish::grey(0);
-    e.color.v = {r, g, b, 0, 0};
-    return e;
-  };
+namespace {
+
+BlendEntry entry(double at, double r, double g, double b) {
+  BlendEntry e;
+  e.at = at;
+  e.color = Finish::grey(0);
+  e.color.v = {r, g, b, 0, 0};
+  return e;
+}
+
+}  // namespace
+
+std::vector<BlendEntry> list_entries(Word pattern) {
   switch (pattern) {
     case Word::checker_:
     case Word::object_:
@@ -135,7 +140,33 @@ std::vector<BlendEntry> default_entries(Word pattern) {
     case Word::hexagon_:
       return {entry(0, 0, 0, 1), entry(0, 0, 1, 0), entry(0, 1, 0, 0)};
     default:
-      return {entry(0, 0, 0, 0), entry(1, 1, 1, 1)};
+      return {};
+  }
+}
+
+std::vector<BlendEntry> default_entries(const Pattern& pattern) {
+  const std::vector<BlendEntry> black_to_white{entry(0, 0, 0, 0), entry(1, 1, 1, 1)};
+  switch (pattern.kind) {
+    case Word::agate_:
+      return {entry(0, 1, 1, 1),         entry(0.5, 0.95, 0.75, 0.5), entry(0.5, 0.9, 0.7, 0.5),
+              entry(0.6, 0.9, 0.7, 0.4), entry(0.6, 1, 0.7, 0.4),     entry(1, 0.6, 0.3, 0)};
+    case Word::bozo_:
+      return {entry(0.4, 1, 1, 1), entry(0.4, 0, 1, 0), entry(0.6, 0, 1, 0),
+              entry(0.6, 0, 0, 1), entry(0.8, 0, 0, 1), entry(0.8, 1, 0, 0)};
+    case Word::marble_:
+      return {entry(0, 0.9, 0.8, 0.8), entry(0.9, 0.9, 0.08, 0.08), entry(0.9, 0, 0, 0)};
+    case Word::radial_:
+      return {entry(0, 0, 1, 1), entry(0.333, 1, 1, 0), entry(0.666, 1, 0, 1), entry(1, 0, 1, 1)};
+    case Word::mandel_:
+      if (pattern.fractal != PatternFractal{}) return black_to_white;
+      return {entry(0.001, 0, 0, 0), entry(0.001, 0, 1, 1), entry(0.012, 1, 1, 0), entry(0.015, 1, 0, 1),
+              entry(0.1, 0, 1, 1)};
+    case Word::wood_:
+      return {entry(0.6, 0.666, 0.312, 0.2), entry(0.6, 0.4, 0.133, 0.066)};
+    default: {
+      const std::vector<BlendEntry> list = list_entries(pattern.kind);
+      return list.empty() ? black_to_white : list;
+    }
   }
 }
 

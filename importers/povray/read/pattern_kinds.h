@@ -18,7 +18,10 @@ PatternTexture record_of(const Pattern& pattern);
 PatternTexture::Wave wave_of(Word wave, Word pattern);
 // Returns whether `turbulence` does something else to the kind than a warp of turbulence.
 bool is_turbulent_by_itself(PatternTexture::Kind kind);
-// Returns the colours of a pattern that is given none.
-std::vector<BlendEntry> default_entries(Word pattern);
+// Returns povray 3.7's own colours of a pattern that is given no map. `spotted` has other ones than `bozo`,
+// and `mandel` its own with the exponent 2 alone.
+std::vector<BlendEntry> default_entries(const Pattern& pattern);
+// Returns those of a pattern that is a list of colours, as `checker`.
+std::vector<BlendEntry> list_entries(Word pattern);
 
 }  // namespace vitrail::pov

@@ -94,7 +94,7 @@ BlendEntry missing_entry(const Reader& reader, Word pattern, Word kind, std::siz
   BlendEntry entry;
   const Shared<Texture>& texture = reader.defaults.texture;
   if (kind == Word::color_map_)
-    entry = default_entries(pattern).at(index);
+    entry = list_entries(pattern).at(index);
   else if (kind == Word::texture_map_)
     entry.texture = texture ? texture : std::make_shared<Texture>();
   else if (kind == Word::normal_map_)

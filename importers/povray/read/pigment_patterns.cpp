@@ -71,8 +71,7 @@ std::optional<Pigment> colored_by(const Pigment& inner, const std::vector<BlendE
     return result;
   }
   const auto kind = pattern_kind(inner.pattern.kind);
-  const std::vector<BlendEntry> entries =
-      inner.map ? inner.map->entries : default_entries(inner.pattern.kind);
+  const std::vector<BlendEntry> entries = inner.map ? inner.map->entries : default_entries(inner.pattern);
   if (!kind || entries.empty() || std::ranges::any_of(entries, has_pigment)) return std::nullopt;
   constexpr std::size_t most_crossings = 1 << 20;
   if (outer.size() > most_crossings / (entries.size() * static_cast<std::size_t>(pieces)))

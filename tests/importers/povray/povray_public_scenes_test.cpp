@@ -196,5 +196,28 @@ TEST_F(PovrayPublicScenes, PhotonsWithoutTargets) {
                  0.03);
 }
 
+// A pattern without a map shows colours of its own.
+TEST_F(PovrayPublicScenes, PatternsWithoutAMap) {
+  for (const char* pattern :
+       {"agate", "bozo", "spotted", "marble turbulence .3", "wood", "radial", "mandel 25 scale .8",
+        "mandel 25 exponent 3 scale .8", "granite", "pigment_pattern { bozo }",
+        "pigment_pattern { wood } color_map { [0 rgb 0] [1 rgb <1, .6, .2>] }"})
+    expect_alike("#version 3.7; global_settings { assumed_gamma 1 }\n" + flat_camera +
+                     "plane { z, 0 pigment { " + pattern +
+                     " translate .01*z } finish { ambient 1 diffuse 0 } }\n",
+                 0.03, 64);
+}
+
+// Beyond 1 colours that are encoded go on by the same curve.
+TEST_F(PovrayPublicScenes, EncodedColoursAboveOne) {
+  for (const char* gamma : {"1", "2.2", "srgb"})
+    for (const char* lamp : {"srgb 1.2", "srgb <1.6, 1, 1.3>", "rgb 1.2"})
+      expect_alike("#version 3.7; global_settings { assumed_gamma " + std::string(gamma) + " }\n" +
+                       flat_camera + "light_source { <0, 0, -1000> color " + lamp +
+                       " parallel point_at 0 }\n"
+                       "plane { z, 0 pigment { rgb .3 } finish { ambient 0 diffuse 1 } }\n",
+                   0.01);
+}
+
 }  // namespace
 }  // namespace vitrail::povray_public_scenes_test
