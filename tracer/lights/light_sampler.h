@@ -43,6 +43,7 @@ struct LightScene {
   std::span<const Texture> texture_records;  // of `textures`: for the shape of a projected image
   Bounds3f bounds;                           // of the scene
   bool refracts = false;                     // some smooth surface of it does
+  bool bands = false;                        // its colours are spectra of bands (scene/spectra/rgb_bands.h)
 };
 
 // It is a point of an emissive triangle or quadric with what its textures read.
@@ -66,8 +67,9 @@ struct Glow {
 };
 
 // One choice is the tree over all triangles, quadrics and point-like lights; every distant light and every
-// environment image is one more. Each has a share: half of them equal, half by power. Constant infinite
-// lights are left to the BSDF's own samples, which find them with weight 1.
+// environment image is one more. Each has a share: half of them equal, half by power. Power is luminous; of a
+// scene in bands it is the mean of the three for lamps without a surface, or blue ones were hardly chosen.
+// Constant infinite lights are left to the BSDF's own samples, which find them with weight 1.
 struct LightSampler {
   LightScene scene;
   LightNumbers numbers;  // of all its lights

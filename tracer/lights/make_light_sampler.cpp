@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scene/geometry/portable_math.h"
+#include "scene/spectra/rgb_bands.h"
 #include "tracer/lights/baked_light_image.h"
 #include "tracer/lights/light_sampler.h"
 #include "tracer/lights/surface_lights.h"
@@ -54,6 +55,14 @@ bool is_point_like(const Light& light) {
          std::holds_alternative<GoniometricLight>(light.model);
 }
 
+// The mean of the three numbers of a colour in bands.
+double mean_of_bands(const Spectrum& spectrum) {
+  double sum = 0;
+  for (const int lambda_nm : {blue_ends_nm - 20, green_begins_nm + 60, red_begins_nm + 20})
+    sum += evaluate(spectrum, lambda_nm);
+  return sum / 3;
+}
+
 // Sorts the lights by how they are chosen.
 struct Sorter {
   LightSampler& s;
@@ -91,7 +100,8 @@ struct Sorter {
 
  private:
   void add(LightSampler::Distant d) {
-    const double power = luminance(d.irradiance) * cross_section;
+    const double power =
+        (s.scene.bands ? mean_of_bands(d.irradiance) : luminance(d.irradiance)) * cross_section;
     if (!(power > 0) || !(length(d.direction) > 0.5)) return;
     if (d.sun) s.suns.push_back(static_cast<std::uint32_t>(s.distant.size()));
     s.distant.push_back(std::move(d));
@@ -105,6 +115,7 @@ struct Sorter {
   }
   void add(PointEmitter e) {
     s.fades = s.fades || e.fading;
+    if (s.scene.bands && e.flux > 0) e.flux *= mean_of_bands(*e.intensity) / luminance(*e.intensity);
     e.light = light;
     e.casts_shadows = s.scene.lights[light].casts_shadows;
     s.emitters.push_back(std::move(e));

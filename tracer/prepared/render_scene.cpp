@@ -48,7 +48,8 @@ LightScene light_scene(const Manifest& m, const Textures& textures) {
           .textures = &textures,
           .texture_records = m.textures,
           .bounds = core_of(m),
-          .refracts = m.requirements.refraction};
+          .refracts = m.requirements.refraction,
+          .bands = m.settings.rgb == RgbMethod::bands};
 }
 
 }  // namespace

@@ -219,5 +219,14 @@ TEST_F(PovrayPublicScenes, EncodedColoursAboveOne) {
                    0.01);
 }
 
+// Blue lamps are chosen as often as green ones, though their luminance is a twentieth: else their noise is 2
+// %.
+TEST_F(PovrayPublicScenes, LampsOfAllColoursHaveTheirShareOfSamples) {
+  expect_alike("#version 3.7; global_settings { assumed_gamma 1 }\n" + flat_camera +
+                   "light_source { <-2, 3, -9> rgb <0, 0, 1> } light_source { <2, 3, -9> rgb <0, 1, 0> }\n"
+                   "plane { z, 0 pigment { rgb .6 } finish { ambient 0 diffuse 1 } }\n",
+               0.015, 128);
+}
+
 }  // namespace
 }  // namespace vitrail::povray_public_scenes_test
