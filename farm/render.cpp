@@ -21,6 +21,7 @@
 #include "farm/run/workers.h"
 #include "farm/transport/agreement.h"
 #include "farm/transport/doing.h"
+#include "scene/system/memory_guard.h"
 #include "scene/system/resource_usage.h"
 #include "scene/system/say.h"
 #include "scene/system/within_memory.h"
@@ -36,10 +37,14 @@ bool has_light(const Manifest& m) {
 
 // Only what is read tells how much memory the job needs. What would be killed before ends with a message.
 Job set_up_within(const RenderOptions& options, const Place& place) {
-  const JobResources& has = options.resources;
-  if (!has.memory_is_jobs) return set_up(options, place);
+  const std::uint64_t bytes = options.resources.job_bytes;
+  if (bytes == 0) return set_up(options, place);
   Job job;
-  within_memory(has.memory_bytes, {"reading the scene"}, [&] { return job = set_up(options, place), 0; });
+  try {
+    within_memory(bytes, {"reading the scene"}, [&] { return job = set_up(options, place), 0; });
+  } catch (const MemoryNeeded& e) {
+    throw MachineError(fmt::format("{}, and give the job more than that", e.what()));
+  }
   return job;
 }
 
@@ -61,7 +66,11 @@ RenderStats run(Transport& transport, const RenderOptions& options, Job& job, Ra
     if (is_root) print_start(options, manifest, job.plan.goal, transport.size(), job.plan.threads);
     const auto work = [&] {
       std::optional<Workers> workers;
-      agree(transport, [&] { workers.emplace(state, job.plan.threads); });
+      try {
+        workers.emplace(state, job.plan.threads);
+      } catch (...) {
+        fail(state, std::current_exception());  // the next round tells all
+      }
       return rank.run();
     };
     while ((stats.ending = work()) == Ending::none) settle_homes(transport, state, job, options, stats);

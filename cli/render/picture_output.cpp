@@ -2,6 +2,7 @@
 #include "cli/render/picture_output.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 
@@ -32,6 +33,7 @@ bool writes_itself(const fs::path& picture) { return written_by_render(picture_f
 
 // What another program may take of the memory of this rank.
 std::string left_of(std::uint64_t bytes) {
+  ::malloc_trim(0);
   return fmt::format("{}K", (bytes - std::min(bytes, resident_bytes())) >> 10);
 }
 

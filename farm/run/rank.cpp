@@ -152,7 +152,7 @@ Rank::Decision Rank::decide(const Round& round) {
     record(locked, sums.profiles > 0);
   }
   state_.work_available.notify_all();
-  if (sums.settles > 0) return Decision::settle;
+  if (sums.settles > 0 && sums.pause == 0 && stop_of(sums) == Ending::none) return Decision::settle;
   exchange_.give_items();
   if (quiet == Scheduler::Decision::go_on || phases_.begin_next(sums)) return Decision::go_on;
   return ending_of(sums) == Ending::none ? Decision::pause : Decision::end;

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 #include "farm/run/gather_profile.h"
-#include "farm/transport/agreement.h"
 #include "farm/transport/doing.h"
 #include "scene/system/say.h"
 
@@ -39,6 +39,15 @@ double busiest_over_mean(Transport& transport, const Profiling& mine) {
   return 1e-9 * static_cast<double>(busiest_ns[0]) * transport.size() / std::max(all_s[0], 1e-9);
 }
 
+template <class Step>
+void or_fail(RankState& state, const Step& step) {
+  try {
+    step();
+  } catch (...) {
+    fail(state, std::current_exception());
+  }
+}
+
 // Those that are to be traced at other homes wait for being sent.
 void send_on(const Locked&, RankState& state, const Homes& homes) {
   for (std::uint32_t d = 0; d < homes.domains(); ++d)
@@ -69,11 +78,11 @@ void settle_homes(Transport& transport, RankState& state, Job& job, const Render
   Homes homes = plan.homes;
   const std::uint64_t room = plan.memory.domains_bytes + plan.profile_bytes;
   const double busiest = busiest_over_mean(transport, *state.work.profiling);
-  agree(transport, [&] {
-    constexpr double equal_enough = 1.1;
-    if (!is_root || busiest < equal_enough) return;
-    if (auto better = better_homes(manifest, profile, plan.homes, room)) homes = std::move(*better);
-  });
+  constexpr double equal_enough = 1.1;
+  if (is_root && busiest >= equal_enough)
+    or_fail(state, [&] {
+      if (auto better = better_homes(manifest, profile, plan.homes, room)) homes = std::move(*better);
+    });
   homes = shared(transport, homes);
   if (options.outputs.profile.empty()) state.work.profiling.reset();
   const std::size_t moved = domains_moved(plan.homes, homes);
@@ -82,13 +91,14 @@ void settle_homes(Transport& transport, RankState& state, Job& job, const Render
         "the "
         "mean work, and can have {:.2f} times now\n",
         state.elapsed_s(), moved, manifest.domains.size(), busiest, busiest_over_mean(homes, profile));
-  const Locked locked(state);
   state.finished = false;
-  if (moved == 0) return;
+  if (moved == 0 || state.failure) return;
+  or_fail(state, [&] { send_on(Locked(state), state, homes); });
+  const Locked locked(state);
+  if (state.failure) return;
   stats.settled = {state.elapsed_s(), moved, -state.work.trace_s};  // rest is added in the end
   plan.homes = std::move(homes);
   plan.memory.domains_bytes += std::exchange(plan.profile_bytes, 0);
-  send_on(locked, state, plan.homes);
   state.domains.begin(state.scheduler.settle(plan.homes, plan.memory.domains_bytes));
 }
 

@@ -139,12 +139,17 @@ MemoryNeeded::MemoryNeeded(std::uint64_t budget_bytes, std::uint64_t needed_byte
 void guard_memory(std::uint64_t budget_bytes, bool (*is_own)()) {
   reserve = std::min(memory_reserve(budget_bytes), budget_bytes);
   limit = budget_bytes - reserve;
+  forget_refusal();
   is_own_thread = is_own;
   is_guarded = true;
   guarding = true;
 }
 
-void guard_no_more() { guarding = false; }
+// Blocks that are freed from now on are not noted.
+void guard_no_more() {
+  guarding = false;
+  forget_unfilled_blocks();
+}
 
 GrantedMemory::GrantedMemory(std::uint64_t bytes) : bytes_(bytes) {
   if (bytes_ > 0) ask_memory(bytes_);

@@ -22,10 +22,10 @@ struct MemoryNeeded : MachineError {
   MemoryNeeded(std::uint64_t budget_bytes, std::uint64_t needed_bytes, const std::string& what_for);
 };
 
-// No more than the budget is to be resident from now on, until `guard_no_more`. Called once, while there is
-// one thread. Memory is refused to this thread, and to those of which `is_own` says that they run our code
-// now: threads that libraries start for themselves are granted all, for nobody would catch the exception
-// there.
+// No more than the budget is to be resident from now on, until `guard_no_more`, after which it
+// may be called again. Meanwhile no other thread takes memory. Memory is refused to this thread, and to those
+// of which `is_own` says that they run our code now: threads that libraries start for themselves are granted
+// all, for nobody would catch the exception there.
 void guard_memory(std::uint64_t budget_bytes, bool (*is_own)() = nullptr);
 void guard_no_more();
 

@@ -84,6 +84,12 @@ void remove_unfilled_block(const void* block) noexcept {
   *it = blocks[--count];
 }
 
+void forget_unfilled_blocks() noexcept {
+  const std::scoped_lock lock(mutex);
+  count = 0;
+  missing_of_all = 0;
+}
+
 std::uint64_t unfilled_bytes() noexcept {
   const std::scoped_lock lock(mutex);
   look_at_all();

@@ -282,6 +282,17 @@ TEST_F(TooLittleMemory, TheBudgetThatIsNamedIsEnoughForVolumes) {
   expect_right_budgets("a.pbrt", {12, 16, 20, 64});
 }
 
+// A frame counts nothing that the frames before have given back.
+TEST_F(TooLittleMemory, OfAJobIsEnoughForEachFrame) {
+  write("a.pbrt", std::string(head) + "AreaLightSource \"diffuse\"\n" + as_pbrt(waves(220)));
+  ASSERT_EQ(partition("a.pbrt", "").status, 0);
+  write("list.txt", "--seed 1\n--seed 2\n--seed 3\n--seed 4\n--seed 5\n--seed 6\n");
+  const CommandResult frames =
+      run(fmt::format("SLURM_JOB_ID=7 SLURM_MEM_PER_NODE=64 {} '{}' -o '{}' --frames '{}' --spp 1 --quiet",
+                      vitrail("render"), path("out.vit"), path("f%d.png"), path("list.txt")));
+  EXPECT_EQ(frames.status, 0) << frames.output;
+}
+
 // What a job has bounds the reading too: beyond it the system would kill the render. A user's own number does
 // not, so that the one that is enough can be named.
 TEST_F(TooLittleMemory, OfAJobEndsTheReadingOfTheScene) {
