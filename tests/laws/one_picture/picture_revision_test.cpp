@@ -10,7 +10,7 @@
 namespace vitrail::test::picture_revision_test {
 namespace {
 
-constexpr std::uint32_t known_revision = 20;
+constexpr std::uint32_t known_revision = 21;
 constexpr const char* known_pictures = "7264be6b7c0f472d";
 
 std::array<Point3f, 4> tile(float x, float z) {
