@@ -21,7 +21,6 @@
 #include "farm/run/workers.h"
 #include "farm/transport/agreement.h"
 #include "farm/transport/doing.h"
-#include "scene/system/memory_guard.h"
 #include "scene/system/resource_usage.h"
 #include "scene/system/say.h"
 #include "scene/system/within_memory.h"
@@ -37,14 +36,8 @@ bool has_light(const Manifest& m) {
 
 // Only what is read tells how much memory the job needs. What would be killed before ends with a message.
 Job set_up_within(const RenderOptions& options, const Place& place) {
-  const std::uint64_t bytes = options.resources.job_bytes;
-  if (bytes == 0) return set_up(options, place);
   Job job;
-  try {
-    within_memory(bytes, {"reading the scene"}, [&] { return job = set_up(options, place), 0; });
-  } catch (const MemoryNeeded& e) {
-    throw MachineError(fmt::format("{}, and give the job more than that", e.what()));
-  }
+  within_job(options.resources.job_bytes, "reading the scene", [&] { job = set_up(options, place); });
   return job;
 }
 

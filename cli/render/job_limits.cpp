@@ -29,7 +29,7 @@ void take_memory(Transport& transport, RenderOptions& o, bool is_told) {
   agree_on_root(transport, [&] { by_slurm[0] = o.resources.memory_bytes > 0 ? 0 : slurm_memory(); });
   transport.broadcast_from_root(by_slurm);
   const MemoryLimit limit = memory_limit(by_slurm[0]);
-  if (!limit.is_machine) o.resources.job_bytes = limit.bytes / processes_of_node();
+  o.resources.job_bytes = limit.of_a_job();
   if (o.resources.memory_bytes > 0) return;
   o.resources.memory_bytes = limit.share(processes_of_node());
   if (is_told && !limit.is_machine)

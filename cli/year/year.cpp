@@ -25,7 +25,9 @@
 #include "film/film_progress.h"
 #include "glazing/system_file.h"
 #include "scene/models/sensor_file.h"
+#include "scene/system/machine_limits.h"
 #include "scene/system/say.h"
+#include "scene/system/within_memory.h"
 
 namespace vitrail {
 namespace {
@@ -233,7 +235,8 @@ int year_job(Transport& transport, YearArguments& a) {
   });
   Known known;
   now_doing("reading the weather");
-  agree(transport, [&] { known = read_all(a); });
+  agree(transport,
+        [&] { within_job(memory_limit(0).of_a_job(), "reading the weather", [&] { known = read_all(a); }); });
   agree(transport, [&] {
     if (first) require_same_inputs(a, known.year.suns, known.sensors);
   });

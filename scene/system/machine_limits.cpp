@@ -159,6 +159,8 @@ std::uint64_t processes_of_node() {
   return 1;
 }
 
+std::uint64_t MemoryLimit::of_a_job() const { return is_machine ? 0 : bytes / processes_of_node(); }
+
 std::uint64_t MemoryLimit::share(std::uint64_t processes) const {
   return (is_machine ? bytes / 4 * 3 : bytes / 10 * 9) / processes;
 }

@@ -18,6 +18,9 @@ struct MemoryLimit {
   // Returns what one of so many processes takes where the user gives no other: nine tenths, for MPI and the
   // system take some; of the machine, which others use too, three quarters.
   std::uint64_t share(std::uint64_t processes = 1) const;
+  // Returns what each process of this job may take at most, beyond which the system ends it; 0 where the job
+  // has all of the machine.
+  std::uint64_t of_a_job() const;
 };
 
 // Returns the least of what Slurm gave the job (slurm_memory), the control groups around this process allow

@@ -56,4 +56,13 @@ int within_memory(std::uint64_t budget_bytes, const Stage& stage, const std::fun
   }
 }
 
+void within_job(std::uint64_t job_bytes, const char* what, const std::function<void()>& body) {
+  if (job_bytes == 0) return body();
+  try {
+    within_memory(job_bytes, {what}, [&] { return body(), 0; });
+  } catch (const MemoryNeeded& e) {
+    throw MachineError(fmt::format("{}, and give the job more than that", e.what()));
+  }
+}
+
 }  // namespace vitrail

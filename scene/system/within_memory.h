@@ -23,4 +23,8 @@ int within_memory(
     std::uint64_t budget_bytes, const Stage& stage, const std::function<int()>& body,
     bool (*is_own)() = [] { return false; });
 
+// Runs `body` within what the job has of this machine, beyond which the system would kill it; 0 means that it
+// has all. Throws MachineError as within_memory does, which says that the job needs more.
+void within_job(std::uint64_t job_bytes, const char* what, const std::function<void()>& body);
+
 }  // namespace vitrail
