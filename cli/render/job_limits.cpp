@@ -28,9 +28,9 @@ void take_memory(Transport& transport, RenderOptions& o, bool is_told) {
   std::uint64_t by_slurm[] = {0};
   agree_on_root(transport, [&] { by_slurm[0] = o.resources.memory_bytes > 0 ? 0 : slurm_memory(); });
   transport.broadcast_from_root(by_slurm);
+  if (o.resources.memory_bytes > 0) return;
   const MemoryLimit limit = memory_limit(by_slurm[0]);
   o.resources.job_bytes = limit.of_a_job();
-  if (o.resources.memory_bytes > 0) return;
   o.resources.memory_bytes = limit.share(processes_of_node());
   if (is_told && !limit.is_machine)
     say("vitrail: {:.0f} MiB a rank, as {} gives this job\n",

@@ -69,7 +69,7 @@ struct PictureSettings {
 // where a time limits them.
 struct JobResources {
   std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
-  std::uint64_t job_bytes = 0;     // of the job for this rank, beyond which it is killed; 0: the machine's
+  std::uint64_t job_bytes = 0;     // of the job for this rank, where the user gives no memory; 0: no limit
   int threads = 0;                 // a rank; 0: one a processor allowed
   Distribution distribution = Distribution::automatic;
   Traversal traversal = Traversal::own;
