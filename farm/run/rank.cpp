@@ -90,7 +90,7 @@ void Rank::join_round() {
   mine.terminated = stop_signal() == SIGTERM;
   mine.time_is_up = checkpointing_.time_is_up();
   mine.profiles = settling_.profiles();
-  mine.settles = settling_.settles();
+  mine.settles = settling_.settles(state_.elapsed_s());
   mine.working = !state_.scheduler.all_workers_wait() || state_.loads_under_way > 0;
   if (state_.failure) (is_bad_input(state_.failure) ? mine.bad_input : mine.machine_failure) = 1;
   const TraceCounters& c = state_.work.counters;
@@ -152,7 +152,8 @@ Rank::Decision Rank::decide(const Round& round) {
     record(locked, sums.profiles > 0);
   }
   state_.work_available.notify_all();
-  if (sums.settles > 0 && sums.pause == 0 && stop_of(sums) == Ending::none) return Decision::settle;
+  const bool settles = sums.settles > 1 || (sums.settles > 0 && quiet == Scheduler::Decision::all_quiet);
+  if (settles && sums.pause == 0 && stop_of(sums) == Ending::none) return Decision::settle;
   exchange_.give_items();
   if (quiet == Scheduler::Decision::go_on || phases_.begin_next(sums)) return Decision::go_on;
   return ending_of(sums) == Ending::none ? Decision::pause : Decision::end;

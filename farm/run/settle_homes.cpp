@@ -92,7 +92,7 @@ void settle_homes(Transport& transport, RankState& state, Job& job, const Render
         "mean work, and can have {:.2f} times now\n",
         state.elapsed_s(), moved, manifest.domains.size(), busiest, busiest_over_mean(homes, profile));
   state.finished = false;
-  if (moved == 0 || state.failure) return;
+  if (moved == 0 || state.failure) return state.scheduler.resume();
   or_fail(state, [&] { send_on(Locked(state), state, homes); });
   const Locked locked(state);
   if (state.failure) return;

@@ -11,6 +11,7 @@ namespace {
 // The first seconds are of loading. The time left has to be worth the recording, which costs a few hundredths
 // of its time, and then the loading of domains at their new homes.
 constexpr double loading_s = 2, recording_s = 5, worth_profiling_s = 50, worth_settling_s = 40;
+constexpr double longest_ending_s = 2;
 // One in some 200 is recorded and timed. With fewer the shares of ranks are those of chance.
 constexpr std::int64_t rays_a_rank = 1 << 21;
 
@@ -27,12 +28,14 @@ Settling::Settling(const JobPlan& plan, const RenderOptions& options)
       profile_s_(recording_s),
       worth_profiling_s_(worth_profiling_s),
       worth_settling_s_(worth_settling_s),
+      ending_s_(longest_ending_s),
       rays_(rays_a_rank * plan.scheduler.ranks),
       stage_(plan.may_settle ? Stage::waits : Stage::over) {
   if (!options.resources.settle_after_s) return;
   wait_s_ = worth_profiling_s_ = worth_settling_s_ = 0;
   profile_s_ = *options.resources.settle_after_s;
   rays_ = 0;
+  ending_s_ = 60;  // the rays of a small picture show its work
 }
 
 // By the samples that ended since the stage began.
@@ -56,7 +59,13 @@ void Settling::watch(const RoundSums& sums, const Moment& moment) {
   } else if (stage_ == Stage::profiles && moment.now_s - since_s_ >= profile_s_ &&
              sums.items_done - items_then_ >= moment.items_a_pass && sums.rays_traced - rays_then_ >= rays_) {
     stage_ = left_s(sums, moment) >= worth_settling_s_ ? Stage::settles : Stage::over;
+    settles_s_ = moment.now_s;
   }
+}
+
+int Settling::settles(double now_s) const {
+  if (stage_ != Stage::settles) return 0;
+  return now_s - settles_s_ >= ending_s_ ? 2 : 1;
 }
 
 }  // namespace vitrail

@@ -24,7 +24,9 @@ class Settling {
 
   // They tell whether tasks are to be recorded, and whether homes are to settle.
   bool profiles() const { return stage_ == Stage::profiles || stage_ == Stage::settles; }
-  bool settles() const { return stage_ == Stage::settles; }
+  // Returns 1 from then on, so that no ray is born and those that are alive show how much work each rank has;
+  // 2 where they take long: what is left of them goes to the new homes. Else 0.
+  int settles(double now_s) const;
   void is_over() { stage_ = Stage::over; }
 
  private:
@@ -32,10 +34,11 @@ class Settling {
 
   double left_s(const RoundSums& sums, const Moment& moment) const;
 
-  double wait_s_, profile_s_, worth_profiling_s_, worth_settling_s_;
+  double wait_s_, profile_s_, worth_profiling_s_, worth_settling_s_, ending_s_;
   std::int64_t rays_;  // that a profile needs
   Stage stage_;
-  double since_s_ = 0;     // when the stage began
+  double since_s_ = 0;     // when it began to record
+  double settles_s_ = 0;   // when homes were to settle
   double ended_then_ = 0;  // samples
   std::int64_t items_then_ = 0, rays_then_ = 0;
 };

@@ -19,7 +19,7 @@ struct RoundSums {
   std::int64_t interrupted = 0, terminated = 0;  // requests for an end, by INT and by TERM
   std::int64_t time_is_up = 0;                   // another, by the time limit
   std::int64_t profiles = 0;                     // 1: ranks are to record where rays go (run/settling.h)
-  std::int64_t settles = 0;                      // 1: homes are to settle (run/settle_homes.h)
+  std::int64_t settles = 0;                      // 1: homes are to settle once no ray is alive; 2: now
   std::int64_t bad_input = 0, machine_failure = 0;
   std::int64_t items_done = 0;
   std::int64_t samples = 0;

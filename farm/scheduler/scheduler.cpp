@@ -185,6 +185,7 @@ void Scheduler::leave(std::uint32_t domain, std::uint64_t rays) {
 LoadStep Scheduler::settle(Homes homes, std::uint64_t domain_bytes) {
   LoadStep step = residency_.settle(std::move(homes), domain_bytes, job_.rank);
   homes_overlap_ = residency_.homes().places() > residency_.homes().domains();
+  resume();
   return step;
 }
 
@@ -198,7 +199,7 @@ Scheduler::Decision Scheduler::decide(const RoundSums& sums) {
   born_then_ = sums.born;
   alive_ = static_cast<std::uint64_t>(std::max<std::int64_t>(0, alive));
   idle_ranks_ = sums.idle;
-  paused_ = sums.pause + sums.interrupted + sums.terminated + sums.time_is_up > 0;
+  paused_ = sums.pause + sums.interrupted + sums.terminated + sums.time_is_up + sums.settles > 0;
   // What is free is shared by those that asked for some; who wants none gives back what it had.
   if (!wants_to_generate()) {
     allowance_ = 0;

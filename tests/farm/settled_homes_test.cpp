@@ -79,10 +79,10 @@ TEST_F(SettledHomes, GoWithRoundsLimitsProfilesAndResumedJobs) {
   ASSERT_EQ(render("r.film", rounds + " --homes bytes").status, 0);
   EXPECT_EQ(settles("s.film", rounds)["film_hash"], stats("r.film")["film_hash"]);
 
-  ASSERT_EQ(render("whole.film", "--spp 256 --homes bytes").status, 0);
-  const nlohmann::json limited = settles("part.film", "--spp 256 --time 2");
+  ASSERT_EQ(render("whole.film", "--spp 512 --homes bytes").status, 0);
+  const nlohmann::json limited = settles("part.film", "--spp 512 --time 2");
   EXPECT_FALSE(limited["complete"]) << "the case is none";
-  ASSERT_EQ(settles("part.film", "--spp 256")["film_hash"], stats("whole.film")["film_hash"]);
+  ASSERT_EQ(settles("part.film", "--spp 512")["film_hash"], stats("whole.film")["film_hash"]);
 
   const std::string profile = fmt::format("--spp 64 --profile '{}'", path("rays.json"));
   settles("p.film", profile);

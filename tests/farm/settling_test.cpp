@@ -41,13 +41,14 @@ TEST(Settling, ALongJobRecordsAndThenPausesOnce) {
   job.second(100, 100'000);
   EXPECT_TRUE(job.settling.profiles());
   for (int s = 0; s < 4; ++s) job.second(100, 100'000);
-  EXPECT_FALSE(job.settling.settles());
+  EXPECT_FALSE(job.settling.settles(job.now_s));
   job.second(100, 100'000);
-  EXPECT_TRUE(job.settling.settles());
-  EXPECT_TRUE(job.settling.profiles()) << "until no ray is alive";
+  EXPECT_EQ(job.settling.settles(job.now_s), 1);
+  EXPECT_EQ(job.settling.settles(job.now_s + 5), 2) << "rays that take longer go to the new homes";
+  EXPECT_TRUE(job.settling.profiles()) << "until homes have settled";
   job.settling.is_over();
   for (int s = 0; s < 100; ++s) job.second(100, 100'000);
-  EXPECT_FALSE(job.settling.settles() || job.settling.profiles());
+  EXPECT_FALSE(job.settling.settles(job.now_s) || job.settling.profiles());
 }
 
 TEST(Settling, AJobThatEndsSoonNeverPauses) {
@@ -67,7 +68,7 @@ TEST(Settling, AJobThatEndsSoonNeverPauses) {
   EXPECT_TRUE(job.settling.profiles());
   for (int s = 0; s < 7; ++s) {
     job.second(300, 3'000);
-    EXPECT_FALSE(job.settling.settles());
+    EXPECT_FALSE(job.settling.settles(job.now_s));
   }
   EXPECT_FALSE(job.settling.profiles());
 }
@@ -92,19 +93,19 @@ TEST(Settling, RaysThatWaitAreNotDone) {
 TEST(Settling, AProfileIsOfAWholePass) {
   Job job(true);
   for (int s = 0; s < 20; ++s) job.second(100, 100'000, no_limit, 1);
-  EXPECT_FALSE(job.settling.settles());
+  EXPECT_FALSE(job.settling.settles(job.now_s));
   job.second(100, 100'000, no_limit, 2);
-  EXPECT_TRUE(job.settling.settles());
+  EXPECT_TRUE(job.settling.settles(job.now_s));
 }
 
 TEST(Settling, AProfileNeedsRays) {
   Job job(true);
   job.rays = 10'000;
   for (int s = 0; s < 20; ++s) job.second(100, 100'000);
-  EXPECT_FALSE(job.settling.settles()) << "others use the machine";
+  EXPECT_FALSE(job.settling.settles(job.now_s)) << "others use the machine";
   job.rays = 1 << 21;
   job.second(100, 100'000);
-  EXPECT_TRUE(job.settling.settles());
+  EXPECT_TRUE(job.settling.settles(job.now_s));
 }
 
 Manifest of_domains(std::size_t count, std::uint64_t bytes) {
