@@ -2,7 +2,7 @@
 // A pattern tilts normals where it is the `displacement` of a material, as POV-Ray's `normal {}`. The laws
 // are those that POV-Ray's pictures of planes show: which direction each point has, by three lamps.
 //
-// In the pattern's space, with the unit normal n there, the new normal is along n + v(p). For most kinds v is
+// The new normal is along n + v(p) in the pattern's space, with the unit normal n there. For most kinds v is
 // −∇h, with h the number of the texture, a height in units of that space, over steps of 0.02; all of the
 // gradient counts, that along n too. `gradient x, 1` of POV-Ray is a height of 2/15 at 1.
 //
