@@ -22,10 +22,10 @@ class Settling {
   };
   void watch(const RoundSums& sums, const Moment& moment);
 
-  // They tell whether tasks are to be recorded, and whether homes are to settle.
+  // Returns whether tasks are to be recorded.
   bool profiles() const { return stage_ == Stage::profiles || stage_ == Stage::settles; }
-  // Returns 1 from then on, so that no ray is born and those that are alive show how much work each rank has;
-  // 2 where they take long: what is left of them goes to the new homes. Else 0.
+  // Returns 1 once homes are to settle: no ray is born, and those that are alive show how much work each rank
+  // has. It returns 2 where they take long: what is left of them goes to the new homes. Before it returns 0.
   int settles(double now_s) const;
   void is_over() { stage_ = Stage::over; }
 
