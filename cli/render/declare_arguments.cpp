@@ -243,6 +243,7 @@ void declare_hidden(CLI::App& app, RenderArguments& a) {
   app.add_option("--held-lock", a.held_lock)->group("");
   app.add_option("--shuffle-delivery", o.resources.shuffle_seed)->group("");
   app.add_option("--settle-after", o.resources.settle_after_s)->group("");
+  app.add_option("--settle-ending", o.resources.settle_ending_s)->group("");
   app.add_option("--domain-memory", o.resources.domain_memory_bytes)->group("");
 }
 

@@ -86,6 +86,8 @@ struct JobResources {
   // It is for tests: domains get at most this, whatever memory_bytes leaves, and rays get so little that they
   // go to the disk; 0: no such limit.
   std::uint64_t domain_memory_bytes = 0;
+  // Before homes settle no ray is born for so long; what then lives is sent on to the new homes.
+  double settle_ending_s = 2;
   // It is for tests: homes settle after so many seconds, however little time is left.
   std::optional<double> settle_after_s;
   // It is for tests: rays are processed in an arbitrary order, on which no picture may depend.

@@ -48,8 +48,9 @@ void or_fail(RankState& state, const Step& step) {
   }
 }
 
-// Those that are to be traced at other homes wait for being sent.
-void send_on(const Locked&, RankState& state, const Homes& homes) {
+// Those that are to be traced at other homes wait for being sent. Returns how many they are.
+std::uint64_t send_on(const Locked&, RankState& state, const Homes& homes) {
+  std::uint64_t all = 0;
   for (std::uint32_t d = 0; d < homes.domains(); ++d)
     for (std::uint64_t left = state.scheduler.leaving(d, homes), rays = 0; left > 0;
          left -= std::min(left, rays)) {
@@ -57,7 +58,9 @@ void send_on(const Locked&, RankState& state, const Homes& homes) {
       rays = batch.count();
       state.scheduler.leave(d, rays);
       state.outgoing.push(std::move(batch));
+      all += rays;
     }
+  return all;
 }
 
 }  // namespace
@@ -93,10 +96,11 @@ void settle_homes(Transport& transport, RankState& state, Job& job, const Render
         state.elapsed_s(), moved, manifest.domains.size(), busiest, busiest_over_mean(homes, profile));
   state.finished = false;
   if (moved == 0 || state.failure) return state.scheduler.resume();
-  or_fail(state, [&] { send_on(Locked(state), state, homes); });
+  std::uint64_t rays = 0;
+  or_fail(state, [&] { rays = send_on(Locked(state), state, homes); });
   const Locked locked(state);
   if (state.failure) return;
-  stats.settled = {state.elapsed_s(), moved, -state.work.trace_s};  // rest is added in the end
+  stats.settled = {state.elapsed_s(), moved, rays, -state.work.trace_s};  // rest is added in the end
   plan.homes = std::move(homes);
   plan.memory.domains_bytes += std::exchange(plan.profile_bytes, 0);
   state.domains.begin(state.scheduler.settle(plan.homes, plan.memory.domains_bytes));

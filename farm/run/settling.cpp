@@ -11,7 +11,6 @@ namespace {
 // The first seconds are of loading. The time left has to be worth the recording, which costs a few hundredths
 // of its time, and then the loading of domains at their new homes.
 constexpr double loading_s = 2, recording_s = 5, worth_profiling_s = 50, worth_settling_s = 40;
-constexpr double longest_ending_s = 2;
 // One in some 200 is recorded and timed. With fewer the shares of ranks are those of chance.
 constexpr std::int64_t rays_a_rank = 1 << 21;
 
@@ -28,14 +27,13 @@ Settling::Settling(const JobPlan& plan, const RenderOptions& options)
       profile_s_(recording_s),
       worth_profiling_s_(worth_profiling_s),
       worth_settling_s_(worth_settling_s),
-      ending_s_(longest_ending_s),
+      ending_s_(options.resources.settle_ending_s),
       rays_(rays_a_rank * plan.scheduler.ranks),
       stage_(plan.may_settle ? Stage::waits : Stage::over) {
   if (!options.resources.settle_after_s) return;
   wait_s_ = worth_profiling_s_ = worth_settling_s_ = 0;
   profile_s_ = *options.resources.settle_after_s;
   rays_ = 0;
-  ending_s_ = 60;  // the rays of a small picture show its work
 }
 
 // By the samples that ended since the stage began.

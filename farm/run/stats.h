@@ -19,6 +19,7 @@ constexpr bool writes_film(Ending e) { return e == Ending::finished || e == Endi
 struct Settled {
   double at_s = 0;             // since rendering began; 0: they did not
   std::uint64_t domains = 0;   // that moved
+  std::uint64_t rays = 0;      // that waited for a domain which moved, and were sent on to its new home
   double trace_s = 0;          // since then, of all ranks
   double busiest_trace_s = 0;  // and of the rank that traced longest since then
 };

@@ -84,7 +84,7 @@ class Job:
         if self.fate == "time" and self.starts < 2:
             more += ["--time", round(self.seconds * dice.uniform(.5, 1.5), 2)]
         if dice.random() < .3:
-            more += ["--settle-after", dice.choice([0, .1, .5])]
+            more += ["--settle-after", dice.choice([0, .1, .5]), "--settle-ending", dice.choice([0, .05, 60])]
         words = render(self.folder, self.film, self.kind, self.domains, *more)
         return ["mpirun", "-np", "2"] + words if ranks == 2 else words
 

@@ -19,18 +19,23 @@ class SettledHomes : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     directory_ = std::make_unique<TemporaryDirectory>();
-    const CommandResult made =
-        run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 8 --quiet",
-                        vitrail("partition"), source_dir(), path("box.vit")));
-    ASSERT_EQ(made.status, 0) << made.output;
+    partition("box.vit", 8);
   }
   static void TearDownTestSuite() { directory_.reset(); }
   static std::string path(const std::string& name) { return (*directory_ / name).string(); }
 
+  static void partition(const std::string& bundle, int domains) {
+    const CommandResult made =
+        run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains {} --quiet",
+                        vitrail("partition"), source_dir(), path(bundle), domains));
+    ASSERT_EQ(made.status, 0) << made.output;
+  }
+
   // On four ranks, each of which traces in its own domains.
-  static CommandResult render(const std::string& film, const std::string& more) {
+  static CommandResult render(const std::string& film, const std::string& more,
+                              const std::string& bundle = "box.vit") {
     return run(fmt::format("{} '{}' -o '{}' --width 64 --threads 1 --distribution decompose --stats '{}' {}",
-                           vitrail_on(4, "render"), path("box.vit"), path(film), path(film + ".json"), more));
+                           vitrail_on(4, "render"), path(bundle), path(film), path(film + ".json"), more));
   }
   static nlohmann::json stats(const std::string& film) { return read_json(path(film + ".json")); }
 
@@ -43,9 +48,10 @@ TEST_F(SettledHomes, MakeTheSameFilmAndTheNumbersAddUp) {
   const CommandResult bytes = render("bytes.film", "--spp 64 --homes bytes --settle-after 0");
   ASSERT_EQ(bytes.status, 0) << bytes.output;
   EXPECT_THAT(bytes.output, Not(HasSubstr("homes settled")));
-  const CommandResult settled = render(
-      "settled.film",
-      fmt::format("--spp 64 --settle-after 0 --checkpoint-every 0.2 --trace '{}'", path("trace.json")));
+  const CommandResult settled =
+      render("settled.film",
+             fmt::format("--spp 64 --settle-after 0 --settle-ending 60 --checkpoint-every 0.2 --trace '{}'",
+                         path("trace.json")));
   ASSERT_EQ(settled.status, 0) << settled.output;
   EXPECT_THAT(settled.output, HasSubstr("vitrail: homes settled after"));
   const nlohmann::json stayed = stats("bytes.film"), moved = stats("settled.film");
@@ -56,6 +62,7 @@ TEST_F(SettledHomes, MakeTheSameFilmAndTheNumbersAddUp) {
   EXPECT_EQ(stayed["settled_s"], 0);
   EXPECT_GT(moved["domains_moved"], 0);
   EXPECT_LE(moved["domains_moved"], 8);
+  EXPECT_EQ(moved["settled_rays"], 0) << "none was alive";
   EXPECT_GT(moved["settled_s"], 0);
   EXPECT_LT(moved["settled_s"], moved["wall_s"]);
   EXPECT_GT(moved["settled_trace_s"], 0);
@@ -70,7 +77,7 @@ TEST_F(SettledHomes, MakeTheSameFilmAndTheNumbersAddUp) {
 
 TEST_F(SettledHomes, GoWithRoundsLimitsProfilesAndResumedJobs) {
   const auto settles = [&](const std::string& film, const std::string& more) {
-    const CommandResult done = render(film, "--settle-after 0 " + more);
+    const CommandResult done = render(film, "--settle-after 0 --settle-ending 60 " + more);
     EXPECT_EQ(done.status, 0) << done.output;
     EXPECT_THAT(done.output, HasSubstr("homes settled")) << more;
     return done.status == 0 ? stats(film) : nlohmann::json();
@@ -88,6 +95,25 @@ TEST_F(SettledHomes, GoWithRoundsLimitsProfilesAndResumedJobs) {
   settles("p.film", profile);
   const nlohmann::json rays = read_json(path("rays.json"));
   EXPECT_EQ(rays["cost"]["camera_rays"], stats("p.film")["rays_camera"]);
+}
+
+// One of four ranks has no domain, so homes move however little their record tells.
+TEST_F(SettledHomes, TakeTheRaysThatWaitWithThem) {
+  partition("few.vit", 3);
+  const auto render_few = [](const std::string& film, const std::string& more) {
+    const CommandResult done = render(film, "--spp 64 " + more, "few.vit");
+    EXPECT_EQ(done.status, 0) << done.output;
+    return stats(film);
+  };
+  const nlohmann::json stayed = render_few("stayed.film", "--homes bytes");
+  std::uint64_t sent = 0;
+  for (const double after_s : {0., 0.1, 0.3}) {
+    const nlohmann::json moved =
+        render_few("moved.film", fmt::format("--force --settle-after {} --settle-ending 0", after_s));
+    EXPECT_EQ(moved["film_hash"], stayed["film_hash"]) << after_s;
+    sent += moved["settled_rays"].get<std::uint64_t>();
+  }
+  EXPECT_GT(sent, 0u) << "the case is none";
 }
 
 TEST_F(SettledHomes, AreNotForShortJobs) {
