@@ -10,23 +10,20 @@
 
 #include "scene/records/film_extent.h"
 #include "scene/system/diagnostics.h"
-#include "scene/system/input_files.h"
 
 namespace vitrail {
 
 using namespace film_layout;
 
-FilmReader::FilmReader(const std::filesystem::path& file) : path_(file), in_(open_regular(file)) {
-  std::error_code unreadable;
-  size_ = std::filesystem::file_size(file, unreadable);
-  if (!in_ || unreadable) fail("cannot open the film");
+FilmReader::FilmReader(const std::filesystem::path& file) : path_(file), in_(file) {
+  if (!in_.is_open()) fail(fmt::format("cannot open the film: {}", std::strerror(in_.reason())));
 }
 
 void FilmReader::fail(const std::string& what) const { throw Error(what, {path_.string()}); }
 
 void FilmReader::read(void* to, std::uint64_t bytes) {
-  if (!in_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes)))
-    fail("the film file is truncated");
+  if (!in_.read(std::span(static_cast<std::byte*>(to), bytes), place_)) fail("the film file is truncated");
+  place_ += bytes;
 }
 
 void FilmReader::require_checksum(std::uint64_t sum, const char* what) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "film/array_checksum.h"
 #include "film/film_layout.h"
 #include "film/film_progress.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 
@@ -22,7 +22,7 @@ class FilmReader {
   explicit FilmReader(const std::filesystem::path& file);
 
   [[noreturn]] void fail(const std::string& what) const;
-  std::uint64_t size() const { return size_; }
+  std::uint64_t size() const { return in_.size(); }
   const std::filesystem::path& path() const { return path_; }
 
   void read(void* to, std::uint64_t bytes);
@@ -51,15 +51,15 @@ class FilmReader {
     return sum;
   }
 
-  std::uint64_t place() { return static_cast<std::uint64_t>(in_.tellg()); }
-  void go_to(std::uint64_t place) { in_.seekg(static_cast<std::streamoff>(place)); }
+  std::uint64_t place() const { return place_; }
+  void go_to(std::uint64_t place) { place_ = place; }
 
  private:
   void require_checksum(std::uint64_t sum, const char* what);
 
   std::filesystem::path path_;
-  std::ifstream in_;
-  std::uint64_t size_ = 0;
+  RegularFile in_;
+  std::uint64_t place_ = 0;
 };
 
 // A FilmHead is all that stands before the sums.

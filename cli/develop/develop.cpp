@@ -31,6 +31,7 @@
 #include "film/white_balance.h"
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
+#include "scene/system/machine_limits.h"
 #include "scene/system/output_place.h"
 #include "scene/system/say.h"
 #include "scene/system/within_memory.h"
@@ -229,6 +230,7 @@ void develop_rows(const Exposed& sum, const FilmSurvey& whole, const DevelopArgu
 
 int develop_all(const DevelopArguments& a) {
   for (const std::string& file : a.films) require_input(file, {InputKind::film, InputKind::picture});
+  allow_many_files();
   std::optional<Denoiser> denoiser;
   if (a.denoised) denoiser.emplace();
   std::optional<Exposed> sum;

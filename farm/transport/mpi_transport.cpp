@@ -2,7 +2,6 @@
 // The C interface only.
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +12,7 @@
 #include "farm/transport/round_tree.h"
 #include "farm/transport/transport.h"
 #include "scene/system/diagnostics.h"
+#include "scene/system/machine_limits.h"
 
 namespace vitrail {
 
@@ -30,15 +30,6 @@ void add_all(void* from, void* to, int* count, MPI_Datatype*) {
   for (int i = 0; i < *count; ++i) static_cast<T*>(to)[i] += static_cast<const T*>(from)[i];
 }
 
-// Each rank that one speaks with over TCP is a socket; the usual limit, 1024 files, is for programs of
-// select().
-void allow_many_sockets() {
-  rlimit files{};
-  if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return;
-  files.rlim_cur = files.rlim_max;
-  ::setrlimit(RLIMIT_NOFILE, &files);
-}
-
 class MpiTransport final : public Transport {
  public:
   MpiTransport(int* argc, char*** argv) {
@@ -48,7 +39,7 @@ class MpiTransport final : public Transport {
     // reads of the other's memory for a part of 2 MiB, each of which waits for a rank that may wait for a
     // core.
     ::setenv("OMPI_MCA_coll_libnbc_ireduce_algorithm", "2", 0);  // binomial
-    allow_many_sockets();
+    allow_many_files();
     int provided = 0;
     MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
     if (provided < MPI_THREAD_FUNNELED)

@@ -2,6 +2,7 @@
 #include "scene/system/machine_limits.h"
 
 #include <sched.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -181,6 +182,13 @@ int processors_allowed() {
   if (const std::uint64_t slurm = processors_by_slurm())
     allowed = std::min(allowed, static_cast<double>(slurm));
   return static_cast<int>(std::max(1.0, std::ceil(allowed)));
+}
+
+void allow_many_files() {
+  rlimit files{};
+  if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+  files.rlim_cur = files.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &files);
 }
 
 int threads_for(int asked) {

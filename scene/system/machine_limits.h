@@ -47,6 +47,10 @@ int processors_allowed();
 // it returns one for each processor that is allowed.
 int threads_for(int asked);
 
+// Lets this process open as many files and sockets as it may. The usual limit, 1024, is for programs of
+// select(); films to merge are that many, and so are the ranks that one speaks with over TCP.
+void allow_many_files();
+
 // These are the limits that the control groups of a process set, infinite where they say nothing. `own` is
 // the text of its /proc/self/cgroup; `mounts` is where they are mounted, /sys/fs/cgroup.
 struct ControlGroupLimits {

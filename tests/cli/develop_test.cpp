@@ -47,6 +47,19 @@ TEST_F(Develop, SaysInOneLineWhatItWrote) {
   EXPECT_EQ(develop(path("a.film"), "a.png", "--quiet").output, "");
 }
 
+TEST_F(Develop, MergesMoreFilmsThanTheShellLetsOpen) {
+  std::string films;
+  for (int seed = 1; seed <= 12; ++seed) {
+    const std::string name = fmt::format("{}.film", seed);
+    ASSERT_EQ(render(name, fmt::format("--spp 1 --seed {}", seed)).status, 0);
+    films += path(name) + " ";
+  }
+  const CommandResult done =
+      run(fmt::format("ulimit -S -n 12; {} {} -o {}", vitrail("develop"), films, path("all.png")));
+  EXPECT_EQ(done.status, 0) << done.output;
+  EXPECT_THAT(done.output, HasSubstr("12 samples each"));
+}
+
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
