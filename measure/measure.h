@@ -63,8 +63,8 @@ struct MeasuredSetting {
 
 // A Recommendation says which setting to take for a goal.
 struct Recommendation {
-  std::string goal;  // in words
-  Goal asked;        // for the whole picture
+  std::string goal;   // in words
+  MeasureGoal asked;  // for the whole picture
   bool found = false;
   bool bound_counts = false;  // a setting was left out whose bias is, or may be, beyond the most
   double most_bias = 0;       // MeasureOptions::most_bias

@@ -38,7 +38,8 @@ std::optional<double> samples_within(const Tradeoff& t, const ScalingLaw& law, d
   return spp;
 }
 
-std::optional<Prediction> best(std::span<const Tradeoff> tradeoffs, const ScalingLaw& law, const Goal& goal) {
+std::optional<Prediction> best(std::span<const Tradeoff> tradeoffs, const ScalingLaw& law,
+                               const MeasureGoal& goal) {
   std::optional<Prediction> found;
   for (std::size_t i = 0; i < tradeoffs.size(); ++i) {
     const Tradeoff& t = tradeoffs[i];

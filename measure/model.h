@@ -35,7 +35,7 @@ std::optional<double> samples_for_error(const Tradeoff& t, const ScalingLaw& law
 // Returns the most samples that fit, or nothing where not even one does.
 std::optional<double> samples_within(const Tradeoff& t, const ScalingLaw& law, double cpu_s);
 
-struct Goal {
+struct MeasureGoal {
   std::optional<double> error, cpu_s;  // one of them
 };
 struct Prediction {
@@ -44,7 +44,8 @@ struct Prediction {
   double error = 0, cpu_s = 0;
 };
 // Returns the cheapest that reaches an error, or the least error within a time; nothing where none does.
-std::optional<Prediction> best(std::span<const Tradeoff> tradeoffs, const ScalingLaw& law, const Goal& goal);
+std::optional<Prediction> best(std::span<const Tradeoff> tradeoffs, const ScalingLaw& law,
+                               const MeasureGoal& goal);
 
 // Guesses the tradeoff of a setting that takes choices of several axes, from settings that take one of them
 // each. Noise and time multiply. The bias is the greatest of theirs; the true one is less only where biases

@@ -141,7 +141,7 @@ bool is_out_of_bounds(const Biases& biases, const Setting& setting, const Measur
 
 // The counts at which it was rendered, if those will do instead of `wanted`: for an error, the least that
 // have it; for a time, the most that fit.
-bool serves(const MeasuredSetting& s, const Prediction& wanted, const Goal& goal) {
+bool serves(const MeasuredSetting& s, const Prediction& wanted, const MeasureGoal& goal) {
   if (s.spp == wanted.spp) return true;
   const double more = static_cast<double>(wanted.spp) / s.spp;
   if (more > most_unrendered_factor || more < 1 / most_unrendered_factor) return false;

@@ -159,11 +159,11 @@ std::uint64_t budget_to_hold(std::uint64_t bytes, std::uint64_t budget_bytes) {
   return std::max(budget + memory_reserve(budget), budget_bytes + (1 << 20));
 }
 
-MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
+PartitionMemory plan_memory(const Manifest& m, const MemoryNeeds& needs) {
   if (const std::string lack = lack_of(m, needs); !lack.empty())
     throw MemoryNeeded(needs.budget_bytes, least_budget(m, needs), lack);
   const Costs costs = costs_of(m);
-  MemoryPlan plan;
+  PartitionMemory plan;
   plan.domains = number_of_domains(m, needs);
   const auto triangles = static_cast<double>(needs.triangles), quadrics = static_cast<double>(needs.quadrics);
   const double items = triangles * needs.expansion, left = bytes_left(needs);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A MemoryPlan is how a scene is partitioned within a budget of memory.
+// A PartitionMemory is how a scene is partitioned within a budget of memory.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace vitrail {
 
-struct MemoryPlan {
+struct PartitionMemory {
   std::uint32_t domains = 1;
   std::uint32_t domains_at_once = 1;  // in memory with all their triangles: a bucket
   std::uint32_t domains_in_work = 1;  // of which trees are being built
@@ -57,6 +57,6 @@ std::uint64_t budget_to_hold(std::uint64_t bytes, std::uint64_t budget_bytes);
 std::uint32_t number_of_domains(const Manifest& manifest, const MemoryNeeds& needs);
 
 // Throws MemoryNeeded where not even one domain or one mesh fits, UsageError for too many domains.
-MemoryPlan plan_memory(const Manifest& manifest, const MemoryNeeds& needs);
+PartitionMemory plan_memory(const Manifest& manifest, const MemoryNeeds& needs);
 
 }  // namespace vitrail

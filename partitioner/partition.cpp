@@ -247,7 +247,7 @@ class Partitioner {
   }
 
   // As many pieces are reckoned with as a sample becomes.
-  MemoryPlan plan_with_pieces(MemoryNeeds& needs) const {
+  PartitionMemory plan_with_pieces(MemoryNeeds& needs) const {
     constexpr std::uint64_t samples = 1u << 15;
     const std::uint32_t domains = number_of_domains(world_.manifest, needs);
     if (domains > 1 && !median_) {
@@ -297,8 +297,8 @@ class Partitioner {
         plan_whole_tree(sample, plan_.domains, plan_.domains_at_once, world_.manifest.kd_nodes);
     buckets_ = top.leaves.size();
     phases_.begin("sorting triangles into parts", 0.4 * rest_, triangles);
-    Spill spill(bundle_ / "spill", buckets_, world_.rule(),
-                std::min(plan_.spill_bytes / buckets_, most_spill_buffer_bytes));
+    BucketSpill spill(bundle_ / "spill", buckets_, world_.rule(),
+                      std::min(plan_.spill_bytes / buckets_, most_spill_buffer_bytes));
     SceneTally tally(world_);
     spill_scene(world_, top, plan_.load_bytes, spill, tally, [&](std::uint64_t n) { phases_.advance(n); });
     tally.finish(world_.manifest);
@@ -379,7 +379,7 @@ class Partitioner {
   std::uint64_t items_ = 0;                  // triangles and instances
   std::uint64_t coarse_ = 0, quadrics_ = 0;  // as in ScenePlan, World
   double rest_ = 1;                          // of all work, without the objects'
-  MemoryPlan plan_;
+  PartitionMemory plan_;
   Manifest manifest_;
   std::vector<std::uint64_t> block_hashes_;  // SceneTally's
   std::vector<std::string> shape_names_;

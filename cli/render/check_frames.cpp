@@ -47,16 +47,16 @@ class Checker {
 
   // Of a scene that cannot be read, which the program that reads it has said.
   Error of_camera(std::size_t i) const {
-    const Frame& frame = list_.frames[i];
+    const ListedFrame& frame = list_.frames[i];
     int column = frame.words.front().column;
-    for (const Frame::Word& word : frame.words)
+    for (const ListedFrame::Word& word : frame.words)
       if (word.text.starts_with("--camera")) column = word.column;
     return Error("the scene of this camera cannot be read", {file(), frame.line, column}, frame.text);
   }
 
   // What the line does wrong. Throws it where the command does so without the line.
   Error of_line(std::size_t i, const std::string& message, const std::exception_ptr& failure) {
-    const Frame& frame = list_.frames[i];
+    const ListedFrame& frame = list_.frames[i];
     if (message_with(i, {}) == message) std::rethrow_exception(failure);
     int column = frame.words.front().column;
     for (std::size_t k = 0; k < frame.words.size(); ++k) {
@@ -68,12 +68,12 @@ class Checker {
   }
 
  private:
-  WorkWords words(std::size_t i, std::span<const Frame::Word> line) {
+  WorkWords words(std::size_t i, std::span<const ListedFrame::Word> line) {
     return FrameJob(typed_, line, list_.outputs[i]).words(manifest_, views_);
   }
 
   // Of the failure with a part of the line; "" where there is none.
-  std::string message_with(std::size_t i, std::span<const Frame::Word> line) {
+  std::string message_with(std::size_t i, std::span<const ListedFrame::Word> line) {
     try {
       words(i, line);
     } catch (const Error& e) {
@@ -125,12 +125,12 @@ FrameList read_frame_list(const RenderArguments& command) {
   FrameList list{command.frames, 0, read_frames(command.frames), {}};
   list.count = list.frames.size();
   if (command.range) {
-    std::vector<Frame> chosen;
+    std::vector<ListedFrame> chosen;
     for (const std::size_t number : parse_frame_range(*command.range, list.count))
       chosen.push_back(list.frames[number - 1]);
     list.frames = std::move(chosen);
   }
-  for (const Frame& frame : list.frames) list.outputs.push_back(numbered(command.output, frame.number));
+  for (const ListedFrame& frame : list.frames) list.outputs.push_back(numbered(command.output, frame.number));
   return list;
 }
 

@@ -16,7 +16,7 @@ namespace vitrail {
 struct FrameList {
   std::filesystem::path file;
   std::size_t count = 0;  // of the whole list
-  std::vector<Frame> frames;
+  std::vector<ListedFrame> frames;
   std::vector<std::filesystem::path> outputs;  // of these
 };
 

@@ -12,12 +12,12 @@
 
 namespace vitrail {
 
-FrameJob::FrameJob(std::span<char* const> typed, std::span<const Frame::Word> line,
+FrameJob::FrameJob(std::span<char* const> typed, std::span<const ListedFrame::Word> line,
                    const std::filesystem::path& output) {
   declare(app_, arguments_);
   let_the_last_count(app_);
   std::vector<std::string> words(typed.begin() + 1, typed.end());
-  for (const Frame::Word& word : line) words.push_back(word.text);
+  for (const ListedFrame::Word& word : line) words.push_back(word.text);
   words.insert(words.end(), {"-o", output.string()});
   arguments_.options.outputs.command = fmt::format("vitrail render {}", fmt::join(words, " "));
   words = as_parsed(app_, words);

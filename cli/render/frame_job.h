@@ -17,7 +17,7 @@ namespace vitrail {
 class FrameJob {
  public:
   // `typed` has the command's words, its name first. Throws CLI::ParseError.
-  FrameJob(std::span<char* const> typed, std::span<const Frame::Word> line,
+  FrameJob(std::span<char* const> typed, std::span<const ListedFrame::Word> line,
            const std::filesystem::path& output);
 
   // Returns, on one rank alone, what the picture is to be, and checks that the bundle can give it. Throws

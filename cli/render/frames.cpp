@@ -23,10 +23,10 @@ bool may_have(const std::string& word) {
   return std::ranges::find(of_frames, word.substr(0, word.find('='))) != std::end(of_frames);
 }
 
-std::vector<Frame::Word> words_of(const std::string& line) {
+std::vector<ListedFrame::Word> words_of(const std::string& line) {
   constexpr const char* blanks = " \t\r\v\f";
   const std::string text = line.substr(0, line.find('#'));
-  std::vector<Frame::Word> words;
+  std::vector<ListedFrame::Word> words;
   for (std::size_t end = 0, begin; (begin = text.find_first_not_of(blanks, end)) != text.npos;) {
     end = std::min(text.find_first_of(blanks, begin), text.size());
     words.push_back({text.substr(begin, end - begin), static_cast<int>(begin) + 1});
@@ -60,22 +60,22 @@ bool is_option(const std::string& word) {
          (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
 }
 
-std::vector<Frame> read_frames(const std::filesystem::path& file) {
+std::vector<ListedFrame> read_frames(const std::filesystem::path& file) {
   note_input(file);
   std::ifstream in = open_regular(file);
   if (!in) throw Error("cannot read the frames", {file.string()});
-  std::vector<Frame> frames;
+  std::vector<ListedFrame> frames;
   int line = 0;
   for (std::string text; std::getline(in, text);) {
-    Frame frame{frames.size() + 1, ++line, words_of(text), text};
+    ListedFrame frame{frames.size() + 1, ++line, words_of(text), text};
     if (!frame.words.empty()) frames.push_back(std::move(frame));
   }
   if (frames.empty()) throw Error("there is no frame: a line of options is one", {file.string()});
   return frames;
 }
 
-void require_options_of_frames(const Frame& frame, const std::filesystem::path& file) {
-  for (const Frame::Word& word : frame.words)
+void require_options_of_frames(const ListedFrame& frame, const std::filesystem::path& file) {
+  for (const ListedFrame::Word& word : frame.words)
     if (is_option(word.text) && !may_have(word.text))
       throw Error(fmt::format("a frame has {}, but not {}", fmt::join(of_frames, ", "), word.text),
                   {file.string(), frame.line, word.column}, frame.text);

@@ -8,8 +8,8 @@
 
 namespace vitrail {
 
-// A Frame is a line of the file: options of render that change the picture.
-struct Frame {
+// A ListedFrame is a line of the file: options of render that change the picture.
+struct ListedFrame {
   struct Word {
     std::string text;
     int column = 0;  // in the line, from 1
@@ -22,13 +22,13 @@ struct Frame {
 
 // Reads words with blanks between them; # and what follows is a comment, and a line without words is no
 // frame. Throws Error where there is no frame.
-std::vector<Frame> read_frames(const std::filesystem::path& file);
+std::vector<ListedFrame> read_frames(const std::filesystem::path& file);
 
 // Returns whether a word begins an option: "--seed" and "-o", but not "-1".
 bool is_option(const std::string& word);
 
 // Throws Error with the line and column where an option is not one that a frame may have.
-void require_options_of_frames(const Frame& frame, const std::filesystem::path& file);
+void require_options_of_frames(const ListedFrame& frame, const std::filesystem::path& file);
 
 // Puts the number in place of "%04d" in the name. Throws UsageError where there is not one such place.
 std::filesystem::path numbered(const std::filesystem::path& name, std::size_t number);

@@ -25,7 +25,7 @@ SolarGain solar_gain(GlazingSystem system);
 // Solar heat is in W/m² of glass.
 struct SolarHeat {
   std::vector<float> on_the_pane, let_in;  // an hour each
-  Estimate year_kwh;                       // of what is let in, kWh/m²; for hours that follow each other
+  YearEstimate year_kwh;                   // of what is let in, kWh/m²; for hours that follow each other
 };
 // `sensor` lies before the pane's outside and faces as it does: `normal`, in the sky's frame. Light from the
 // sky and the sun counts by its angle; light from the ground or from surfaces counts as from the whole

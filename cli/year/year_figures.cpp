@@ -148,7 +148,7 @@ HourLux hour_lux(const YearHour& hour, const SkyLux& sky, const SensorState& sta
 }
 
 // Of the first of the values; the others tell how far it may be off.
-Estimate estimate_of(std::span<const double> values) {
+YearEstimate estimate_of(std::span<const double> values) {
   double squares = 0;
   for (const double x : values.subspan(1)) squares += (x - values[0]) * (x - values[0]);
   return {values[0], std::sqrt(squares / static_cast<double>(values.size() - 1))};
@@ -213,7 +213,7 @@ std::vector<FigureKind> figure_kinds() {
           {"melanopic_250", "share of the hours of use with 250 lx of melanopic EDI or more"}};
 }
 
-Estimate SensorYear::estimate(Figure figure) const {
+YearEstimate SensorYear::estimate(Figure figure) const {
   return estimate_of(figures[static_cast<std::size_t>(figure)]);
 }
 
@@ -367,8 +367,8 @@ std::vector<float> lux_of_sensor(const SkyYear& year, const StateCoefficients& c
 namespace {
 
 // The share of the counted sensors for which it holds, in each year.
-Estimate share_of(const std::vector<SensorYear>& sensors, const std::vector<bool>& counts, Figure figure,
-                  const std::function<double(double)>& of) {
+YearEstimate share_of(const std::vector<SensorYear>& sensors, const std::vector<bool>& counts, Figure figure,
+                      const std::function<double(double)>& of) {
   std::array<double, years> shares{};
   const auto all = static_cast<double>(std::ranges::count(counts, true));
   for (std::size_t s = 0; s < sensors.size(); ++s)

@@ -38,8 +38,8 @@ struct FigureSettings {
   double target_lx = 300;
 };
 
-// An Estimate is a number and its standard error.
-struct Estimate {
+// A YearEstimate is a number and its standard error.
+struct YearEstimate {
   double value = 0, error = 0;
 };
 
@@ -75,7 +75,7 @@ inline constexpr std::size_t replicas = 15;
 struct SensorYear {
   std::vector<float> lux, error, melanopic;                              // an hour each, lx
   std::array<std::array<double, 1 + replicas>, figure_count> figures{};  // the first is the estimate
-  Estimate estimate(Figure figure) const;
+  YearEstimate estimate(Figure figure) const;
 };
 
 // CountedHours says whether each hour counts as one of use, and as a daylight hour. Daylight hours are the
@@ -112,16 +112,16 @@ std::vector<float> lux_of_sensor(const SkyYear& year, const StateCoefficients& c
 
 // AreaFigures are over the sensors of an area, all with equal weight.
 struct AreaFigures {
-  Estimate autonomy;  // sDA: share of the sensors that have the target in half of the hours of use
-  Estimate sunlight;  // ASE: share of those that have more than 250 hours of sun
-  Estimate mean_autonomy;
+  YearEstimate autonomy;  // sDA: share of the sensors that have the target in half of the hours of use
+  YearEstimate sunlight;  // ASE: share of those that have more than 250 hours of sun
+  YearEstimate mean_autonomy;
   // EN 17037's daylight provision has the levels minimum, medium, high: for each the share of sensors that
   // have the target, and the minimum target. By method 2 they have it in half of the daylight hours. By
   // method 1 their daylight factors are large enough that they have it at `median_diffuse_lx` outdoors.
   struct Level {
     std::string_view name;
     double target_lx, minimum_lx;
-    Estimate target, minimum, target_by_factor, minimum_by_factor;
+    YearEstimate target, minimum, target_by_factor, minimum_by_factor;
     bool holds() const { return target.value >= 0.5 && minimum.value >= 0.95; }
     bool holds_by_factor() const { return target_by_factor.value >= 0.5 && minimum_by_factor.value >= 0.95; }
   };

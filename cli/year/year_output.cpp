@@ -42,7 +42,7 @@ void write_hours_of(const std::filesystem::path& file, const YearReport& r, cons
   write(file, text);
 }
 
-std::string percent(const Estimate& e) {
+std::string percent(const YearEstimate& e) {
   return fmt::format("{:.1f} ± {:.1f} %", 100 * e.value, 100 * e.error);
 }
 
@@ -65,7 +65,7 @@ void write_figures(const std::filesystem::path& folder, const YearReport& r) {
     add(text, "{},{},{},{},{:.6g},{:.6g},{:.6g},{}", s + 1, p.x, p.y, p.z, n.x, n.y, n.z,
         r.in_area[s] ? 1 : 0);
     for (std::size_t f = 0; f < figure_count; ++f) {
-      const Estimate e = r.sensor_years[s].estimate(static_cast<Figure>(f));
+      const YearEstimate e = r.sensor_years[s].estimate(static_cast<Figure>(f));
       add(text, ",{:.5g},{:.2g}", e.value, e.error);
     }
     add(text, "\n");
@@ -91,7 +91,7 @@ std::vector<AreaRow> area_rows(const YearReport& r) {
                     "the same; 95 % are asked for", level.minimum});
   }
   for (const AreaFigures::Level& level : a.provision) {
-    const auto row = [&](double lx, const char* asked, const Estimate& estimate) {
+    const auto row = [&](double lx, const char* asked, const YearEstimate& estimate) {
       const double percent = a.median_diffuse_lx > 0 ? 100 * lx / a.median_diffuse_lx : 0;
       rows.push_back(
           {fmt::format("EN 17037 {}: factor {:.2f} %", level.name, percent),

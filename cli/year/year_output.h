@@ -14,7 +14,7 @@ namespace vitrail {
 // A YearReport is all that is written.
 struct YearReport {
   std::string bundle, weather, command;
-  Place place;
+  Site place;
   std::size_t missing_hours = 0;
   int patch_division = 1;
   FigureSettings settings;
@@ -59,7 +59,7 @@ std::optional<std::size_t> sunniest(const YearReport& report);
 // An AreaRow is a figure over the area, for tables and pages.
 struct AreaRow {
   std::string name, words;
-  Estimate estimate;
+  YearEstimate estimate;
   bool is_printed = true;
 };
 std::vector<AreaRow> area_rows(const YearReport& report);

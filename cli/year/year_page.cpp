@@ -117,7 +117,7 @@ std::string map_of(const YearReport& r, const Plan& plan, Figure f, double most,
                height = (plan.high[1] - plan.low[1]) * unit;
   std::string svg;
   for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
-    const Estimate e = r.sensor_years[plan.sensors[i]].estimate(f);
+    const YearEstimate e = r.sensor_years[plan.sensors[i]].estimate(f);
     svg += square((plan.at[i][0] - plan.step[0] / 2 - plan.low[0]) * unit,
                   (plan.high[1] - plan.at[i][1] - plan.step[1] / 2) * unit, plan.step[0] * unit,
                   plan.step[1] * unit, color_of(e.value / most),

@@ -25,11 +25,11 @@ bool is_whole(const Quadric& q) {
   return is_whole_turn(q) && !has_hole;
 }
 
-std::optional<PlacedQuadric> placed_quadric(const Scene& scene, const Shape& shape, QuadricUv uv,
-                                            ShapeUvUses& uvs) {
+std::optional<QuadricShape> placed_quadric(const Scene& scene, const Shape& shape, QuadricUv uv,
+                                           ShapeUvUses& uvs) {
   const std::optional<Quadric>& quadric = scene.meshes.at(shape.mesh.value).quadric;
   if (!quadric || is_curve(*quadric)) return std::nullopt;
-  PlacedQuadric q{*quadric, shape.object_to_world, shape.flip_orientation};
+  QuadricShape q{*quadric, shape.object_to_world, shape.flip_orientation};
   const bool differs = q.quadric.uv != uv && uvs.of(shape);
   q.quadric.uv = uv;
   if (!differs) return q;

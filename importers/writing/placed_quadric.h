@@ -11,7 +11,7 @@ namespace vitrail {
 
 // It is a shape whose mesh is a quadric. Its front is outside, of a disk +z, unless the transform mirrors or
 // `flip_orientation` holds, but not both.
-struct PlacedQuadric {
+struct QuadricShape {
   Quadric quadric;
   Transform to_world;
   bool flip_orientation = false;
@@ -19,8 +19,8 @@ struct PlacedQuadric {
 
 // Returns the shape as a quadric of this convention of (u,v), of which another sphere is a mirror image.
 // Returns nothing where its mesh is none, or where (u,v) show and the convention cannot say them.
-std::optional<PlacedQuadric> placed_quadric(const Scene& scene, const Shape& shape, QuadricUv uv,
-                                            ShapeUvUses& uvs);
+std::optional<QuadricShape> placed_quadric(const Scene& scene, const Shape& shape, QuadricUv uv,
+                                           ShapeUvUses& uvs);
 
 // Returns whether the quadric has no holes and goes all the way round.
 bool is_whole(const Quadric& quadric);

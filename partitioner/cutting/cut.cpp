@@ -19,12 +19,12 @@ void CellContent::append(const CellContent& next, std::uint32_t first) {
   piece_vertices.insert(piece_vertices.end(), next.piece_vertices.begin(), next.piece_vertices.end());
 }
 
-Interval interval(const Triangle& t, int axis) {
+AxisExtent interval(const Triangle& t, int axis) {
   return {std::min({t[0][axis], t[1][axis], t[2][axis]}), std::max({t[0][axis], t[1][axis], t[2][axis]})};
 }
 
-Interval interval(std::span<const Point3d> polygon, int axis) {
-  Interval i{polygon[0][axis], polygon[0][axis]};
+AxisExtent interval(std::span<const Point3d> polygon, int axis) {
+  AxisExtent i{polygon[0][axis], polygon[0][axis]};
   for (const Point3d& p : polygon) i = {std::min(i.lower, p[axis]), std::max(i.upper, p[axis])};
   return i;
 }
@@ -100,7 +100,7 @@ class Router {
   void piece(std::uint32_t index, std::span<const Point3d> polygon, std::uint32_t at) {
     while (!(at & KdNode::leaf_bit)) {
       const KdNode& node = nodes_[at];
-      const Interval i = interval(polygon, static_cast<int>(node.axis));
+      const AxisExtent i = interval(polygon, static_cast<int>(node.axis));
       if (!reaches_above(i, node.split)) {
         at = node.below;
       } else if (!reaches_below(i, node.split)) {

@@ -40,17 +40,17 @@ struct CellContent {
   void append(const CellContent& next, std::uint32_t first = 0);
 };
 
-// An Interval is an extent along an axis.
-struct Interval {
+// An AxisExtent is an extent along an axis.
+struct AxisExtent {
   double lower = 0, upper = 0;
 };
-Interval interval(const Triangle& triangle, int axis);
-Interval interval(std::span<const Point3d> polygon, int axis);
+AxisExtent interval(const Triangle& triangle, int axis);
+AxisExtent interval(std::span<const Point3d> polygon, int axis);
 
 // They return which side of a plane something of this extent belongs to. What touches the plane from one side
 // stays on that side; what lies in it goes below.
-inline bool reaches_above(Interval i, float split) { return i.upper > split; }
-inline bool reaches_below(Interval i, float split) { return i.lower < split || i.upper <= split; }
+inline bool reaches_above(AxisExtent i, float split) { return i.upper > split; }
+inline bool reaches_below(AxisExtent i, float split) { return i.lower < split || i.upper <= split; }
 
 // Returns where the segment from `below` to `above` crosses the plane, in double. It is always called in that
 // direction, so that all who share the edge get the same bits. The coordinate on the axis is the split

@@ -45,7 +45,7 @@ struct Halves {
 Halves halves(const std::vector<Item>& sample, Plane plane) {
   Halves h;
   for (const Item& item : sample) {
-    const Interval i{item.bounds.lower[plane.axis], item.bounds.upper[plane.axis]};
+    const AxisExtent i{item.bounds.lower[plane.axis], item.bounds.upper[plane.axis]};
     const bool in_both = reaches_above(i, plane.split) && reaches_below(i, plane.split);
     if (reaches_below(i, plane.split)) {
       h.below.push_back(item);

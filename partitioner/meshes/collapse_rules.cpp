@@ -47,7 +47,7 @@ void CollapseRules::Error::add(const PlaneQuadric& plane_quadric, double area) {
   weight += area;
 }
 
-CollapseRules::CollapseRules(HalfEdges& mesh, const TriangleMesh& source, const Surface& surface)
+CollapseRules::CollapseRules(HalfEdges& mesh, const TriangleMesh& source, const MeshSurface& surface)
     : mesh_(mesh),
       source_(source),
       vertices_(surface.triangles),

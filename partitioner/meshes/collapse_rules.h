@@ -26,7 +26,7 @@ class CollapseRules {
   using Collapse = OpenMesh::Decimater::CollapseInfoT<HalfEdges>;  // of v0 into v1
 
   // Faces and vertices of the half-edge mesh have the numbers of the surface's; its diagonal is 1.
-  CollapseRules(HalfEdges& mesh, const TriangleMesh& source, const Surface& surface);
+  CollapseRules(HalfEdges& mesh, const TriangleMesh& source, const MeshSurface& surface);
 
   // Returns the quadric error, area × distance²; none where v0 must not move to v1. Cheap.
   std::optional<double> cost(const Collapse& collapse);

@@ -27,7 +27,7 @@ bool is_flat(const TriangleMesh& mesh) {
 }
 
 // Scaled to a diagonal of 1, so that errors have one unit.
-HalfEdges connect(const TriangleMesh& mesh, Surface& surface) {
+HalfEdges connect(const TriangleMesh& mesh, MeshSurface& surface) {
   ::omerr().disable();  // it would write of complex edges to standard error
   Bounds3d bounds;
   for (const std::uint32_t p : surface.points) extend(bounds, cast<double>(mesh.positions[p]));
@@ -141,7 +141,7 @@ DecimatedMesh decimate(const TriangleMesh& mesh, double fraction) {
   if (asked >= mesh.triangles.size()) return unchanged(mesh);
   TriangleMesh source = mesh;
   if (!source.normals.empty() && is_flat(source)) source.normals.clear();
-  Surface surface = surface_of(source);
+  MeshSurface surface = surface_of(source);
   DecimatedMesh result;
   result.asked = asked;
   result.degenerate = mesh.triangles.size() - surface.triangles.size();

@@ -73,9 +73,9 @@ TriangleMesh repaired(const TriangleMesh& mesh, const Use& use, Notes& notes) {
 }
 
 TriangleMesh oriented(const TriangleMesh& mesh, const Use& use, Notes& notes) {
-  OrientedMesh result = orient(mesh, use.shines         ? Sides::consistent
-                                     : use.front_inside ? Sides::inward
-                                                        : Sides::outward);
+  OrientedMesh result = orient(mesh, use.shines         ? Facing::consistent
+                                     : use.front_inside ? Facing::inward
+                                                        : Facing::outward);
   if (result.turned_triangles > 0)
     note(notes, Fidelity::approximated,
          fmt::format("mesh oriented: {} of {} triangles turned in {} components, {} closed, {} hollows",

@@ -139,13 +139,13 @@ void turn_normals(TriangleMesh& mesh) {
 
 }  // namespace
 
-OrientedMesh orient(const TriangleMesh& mesh, Sides sides) {
+OrientedMesh orient(const TriangleMesh& mesh, Facing sides) {
   Components c = consistent_components(mesh);
   std::vector<std::vector<std::uint32_t>> closed;
   for (std::size_t i = 0; i < c.all.size(); ++i)
     if (c.closed[i]) closed.push_back(c.all[i]);
   OrientedMesh result{mesh, 0, c.all.size(), closed.size(), 0};
-  const std::vector<int> depths = sides == Sides::consistent
+  const std::vector<int> depths = sides == Facing::consistent
                                       ? std::vector<int>(closed.size())
                                       : nesting_depths(c.positions, c.triangles, closed);
   TriangleMesh consistent;  // what `volume_sign` asks of a mesh
@@ -153,10 +153,10 @@ OrientedMesh orient(const TriangleMesh& mesh, Sides sides) {
   consistent.triangles = c.triangles;
   for (std::size_t i = 0, nth_closed = 0; i < c.all.size(); ++i) {
     const int depth = c.closed[i] ? depths[nth_closed++] : 0;
-    const int sign = c.closed[i] && sides != Sides::consistent ? volume_sign(consistent, c.all[i]) : 0;
+    const int sign = c.closed[i] && sides != Facing::consistent ? volume_sign(consistent, c.all[i]) : 0;
     const bool outer = depth % 2 == 0;
     const bool turn =
-        sign == 0 ? mostly_turned(mesh, c, c.all[i]) : (sign > 0) != ((sides == Sides::outward) == outer);
+        sign == 0 ? mostly_turned(mesh, c, c.all[i]) : (sign > 0) != ((sides == Facing::outward) == outer);
     result.inner_components += !outer;
     for (const std::uint32_t t : c.all[i])
       if (c.turned[t] != turn) {

@@ -5,7 +5,7 @@
 
 namespace vitrail {
 
-enum class Sides {
+enum class Facing {
   outward,     // closed components: counter-clockwise seen from outside
   inward,      // clockwise
   consistent,  // like the greater part of their area
@@ -23,6 +23,6 @@ struct OrientedMesh {
 // of its volume; others, and those of volume 0, as `consistent`. Where more than two triangles meet at an
 // edge they do not decide on one another. Shading normals are turned to the triangles' fronts, the three of a
 // triangle together; vertices that would have to face both ways are doubled, at the end.
-OrientedMesh orient(const TriangleMesh& mesh, Sides sides);
+OrientedMesh orient(const TriangleMesh& mesh, Facing sides);
 
 }  // namespace vitrail

@@ -88,7 +88,7 @@ std::vector<float> blend(const std::vector<float>& rows, std::size_t length, con
 }  // namespace
 
 SubdividedMesh subdivide(const TriangleMesh& mesh, int levels, const Subdivision& scheme) {
-  const Surface surface = surface_of(mesh);
+  const MeshSurface surface = surface_of(mesh);
   TriangleMesh cage;
   for (const std::uint32_t p : surface.points) cage.positions.push_back(mesh.positions[p]);
   cage.triangles = surface.triangles;

@@ -70,10 +70,10 @@ Corners join_across_edges(const std::vector<Triangle>& triangles, std::vector<bo
 
 }  // namespace
 
-bool Surface::is_manifold() const { return std::ranges::find(held, true) == held.end(); }
+bool MeshSurface::is_manifold() const { return std::ranges::find(held, true) == held.end(); }
 
-Surface surface_of(const TriangleMesh& mesh) {
-  Surface surface;
+MeshSurface surface_of(const TriangleMesh& mesh) {
+  MeshSurface surface;
   const std::vector<std::uint32_t> point = first_at_position(mesh), vertex = first_equal(mesh);
   std::vector<Triangle> at_points;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {

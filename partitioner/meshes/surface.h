@@ -5,10 +5,10 @@
 
 namespace vitrail {
 
-// A Surface has a mesh's triangles as a manifold, consistently oriented surface. They are joined along
+// A MeshSurface has a mesh's triangles as a manifold, consistently oriented surface. They are joined along
 // an edge where exactly two triangles have it, in opposite directions, and at a vertex only around
 // such edges. Seams do not part it.
-struct Surface {
+struct MeshSurface {
   std::vector<std::uint32_t>
       sources;                      // of each triangle in the mesh; those with two equal corners are left out
   std::vector<Triangle> triangles;  // over the vertices below
@@ -18,6 +18,6 @@ struct Surface {
   bool is_manifold() const;
 };
 
-Surface surface_of(const TriangleMesh& mesh);
+MeshSurface surface_of(const TriangleMesh& mesh);
 
 }  // namespace vitrail

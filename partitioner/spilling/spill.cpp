@@ -97,8 +97,8 @@ std::vector<std::uint32_t> triangles_in(const CellContent& content) {
 
 }  // namespace
 
-Spill::Spill(std::filesystem::path directory, std::size_t buckets, const PlacementRule& rule,
-             std::uint64_t buffer_bytes)
+BucketSpill::BucketSpill(std::filesystem::path directory, std::size_t buckets, const PlacementRule& rule,
+                         std::uint64_t buffer_bytes)
     : directory_(std::move(directory)), rule_(rule), buffer_bytes_(buffer_bytes), buckets_(buckets) {
   std::error_code error;
   std::filesystem::create_directory(directory_, error);
@@ -106,20 +106,20 @@ Spill::Spill(std::filesystem::path directory, std::size_t buckets, const Placeme
   for (std::size_t i = 0; i < buckets; ++i) buckets_[i].file = directory_ / fmt::format("{:06}.bucket", i);
 }
 
-Spill::~Spill() {
+BucketSpill::~BucketSpill() {
   const GrantedMemory in_any_case;
   std::error_code ignored;
   std::filesystem::remove_all(directory_, ignored);
 }
 
-std::size_t Spill::bytes_of(const Chunk& c) const {
+std::size_t BucketSpill::bytes_of(const Chunk& c) const {
   const std::size_t triangle =
       sizeof(std::uint32_t) + sizeof(Triangle) + (rule_.normals ? sizeof(CornerNormals) : 0) +
       (rule_.uvs ? sizeof(CornerUvs) : 0) + rule_.attributes.size() * sizeof(CornerValues);
   return c.triangles * triangle + c.pieces * sizeof(Piece) + c.vertices * sizeof(Point3d);
 }
 
-void Spill::add(std::size_t index, const NumberedTriangles& block, const CellContent& content) {
+void BucketSpill::add(std::size_t index, const NumberedTriangles& block, const CellContent& content) {
   if (content.size() == 0) return;
   const std::vector<std::uint32_t> chosen = triangles_in(content);
   std::vector<Piece> pieces = content.pieces;
@@ -141,14 +141,14 @@ void Spill::add(std::size_t index, const NumberedTriangles& block, const CellCon
   if (bucket.buffer.size() >= buffer_bytes_) write(bucket);
 }
 
-void Spill::write(Bucket& bucket) {
+void BucketSpill::write(Bucket& bucket) {
   if (bucket.buffer.empty()) return;
   Descriptor(bucket.file, O_WRONLY | O_CREAT | O_APPEND).write(bucket.buffer);
   bucket.written += bucket.buffer.size();
   bucket.buffer.clear();
 }
 
-void Spill::flush() {
+void BucketSpill::flush() {
   for (Bucket& bucket : buckets_) {
     write(bucket);
     bucket.buffer = {};
@@ -156,7 +156,7 @@ void Spill::flush() {
   }
 }
 
-LoadedCell Spill::take(std::size_t index) {
+LoadedCell BucketSpill::take(std::size_t index) {
   Bucket& bucket = buckets_[index];
   std::vector<Chunk>& chunks = bucket.chunks;
   std::ranges::sort(chunks, {}, &Chunk::first_id);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Spill takes triangles to disk and back: a file for each part of the kd-tree that is
+// A BucketSpill takes triangles to disk and back: a file for each part of the kd-tree that is
 // to be in memory at once.
 #pragma once
 
@@ -18,14 +18,14 @@ struct LoadedCell {
 };
 
 // The files are private to this object: nobody else reads them, and the destructor removes them.
-class Spill {
+class BucketSpill {
  public:
   // Makes the directory. `buffer_bytes` are in memory for each bucket before they are written.
-  Spill(std::filesystem::path directory, std::size_t buckets, const PlacementRule& rule,
-        std::uint64_t buffer_bytes);
-  ~Spill();
-  Spill(const Spill&) = delete;
-  Spill& operator=(const Spill&) = delete;
+  BucketSpill(std::filesystem::path directory, std::size_t buckets, const PlacementRule& rule,
+              std::uint64_t buffer_bytes);
+  ~BucketSpill();
+  BucketSpill(const BucketSpill&) = delete;
+  BucketSpill& operator=(const BucketSpill&) = delete;
 
   // Adds what a block has in a bucket. Blocks do not overlap in their ids; in any order, from
   // any thread. Throws MachineError.

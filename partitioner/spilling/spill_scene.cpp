@@ -71,7 +71,7 @@ std::vector<Bounds3f> sample_of(const World& world, const SceneInstances& instan
   return sample;
 }
 
-void spill_scene(const World& world, const KdPlan& plan, std::uint64_t load_bytes, Spill& spill,
+void spill_scene(const World& world, const KdPlan& plan, std::uint64_t load_bytes, BucketSpill& spill,
                  SceneTally& tally, const std::function<void(std::uint64_t)>& placed) {
   const PlacementRule rule = world.rule();
   place_scene(world, load_bytes, [&](const Block& block) {

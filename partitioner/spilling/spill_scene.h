@@ -15,7 +15,7 @@ std::vector<Bounds3f> sample_of(const World& world, const SceneInstances& instan
                                 std::uint64_t most = most_samples);
 
 // Sends all triangles down the tree to the bucket of its leaf. `placed` gets how many, from any thread.
-void spill_scene(const World& world, const KdPlan& plan, std::uint64_t load_bytes, Spill& spill,
+void spill_scene(const World& world, const KdPlan& plan, std::uint64_t load_bytes, BucketSpill& spill,
                  SceneTally& tally, const std::function<void(std::uint64_t)>& placed);
 
 }  // namespace vitrail

@@ -25,7 +25,7 @@ namespace vitrail {
 // or .wea); the sun stands where it does in the middle of that hour. With lux=file the brightness is the
 // file's own illuminances, not the watts by Perez's efficacies.
 struct GivenSky {
-  Place place;
+  Site place;
   LocalTime time;
   SunPosition sun;
   std::string up, north;  // axes of the world; up "": the camera's, north "": −z where y is up, else +y

@@ -65,7 +65,7 @@ LocalTime local_time(const std::string& text) {
   return t;
 }
 
-SunPosition sun_position(const LocalTime& time, const Place& place) {
+SunPosition sun_position(const LocalTime& time, const Site& place) {
   const double days = days_from_2000(time), T = days / 36525;
   const double mean_longitude = 280.46646 + T * (36000.76983 + T * 0.0003032);
   const double anomaly = 357.52911 + T * (35999.05029 - T * 0.0001537);

@@ -17,7 +17,7 @@ struct LocalTime {
 };
 
 // It is a place on the Earth in degrees, north and east positive.
-struct Place {
+struct Site {
   double latitude_deg = 0, longitude_deg = 0;
 };
 
@@ -36,7 +36,7 @@ struct SunPosition {
 // Returns the sun's position, by its apparent longitude to 0.01° between 1950 and 2050 (Meeus, Astronomical
 // Algorithms, 2nd ed. 1998, chapter 25, the lower accuracy; sidereal time of chapter 12). UTC is taken for
 // dynamical time.
-SunPosition sun_position(const LocalTime& time, const Place& place);
+SunPosition sun_position(const LocalTime& time, const Site& place);
 
 // Returns the direction towards the sun where +x is east, +y north and +z up.
 Vector3d direction_of(const SunPosition& position);

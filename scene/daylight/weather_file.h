@@ -18,7 +18,7 @@ struct WeatherLux {
 
 // It holds the sun and the sky of an hour, W/m².
 struct WeatherHour {
-  Place place;
+  Site place;
   LocalTime middle;                 // of the hour, by the file's clock
   double direct_normal_w = 0;       // of the sun, across its direction
   double diffuse_horizontal_w = 0;  // of the sky, on a horizontal plane
@@ -33,7 +33,7 @@ WeatherHour read_weather_hour(const std::filesystem::path& file, const LocalTime
 
 // It holds all hours of such a file, in its order.
 struct WeatherYear {
-  Place place;
+  Site place;
   std::vector<WeatherHour> hours;
   std::size_t missing = 0;  // hours whose sun or sky is missing: both are 0 there
 };

@@ -48,7 +48,7 @@ void measure_all(const TriangleMesh& mesh) {
   measure("decimate 0.5", n, [&] { return decimate(mesh, 0.5).mesh.triangles.size(); });
   measure("decimate 0.1", n, [&] { return decimate(mesh, 0.1).mesh.triangles.size(); });
   measure("subdivide 1", n, [&] { return subdivide(mesh, 1, loop).mesh.triangles.size(); });
-  measure("orient", n, [&] { return orient(mesh, Sides::outward).mesh.triangles.size(); });
+  measure("orient", n, [&] { return orient(mesh, Facing::outward).mesh.triangles.size(); });
   measure("CGAL's soup repair", n, [&] { return repair_by_cgal(mesh); });
 }
 

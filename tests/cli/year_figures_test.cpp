@@ -90,7 +90,7 @@ TEST(YearFigures, ErrorsFollowThoseOfTheCoefficients) {
   const SensorYear s = figures(0.1f);
   EXPECT_NEAR(s.error[0], 5, 1e-3);
   EXPECT_NEAR(s.error[1], std::hypot(35, 1000), 1);
-  const Estimate mean = s.estimate(Figure::mean_lx);
+  const YearEstimate mean = s.estimate(Figure::mean_lx);
   // Of one patch the sky's errors go together: 4400/3 · 0.1, and 1000/3 of the sun's.
   EXPECT_GT(mean.error, 0.5 * std::hypot(147, 333));
   EXPECT_LT(mean.error, 2 * std::hypot(147, 333));

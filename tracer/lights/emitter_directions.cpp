@@ -25,13 +25,13 @@ EmitterDirections::EmitterDirections(const EmitterShape& shape, const LightScene
 
 void EmitterDirections::tabulate(const ProjectionShape& projection, const LightScene& scene) {
   constexpr double alike = 0.1;  // of all directions that may shine
-  const std::vector<FramePart> parts =
+  const std::vector<FrameFlux> parts =
       parts_of_frame(projection.image, projection.half, projection.irradiance, Cells::side, scene.textures,
                      scene.texture_records);
   double total = 0, shining = 0;
-  for (const FramePart& part : parts) total += part.mean, shining += part.most > 0;
+  for (const FrameFlux& part : parts) total += part.mean, shining += part.most > 0;
   Cells cells{projection.half, {0}, {}};
-  for (const FramePart& part : parts)
+  for (const FrameFlux& part : parts)
     cells.cumulative.push_back(cells.cumulative.back() + (total > 0 ? (1 - alike) * part.mean / total : 0) +
                                (part.most > 0 ? alike / shining : 0));
   const double sum = cells.cumulative.back();

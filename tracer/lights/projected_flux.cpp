@@ -84,11 +84,11 @@ double mean_of_image(const ImageTexture& image, const UvMapping& m, const BakedI
 }
 
 // Over parts of the frame, of what may be anything.
-std::vector<FramePart> parts_of(const SpectrumParameter& image, const Textures* textures,
+std::vector<FrameFlux> parts_of(const SpectrumParameter& image, const Textures* textures,
                                 std::span<const Texture> records, int side, bool flipped,
                                 const std::function<double(double, double)>& weight) {
   TextureRanges ranges(textures, records);
-  std::vector<FramePart> parts;
+  std::vector<FrameFlux> parts;
   for (int i = 0; i < side * side; ++i) {
     const auto at = [&](double dx, double dy) {
       const double s = (i % side + dx) / side, t = (i / side + dy) / side;
@@ -105,10 +105,10 @@ std::vector<FramePart> parts_of(const SpectrumParameter& image, const Textures* 
   return parts;
 }
 
-double mean_of(const std::vector<FramePart>& parts) {
+double mean_of(const std::vector<FrameFlux>& parts) {
   constexpr double guess = 1e-3;  // where light is found at no place that is looked at
   double sum = 0, most = 0;
-  for (const FramePart& part : parts) sum += part.mean, most = std::max(most, part.most);
+  for (const FrameFlux& part : parts) sum += part.mean, most = std::max(most, part.most);
   return sum > 0 ? sum / static_cast<double>(parts.size()) : guess * most;
 }
 
@@ -116,7 +116,7 @@ constexpr int guessing_side = 128;
 
 }  // namespace
 
-std::vector<FramePart> parts_of_frame(const SpectrumParameter& image, Point2d half, bool irradiance, int side,
+std::vector<FrameFlux> parts_of_frame(const SpectrumParameter& image, Point2d half, bool irradiance, int side,
                                       const Textures* textures, std::span<const Texture> records) {
   return parts_of(image, textures, records, side, irradiance, FrameWeight{half, irradiance});
 }

@@ -125,7 +125,7 @@ struct NumberRange {
   float low = std::numeric_limits<float>::infinity(), high = 0;
   void add(const float* cell) { low = std::min(low, *cell), high = std::max(high, *cell); }
   void add(const NumberRange& r) { low = std::min(low, r.low), high = std::max(high, r.high); }
-  ValueRange values() const { return {low, high}; }
+  GridRange values() const { return {low, high}; }
 };
 
 // The same of cells of bands.
@@ -150,7 +150,7 @@ struct ColorRange {
     x_low = std::min(x_low, r.x_low), x_high = std::max(x_high, r.x_high);
     scale.add(r.scale);
   }
-  ValueRange values() const {
+  GridRange values() const {
     constexpr double slack = 1e-5;  // floats round x, S and their products by less
     const double low = sigmoid(static_cast<double>(x_low)), high = sigmoid(static_cast<double>(x_high));
     return {static_cast<float>(std::max(low - slack, 0.0) * static_cast<double>(scale.low)),
@@ -190,14 +190,14 @@ std::vector<Range> ranges_of(const Grid& grid, const std::array<CellRanges, 3>& 
 }
 
 template <class Range>
-std::vector<ValueRange> value_ranges(const Grid& grid, const std::array<CellRanges, 3>& boxes) {
+std::vector<GridRange> value_ranges(const Grid& grid, const std::array<CellRanges, 3>& boxes) {
   const std::vector<Range> ranges = ranges_of<Range>(grid, boxes);
-  std::vector<ValueRange> values;
+  std::vector<GridRange> values;
   values.reserve(ranges.size());
   for (const CellRange& z : boxes[2])
     for (const CellRange& y : boxes[1])
       for (const CellRange& x : boxes[0]) {
-        ValueRange range = ranges[values.size()].values();
+        GridRange range = ranges[values.size()].values();
         if (!(x.whole && y.whole && z.whole)) range.low = 0;
         values.push_back(range);
       }
@@ -258,7 +258,7 @@ double greatest_value(const Grid& grid) {
   return static_cast<double>(greatest);
 }
 
-std::vector<ValueRange> value_ranges(const Grid& grid, const Planes& planes) {
+std::vector<GridRange> value_ranges(const Grid& grid, const Planes& planes) {
   const std::array<int, 3> counts{grid.nx, grid.ny, grid.nz};
   std::array<CellRanges, 3> boxes;
   for (int axis = 0; axis < 3; ++axis) {

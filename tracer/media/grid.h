@@ -25,13 +25,13 @@ void look_up_colors(const Grid& grid, Point3d p, std::span<const double> lambda_
 // Returns a value that no value of the grid exceeds, at any wavelength.
 double greatest_value(const Grid& grid);
 
-struct ValueRange {
+struct GridRange {
   float low = 0, high = 0;
 };
 // They are planes across the axes x, y and z, at least two of each, in ascending order.
 using Planes = std::array<std::vector<double>, 3>;
 // Returns a range for each box between successive planes, x fastest. It holds every value that a look-up in
 // the box gives, at any wavelength. The values of the grid are ≥ 0. Each of its cells is read once.
-std::vector<ValueRange> value_ranges(const Grid& grid, const Planes& planes);
+std::vector<GridRange> value_ranges(const Grid& grid, const Planes& planes);
 
 }  // namespace vitrail

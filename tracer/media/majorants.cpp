@@ -52,7 +52,7 @@ Factors factors_of(const Medium& medium) {
   return f;
 }
 
-Range range_of(const std::vector<ValueRange>& ranges, std::size_t cell) {
+Range range_of(const std::vector<GridRange>& ranges, std::size_t cell) {
   return {static_cast<double>(ranges[cell].low), static_cast<double>(ranges[cell].high)};
 }
 
@@ -88,7 +88,7 @@ ExtinctionGrid bound_extinction(const Medium& medium, const Bounds3d& bounds) {
           std::lerp(bounds.lower[axis], bounds.upper[axis], static_cast<double>(i) / g.cells[a]));
   }
   const auto ranges_of = [&](const Grid* grid) {
-    return grid ? value_ranges(*grid, planes) : std::vector<ValueRange>{};
+    return grid ? value_ranges(*grid, planes) : std::vector<GridRange>{};
   };
   const auto density = ranges_of(factors.density), first = ranges_of(factors.added[0]),
              second = ranges_of(factors.added[1]);

@@ -16,7 +16,7 @@ namespace {
 constexpr int furthest = 9999;  // year, month or day
 
 // Mitsuba's defaults are of Tokyo.
-Place read_place(const Object& o, const Report& report) {
+Site read_place(const Object& o, const Report& report) {
   return {o.number("latitude", 35.6894, report), o.number("longitude", 139.6917, report)};
 }
 
@@ -79,7 +79,7 @@ std::vector<Vector3d> suns_over_time(const Builder& builder, const Object& o) {
     report.fail("the window of time has to be hours from 0 to 24, the first before the last", o.origin);
   if (!(open < close)) report.fail("\"shutter_close\" has to be above \"shutter_open\"", o.origin);
   const double days = days_from_2000(end) - days_from_2000(start);
-  const Place place = read_place(o, report);
+  const Site place = read_place(o, report);
   const bool once = !(builder.shutter_open < builder.shutter_close);
   std::vector<Vector3d> suns;
   for (int i = 0; i < (once ? 1 : moments); ++i) {

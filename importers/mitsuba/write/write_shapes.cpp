@@ -75,7 +75,7 @@ Element add_mesh(Context& context, Element parent, const Shape& shape, const Mes
 }
 
 // As Mitsuba has it: it takes spheres and cylinders for round, and all for whole.
-std::optional<PlacedQuadric> quadric_of(Context& context, const Shape& shape) {
+std::optional<QuadricShape> quadric_of(Context& context, const Shape& shape) {
   const auto placed = placed_quadric(context.scene, shape, QuadricUv::mitsuba, context.uv_uses);
   if (!placed || !is_whole(placed->quadric)) return std::nullopt;
   const Axes axes = axes_of(placed->to_world);
@@ -97,7 +97,7 @@ double plain_scale(const Transform& t) {
   return s > 0 && translate({t.m[0][3], t.m[1][3], t.m[2][3]}) * scale({s, s, s}) == t ? s : 0;
 }
 
-Element add_quadric(Context& context, Element parent, const Shape& shape, const PlacedQuadric& placed,
+Element add_quadric(Context& context, Element parent, const Shape& shape, const QuadricShape& placed,
                     const std::string& id) {
   const Transform& t = placed.to_world;
   const bool sphere = placed.quadric.kind == QuadricKind::sphere;
@@ -116,11 +116,11 @@ Element add_quadric(Context& context, Element parent, const Shape& shape, const 
 }
 
 // Right behind it, and facing backwards.
-PlacedQuadric back_of(const PlacedQuadric& placed) {
+QuadricShape back_of(const QuadricShape& placed) {
   constexpr double gap = 1e-4;
   const double behind = placed.flip_orientation != swaps_handedness(placed.to_world) ? gap : -gap;
   const double across = 1 + behind, along = placed.quadric.kind == QuadricKind::sphere ? across : 1;
-  PlacedQuadric back = placed;
+  QuadricShape back = placed;
   back.flip_orientation = !placed.flip_orientation;
   back.to_world =
       placed.to_world *

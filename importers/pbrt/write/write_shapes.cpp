@@ -105,7 +105,7 @@ std::string extent_parameters(const Quadric& q, double height) {
 
 // The same surface by a transform that does not mirror, of a quadric that goes all the way round; φ runs the
 // other way.
-PlacedQuadric unmirrored(PlacedQuadric placed) {
+QuadricShape unmirrored(QuadricShape placed) {
   placed.to_world = placed.to_world * scale({1, -1, 1});
   placed.flip_orientation = !placed.flip_orientation;
   return placed;
@@ -114,12 +114,12 @@ PlacedQuadric unmirrored(PlacedQuadric placed) {
 // pbrt measures lights, and looks for their points, before the transform, and does not know that they may be
 // partial; where a transform mirrors, the points that it looks for shine to one side and those that it sees
 // to the other. Nothing where it would go wrong, and for what v4 does not have.
-std::optional<Written> written(const PlacedQuadric& given, bool shines, bool uvs_show) {
+std::optional<Written> written(const QuadricShape& given, bool shines, bool uvs_show) {
   const Quadric& q = given.quadric;
   if (q.kind == QuadricKind::cone || q.kind == QuadricKind::paraboloid) return std::nullopt;
   const bool turns = shines && swaps_handedness(given.to_world);
   if (turns && (uvs_show || !is_whole_turn(q))) return std::nullopt;
-  const PlacedQuadric placed = turns ? unmirrored(given) : given;
+  const QuadricShape placed = turns ? unmirrored(given) : given;
   const Sizes sizes = sizes_of(q, placed.to_world);
   const bool is_rigid =
       (q.kind == QuadricKind::cylinder || is_whole(q)) && axes_of(sizes.rest).keep_spheres();

@@ -30,7 +30,7 @@ TEST(Orient, TurnsClosedSurfacesOutwards) {
       std::size_t wrong = 0;
       for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
         wrong += mesh.triangles[i] != sound.triangles[i];
-      const OrientedMesh outward = orient(mesh, Sides::outward), inward = orient(mesh, Sides::inward);
+      const OrientedMesh outward = orient(mesh, Facing::outward), inward = orient(mesh, Facing::inward);
       EXPECT_EQ(canonical(outward.mesh.triangles), canonical(sound.triangles));
       EXPECT_EQ(outward.turned_triangles, wrong);
       EXPECT_EQ(outward.components, 1u);
@@ -46,7 +46,7 @@ TEST(Orient, ShellsInShellsBoundHollows) {
                test::sphere(2, 0.5, {1.6, 0, 0}));  // pierces that of radius 2: in none but the outermost
   test::append(mesh, test::sphere(2, 1, {10, 0, 0}));
   test::turn_at_random(mesh, 3);
-  const OrientedMesh oriented = orient(mesh, Sides::outward);
+  const OrientedMesh oriented = orient(mesh, Facing::outward);
   EXPECT_EQ(oriented.components, 5u);
   EXPECT_EQ(oriented.inner_components, 2u);
   const auto volume = [&](std::size_t part) {
@@ -68,7 +68,7 @@ TEST(Orient, OpenSurfacesFollowTheGreaterPart) {
   const TriangleMesh sound = mesh;
   for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
     std::swap(mesh.triangles[i][0], mesh.triangles[i][1]);
-  const OrientedMesh oriented = orient(mesh, Sides::outward);
+  const OrientedMesh oriented = orient(mesh, Facing::outward);
   EXPECT_EQ(canonical(oriented.mesh.triangles), canonical(sound.triangles));
   EXPECT_EQ(oriented.turned_triangles, 67u);
   EXPECT_EQ(oriented.closed_components, 0u);
@@ -77,7 +77,7 @@ TEST(Orient, OpenSurfacesFollowTheGreaterPart) {
 TEST(Orient, WhatShinesKeepsItsGreaterSide) {
   TriangleMesh mesh = test::turned(test::sphere(2));
   for (std::size_t i = 0; i < 20; ++i) std::swap(mesh.triangles[5 * i][1], mesh.triangles[5 * i][2]);
-  EXPECT_EQ(canonical(orient(mesh, Sides::consistent).mesh.triangles),
+  EXPECT_EQ(canonical(orient(mesh, Facing::consistent).mesh.triangles),
             canonical(test::turned(test::sphere(2)).triangles));
 }
 
@@ -85,7 +85,7 @@ TEST(Orient, NormalsFollowAndVerticesThatFaceBothWaysAreDoubled) {
   TriangleMesh mesh = test::sphere(3);
   for (const Point3f p : mesh.positions) mesh.normals.push_back({-p.x, -p.y, -p.z});
   test::turn_at_random(mesh, 9);
-  const OrientedMesh oriented = orient(mesh, Sides::outward);
+  const OrientedMesh oriented = orient(mesh, Facing::outward);
   EXPECT_EQ(oriented.mesh.positions.size(), mesh.positions.size());
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
     EXPECT_EQ(oriented.mesh.normals[v], -mesh.normals[v]);
@@ -94,7 +94,7 @@ TEST(Orient, NormalsFollowAndVerticesThatFaceBothWaysAreDoubled) {
   card.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}};
   card.normals.assign(4, {0, 0, 1});
   card.triangles = {{0, 1, 2}, {0, 2, 1}, {1, 3, 2}};  // three at one edge do not decide on one another
-  const OrientedMesh doubled = orient(card, Sides::consistent);
+  const OrientedMesh doubled = orient(card, Facing::consistent);
   EXPECT_EQ(doubled.mesh.positions.size(), 7u);
   EXPECT_EQ(doubled.mesh.normals[doubled.mesh.triangles[1][0]], (Normal3f{0, 0, -1}));
   EXPECT_EQ(doubled.mesh.normals[doubled.mesh.triangles[0][0]], (Normal3f{0, 0, 1}));
@@ -115,7 +115,7 @@ TEST(Orient, AMoebiusStripIsCutSomewhere) {
     mesh.triangles.push_back({a, b, c});
     mesh.triangles.push_back({b, d, c});
   }
-  const OrientedMesh oriented = orient(mesh, Sides::outward);
+  const OrientedMesh oriented = orient(mesh, Facing::outward);
   EXPECT_EQ(oriented.mesh.triangles.size(), mesh.triangles.size());
   EXPECT_EQ(oriented.closed_components, 0u);
 }

@@ -24,7 +24,7 @@ TEST(SunPosition, IsThatOfTheNrelExample) {
 TEST(SunPosition, IsThatOfAnEphemeris) {
   struct Row {
     const char* time;
-    Place place;
+    Site place;
     SunPosition sun;
   };
   for (const Row& row : {Row{"2026-06-21T12:00+02:00", {48.8566, 2.3522}, {56.3088, 128.8300}},

@@ -58,7 +58,7 @@ TEST(ColoredMedia, OfBandsAreBlendedNumbers) {
   expect_at(result, 0.5, {1.05, 0.25, 0.25, 0.55});
   const Grid& grid = std::get<Grid>(std::get<ExtinctionAlbedo>(result.coefficients).sigma_t);
   EXPECT_EQ(greatest_value(grid), 2);
-  const std::vector<ValueRange> ranges = value_ranges(grid, Planes{{{0, 0.25, 1}, {0, 1}, {0, 1}}});
+  const std::vector<GridRange> ranges = value_ranges(grid, Planes{{{0, 0.25, 1}, {0, 1}, {0, 1}}});
   EXPECT_EQ(ranges[0].low, 0.1f);
   EXPECT_EQ(ranges[1].high, 2.0f);
 }

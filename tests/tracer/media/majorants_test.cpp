@@ -48,14 +48,14 @@ Point3d point_in(const Bounds3d& box, RandomStream& random) {
 
 // ---- Ranges of values
 
-ValueRange range_in(const Grid& grid, const Bounds3d& box) {
+GridRange range_in(const Grid& grid, const Bounds3d& box) {
   Planes planes;
   for (int axis = 0; axis < 3; ++axis)
     planes[static_cast<std::size_t>(axis)] = {box.lower[axis], box.upper[axis]};
   return value_ranges(grid, planes).at(0);
 }
 
-TEST(ValueRange, HoldsEveryLookUp) {
+TEST(GridRange, HoldsEveryLookUp) {
   constexpr std::array lambda_nm{360.0, 470.0, 595.0, 700.0, 830.0};
   for (const GridEdge edge : {GridEdge::repeated, GridEdge::held, GridEdge::zero})
     for (const int channels : {1, 3}) {
@@ -69,7 +69,7 @@ TEST(ValueRange, HoldsEveryLookUp) {
         Bounds3d box;
         extend(box, point_in(around, random));
         extend(box, box.lower + Vector3d{random.next(), random.next(), random.next()} * (i % 2 ? 1.0 : 0.1));
-        const ValueRange range = range_in(grid, box);
+        const GridRange range = range_in(grid, box);
         for (int k = 0; k < 40; ++k) {
           const Point3d p = k == 0 ? box.lower : k == 1 ? box.upper : point_in(box, random);
           std::array<double, lambda_nm.size()> values;
@@ -86,7 +86,7 @@ TEST(ValueRange, HoldsEveryLookUp) {
     }
 }
 
-TEST(ValueRange, OfManyBoxesIsThatOfEach) {
+TEST(GridRange, OfManyBoxesIsThatOfEach) {
   for (const GridEdge edge : {GridEdge::repeated, GridEdge::held, GridEdge::zero})
     for (const int channels : {1, 3}) {
       Medium medium;
@@ -94,14 +94,14 @@ TEST(ValueRange, OfManyBoxesIsThatOfEach) {
       const Medium ready = baked(medium);
       const Grid& grid = std::get<Grid>(std::get<ExtinctionAlbedo>(ready.coefficients).sigma_t);
       const Planes planes{{{-2, -0.7, 0.1, 1.9, 2.5}, {-2.2, -1.6, -1.5, -0.9}, {3, 3.3, 4.5, 5, 8}}};
-      const std::vector<ValueRange> ranges = value_ranges(grid, planes);
+      const std::vector<GridRange> ranges = value_ranges(grid, planes);
       ASSERT_EQ(ranges.size(), 4u * 3u * 4u);
       std::size_t box = 0;
       for (std::size_t z = 0; z < 4; ++z)
         for (std::size_t y = 0; y < 3; ++y)
           for (std::size_t x = 0; x < 4; ++x, ++box) {
-            const ValueRange one = range_in(grid, {{planes[0][x], planes[1][y], planes[2][z]},
-                                                   {planes[0][x + 1], planes[1][y + 1], planes[2][z + 1]}});
+            const GridRange one = range_in(grid, {{planes[0][x], planes[1][y], planes[2][z]},
+                                                  {planes[0][x + 1], planes[1][y + 1], planes[2][z + 1]}});
             EXPECT_EQ(ranges[box].low, one.low) << box;
             EXPECT_EQ(ranges[box].high, one.high) << box;
           }
@@ -109,13 +109,13 @@ TEST(ValueRange, OfManyBoxesIsThatOfEach) {
 }
 
 // Where a grid is the same everywhere, nothing is left to chance: its range has no width.
-TEST(ValueRange, OfOneGreyIsNarrow) {
+TEST(GridRange, OfOneGreyIsNarrow) {
   Grid grid = random_grid({4, 4, 4}, 3, GridEdge::held, 1);
   std::ranges::fill(grid.values, 0.7f);
   Medium medium;
   medium.coefficients = ExtinctionAlbedo{grid, ConstantSpectrum{0}};
   const Medium ready = baked(medium);
-  const ValueRange range =
+  const GridRange range =
       range_in(std::get<Grid>(std::get<ExtinctionAlbedo>(ready.coefficients).sigma_t), grid.bounds);
   EXPECT_NEAR(range.low, 0.7, 2e-3);
   EXPECT_NEAR(range.high, 0.7, 2e-3);
